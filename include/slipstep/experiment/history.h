@@ -1,0 +1,76 @@
+#ifndef slipstep_experiment_history_h
+#define slipstep_experiment_history_h
+
+#include <slipstep/utilities/exceptions.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Mean over the contact (weighted by normal load) and extremes.
+  struct Spread
+  {
+    double mean    = 0.;
+    double minimum = 0.;
+    double maximum = 0.;
+  };
+
+  /// One row of history.csv: the state at the end of a step. A run on one
+  /// contact point and a run of the block fill the same columns.
+  struct HistoryRow
+  {
+    double time           = 0.; ///< [s]
+    double displacement   = 0.; ///< of the drive, first tangential axis [mm]
+    double pressure       = 0.; ///< normal load / nominal contact area [MPa]
+    double friction       = 0.; ///< tangential / normal load; > 0 resists
+    double displacement_y = 0.; ///< second tangential axis [mm]
+    double friction_y     = 0.;
+    double normal_load    = 0.; ///< [N]
+    double tangential_load = 0.; ///< first tangential axis [N]
+    Spread loading_ratio;        ///< r
+    Spread normal_ratio;         ///< r_s
+    Spread coefficient;          ///< mu
+    double slip_fraction = 0.;   ///< share of the area in contact that slips
+    double dissipated_energy = 0.; ///< [N mm]
+    double stored_energy     = 0.; ///< block and contact stiffness [N mm]
+    double external_work     = 0.; ///< [N mm]
+    double step_size         = 0.; ///< [s]
+    unsigned int newton_iterations = 0;
+    unsigned int linear_iterations = 0;
+  };
+
+  /// Writes history.csv, complete after every row.
+  ///
+  /// Columns: time_s, displacement_mm, pressure_MPa, friction,
+  /// displacement_y_mm, friction_y, normal_load_N, tangential_load_N, r_mean,
+  /// r_min, r_max, r_s_mean, r_s_min, r_s_max, mu_mean, mu_min, mu_max,
+  /// slip_fraction, dissipated_energy_Nmm, stored_energy_Nmm,
+  /// external_work_Nmm, step_s, newton_iterations, linear_iterations.
+  /// The first lines are `# key: value` comments, so that the file can be read
+  /// back as a measured test.
+  class HistoryWriter
+  {
+  public:
+    HistoryWriter() = default;
+
+    /// @throws InputError if the file cannot be created
+    HistoryWriter(const std::filesystem::path &file, const std::string &name);
+
+    /// @throws RunError if the row cannot be written (disk full)
+    void
+    write(const HistoryRow &row);
+
+  private:
+    std::ofstream out;
+    std::filesystem::path file;
+  };
+
+  /// Read a history.csv back. @throws InputError naming file:line
+  std::vector<HistoryRow>
+  read_history(const std::filesystem::path &file);
+} // namespace SlipStep
+
+#endif

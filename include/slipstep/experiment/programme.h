@@ -1,0 +1,70 @@
+#ifndef slipstep_experiment_programme_h
+#define slipstep_experiment_programme_h
+
+#include <deal.II/base/tensor.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// What the programme imposes at one instant.
+  struct Loading
+  {
+    /// Nominal contact pressure [MPa], positive in compression.
+    double pressure = 0.;
+    /// Displacement of the drive in the contact plane [mm].
+    dealii::Tensor<1, 2> displacement;
+    /// Its rate [mm/s]; within a step, that of the segment being traversed.
+    dealii::Tensor<1, 2> velocity;
+  };
+
+  /// A part of the programme in which pressure and displacement are linear in
+  /// time.
+  struct Segment
+  {
+    double  start_time = 0.; ///< [s]
+    double  end_time   = 0.; ///< [s]
+    Loading start;           ///< velocity is that of the segment
+    Loading end;
+  };
+
+  /// The loading programme, written to be read aloud:
+  /// `press 5.8 MPa in 1 s; hold 10 s; slide 1 mm/min for 60 mm;
+  ///  slide -1 mm/min for 5 mm at 30 deg; slide for 10 mm; slide 2 mm/s for 3 s;
+  ///  follow measured/test_01.csv`
+  class Programme
+  {
+  public:
+    Programme() = default;
+
+    /// @param text the programme
+    /// @param default_speed speed [mm/s] of a `slide` that states none
+    /// @param directory what file names after `follow` are relative to
+    /// @throws InputError with a caret under the column where it went wrong
+    Programme(const std::string &          text,
+              const double                 default_speed,
+              const std::filesystem::path &directory);
+
+    /// Loading at a time within [0, end_time()]. At the border of two segments
+    /// the velocity is that of the earlier one.
+    Loading
+    at(const double time) const;
+
+    double
+    end_time() const;
+
+    const std::vector<Segment> &
+    segments() const;
+
+    /// Largest nominal pressure met [MPa].
+    double
+    largest_pressure() const;
+
+  private:
+    std::vector<Segment> segment_list;
+  };
+} // namespace SlipStep
+
+#endif

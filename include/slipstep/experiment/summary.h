@@ -1,0 +1,72 @@
+#ifndef slipstep_experiment_summary_h
+#define slipstep_experiment_summary_h
+
+#include <slipstep/experiment/history.h>
+#include <slipstep/experiment/programme.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// What one `slide` of the programme showed.
+  struct SlideSummary
+  {
+    double speed             = 0.; ///< [mm/s], magnitude
+    double angle             = 0.; ///< direction of motion [rad]
+    double length            = 0.; ///< [mm]
+    double peak              = 0.; ///< largest friction in this direction
+    double peak_displacement = 0.; ///< path since the start of the slide [mm]
+    double kinetic           = 0.; ///< friction at the end of the slide
+    double dynamic_ratio     = 0.; ///< mean r at the end of the slide
+    double coefficient       = 0.; ///< mean mu at the end of the slide
+  };
+
+  /// The content of summary.json.
+  struct Summary
+  {
+    std::string              case_name;
+    std::string              label;   ///< of the variant, or ""
+    std::string              command; ///< "run" or "point"
+    std::vector<std::string> effects;
+    std::string              status = "running"; ///< or "finished", "failed"
+    std::string              reason;             ///< why it failed
+    unsigned int             dimension = 0;      ///< 0 for a contact point
+    unsigned long long       cells     = 0;
+    unsigned long long       dofs      = 0;
+    unsigned int             ranks     = 1;
+    unsigned int             steps     = 0;
+    unsigned int             rejected_steps = 0;
+    unsigned long long       newton_iterations = 0;
+    unsigned long long       linear_iterations = 0;
+    double                   wall_time         = 0.; ///< [s]
+    double                   cpu_time          = 0.; ///< [s], all ranks
+    double                   peak_memory       = 0.; ///< [MB], all ranks
+    double                   peak_friction     = 0.;
+    double                   peak_displacement = 0.; ///< [mm]
+    double                   final_friction    = 0.;
+    double                   work              = 0.; ///< [N mm]
+    double                   stored            = 0.; ///< [N mm]
+    double                   dissipated        = 0.; ///< [N mm]
+    double                   balance_error     = 0.; ///< relative
+    std::vector<SlideSummary> slides;
+    std::vector<std::string>  warnings;
+  };
+
+  /// Write atomically (a temporary file renamed into place).
+  void
+  write_summary(const std::filesystem::path &file, const Summary &summary);
+
+  /// @throws InputError if it is missing or not such a file
+  Summary
+  read_summary(const std::filesystem::path &file);
+
+  /// Fill peak, final, energy and slides from a history and its programme.
+  void
+  summarise_history(const std::vector<HistoryRow> &history,
+                    const Programme &              programme,
+                    Summary &                      summary);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,79 @@
+#ifndef slipstep_utilities_units_h
+#define slipstep_utilities_units_h
+
+#include <deal.II/base/patterns.h>
+
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace SlipStep
+{
+  /// Physical dimensions of the quantities in a case file. Inside the program
+  /// every number is in the consistent system mm, s, N, MPa, degC.
+  enum class Dimension
+  {
+    number,     ///< no unit
+    length,     ///< mm
+    time,       ///< s
+    speed,      ///< mm/s
+    stress,     ///< MPa
+    stiffness,  ///< MPa/mm
+    per_length, ///< 1/mm
+    per_time,   ///< 1/s
+    viscosity,  ///< s/mm
+    angle       ///< deg in text, rad inside
+  };
+
+  /// The unit that a bare number of this dimension is taken to be in, as shown
+  /// in documentation ("mm", "MPa/mm", ...; "deg" for angles).
+  std::string
+  base_unit(const Dimension dimension);
+
+  /// Read "5.8 MPa", "1 mm/min", "30 deg", "0.045" and return the value in base
+  /// units (rad for angles).
+  ///
+  /// @throws InputError if the text is not a number followed by a unit of the
+  /// given dimension; the message lists the known units. A missing unit is an
+  /// error if @p unit_required, otherwise the number is in base_unit().
+  double
+  parse_quantity(const std::string &text,
+                 const Dimension    dimension,
+                 const bool         unit_required = false);
+
+  /// A deal.II pattern for a physical quantity with bounds (in base units,
+  /// degrees for angles), so that units can be written in a case file.
+  class Quantity : public dealii::Patterns::PatternBase
+  {
+  public:
+    explicit Quantity(
+      const Dimension dimension,
+      const double    minimum = -std::numeric_limits<double>::infinity(),
+      const double    maximum = std::numeric_limits<double>::infinity(),
+      const bool      minimum_is_excluded = false,
+      const bool      unit_required       = false);
+
+    virtual bool
+    match(const std::string &text) const override;
+
+    /// What is allowed, in words: "a speed with its unit (mm/s, mm/min, ...)
+    /// greater than 0".
+    virtual std::string
+    description(const OutputStyle style = Machine) const override;
+
+    virtual std::unique_ptr<dealii::Patterns::PatternBase>
+    clone() const override;
+
+    /// The value in base units; the text has been matched.
+    double
+    value(const std::string &text) const;
+
+    const Dimension dimension;
+    const double    minimum;
+    const double    maximum;
+    const bool      minimum_is_excluded;
+    const bool      unit_required;
+  };
+} // namespace SlipStep
+
+#endif
