@@ -27,8 +27,7 @@ namespace SlipStep
 
   /// The unit that a bare number of this dimension is taken to be in, as shown
   /// in documentation ("mm", "MPa/mm", ...; "deg" for angles).
-  std::string
-  base_unit(const Dimension dimension);
+  std::string base_unit(const Dimension dimension);
 
   /// Read "5.8 MPa", "1 mm/min", "30 deg", "0.045" and return the value in base
   /// units (rad for angles).
@@ -36,10 +35,9 @@ namespace SlipStep
   /// @throws InputError if the text is not a number followed by a unit of the
   /// given dimension; the message lists the known units. A missing unit is an
   /// error if @p unit_required, otherwise the number is in base_unit().
-  double
-  parse_quantity(const std::string &text,
-                 const Dimension    dimension,
-                 const bool         unit_required = false);
+  double parse_quantity(const std::string &text,
+                        const Dimension    dimension,
+                        const bool         unit_required = false);
 
   /// A deal.II pattern for a physical quantity with bounds (in base units,
   /// degrees for angles), so that units can be written in a case file.
@@ -53,8 +51,10 @@ namespace SlipStep
       const bool      minimum_is_excluded = false,
       const bool      unit_required       = false);
 
-    virtual bool
-    match(const std::string &text) const override;
+    virtual bool match(const std::string &text) const override;
+
+    /// Why the text does not match ("the unit is missing ..."), or "".
+    std::string why_not(const std::string &text) const;
 
     /// What is allowed, in words: "a speed with its unit (mm/s, mm/min, ...)
     /// greater than 0".
@@ -65,8 +65,7 @@ namespace SlipStep
     clone() const override;
 
     /// The value in base units; the text has been matched.
-    double
-    value(const std::string &text) const;
+    double value(const std::string &text) const;
 
     const Dimension dimension;
     const double    minimum;

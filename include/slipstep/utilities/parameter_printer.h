@@ -1,0 +1,37 @@
+#ifndef slipstep_utilities_parameter_printer_h
+#define slipstep_utilities_parameter_printer_h
+
+#include <slipstep/utilities/parameters.h>
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// The tree of sections that a list of paths spans; sections in the order in
+  /// which they were first met.
+  struct ParameterSection
+  {
+    std::string                            name; ///< "" for the whole
+    std::string                            path;
+    std::vector<const Parameters::Entry *> entries;
+    std::vector<ParameterSection>          subsections;
+  };
+
+  ParameterSection
+  parameter_tree(const std::vector<const Parameters::Entry *> &entries);
+
+  /// A .prm file which Parameters::read() reads back.
+  void print_prm(std::ostream               &out,
+                 const ParameterSection     &root,
+                 const std::vector<Variant> &variants);
+
+  /// Nested objects; a parameter is {value, default, documentation, allowed}.
+  void print_json(std::ostream &out, const ParameterSection &root);
+
+  /// A heading and a table (key, default, allowed, meaning) per section.
+  void print_markdown(std::ostream &out, const ParameterSection &root);
+} // namespace SlipStep
+
+#endif

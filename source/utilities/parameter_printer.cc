@@ -1,0 +1,178 @@
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/utilities/parameter_printer.h>
+#include <slipstep/utilities/pattern_words.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace SlipStep
+{
+  namespace
+  {
+    std::string key_of(const std::string &path)
+    {
+      return path.substr(path.rfind('/') + 1);
+    }
+
+
+
+    ParameterSection &subsection(ParameterSection  &parent,
+                                 const std::string &name)
+    {
+      for (ParameterSection &section : parent.subsections)
+        if (section.name == name)
+          return section;
+      parent.subsections.push_back(
+        {name, parent.path.empty() ? name : parent.path + "/" + name, {}, {}});
+      return parent.subsections.back();
+    }
+
+
+
+    void print_comment(std::ostream      &out,
+                       const std::string &indent,
+                       const std::string &text)
+    {
+      const unsigned int width =
+        78 -
+        static_cast<unsigned int>(std::min<std::size_t>(indent.size(), 40));
+      for (const std::string &line :
+           dealii::Utilities::break_text_into_lines(text, width))
+        out << indent << "# " << line << '\n';
+    }
+
+
+
+    void print_setting(std::ostream      &out,
+                       const std::string &indent,
+                       const std::string &key,
+                       const std::string &value)
+    {
+      out << indent << "set " << key << " =" << (value.empty() ? "" : " ")
+          << value << '\n';
+    }
+
+
+
+    void print_prm_section(std::ostream           &out,
+                           const ParameterSection &section,
+                           const std::string      &indent)
+    {
+      bool is_first = true;
+      for (const Parameters::Entry *entry : section.entries)
+        {
+          out << (is_first ? "" : "\n");
+          is_first = false;
+          print_comment(out,
+                        indent,
+                        entry->documentation + " [" +
+                          allowed_in_words(*entry->pattern) + "]");
+          print_setting(out, indent, key_of(entry->path), entry->value);
+        }
+      for (const ParameterSection &child : section.subsections)
+        {
+          out << (is_first ? "" : "\n");
+          is_first = false;
+          out << indent << "subsection " << child.name << '\n';
+          print_prm_section(out, child, indent + "  ");
+          out << indent << "end\n";
+        }
+    }
+
+
+
+    nlohmann::ordered_json json_section(const ParameterSection &section)
+    {
+      nlohmann::ordered_json object = nlohmann::ordered_json::object();
+      for (const Parameters::Entry *entry : section.entries)
+        object[key_of(entry->path)] = {{"value", entry->value},
+                                       {"default", entry->default_value},
+                                       {"documentation", entry->documentation},
+                                       {"allowed",
+                                        allowed_in_words(*entry->pattern)}};
+      for (const ParameterSection &child : section.subsections)
+        object[child.name] = json_section(child);
+      return object;
+    }
+
+
+
+    // A cell of a table: no bars, no line breaks.
+    std::string cell(std::string text)
+    {
+      text = dealii::Utilities::replace_in_string(text, "|", "\\|");
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      return text;
+    }
+  } // namespace
+
+
+
+  ParameterSection
+  parameter_tree(const std::vector<const Parameters::Entry *> &entries)
+  {
+    ParameterSection root;
+    for (const Parameters::Entry *entry : entries)
+      {
+        ParameterSection *section = &root;
+        const auto        names =
+          dealii::Utilities::split_string_list(entry->path, '/');
+        for (std::size_t i = 0; i + 1 < names.size(); ++i)
+          section = &subsection(*section, names[i]);
+        section->entries.push_back(entry);
+      }
+    return root;
+  }
+
+
+
+  void print_prm(std::ostream               &out,
+                 const ParameterSection     &root,
+                 const std::vector<Variant> &variants)
+  {
+    print_prm_section(out, root, "");
+    if (variants.empty())
+      return;
+    out << "\nsubsection Variants\n";
+    for (const Variant &variant : variants)
+      {
+        out << "  subsection " << variant.label << '\n';
+        for (const Variant::Override &setting : variant.overrides)
+          print_setting(out, "    ", setting.path, setting.value);
+        out << "  end\n";
+      }
+    out << "end\n";
+  }
+
+
+
+  void print_json(std::ostream &out, const ParameterSection &root)
+  {
+    out << json_section(root).dump(2) << '\n';
+  }
+
+
+
+  void print_markdown(std::ostream &out, const ParameterSection &root)
+  {
+    if (!root.entries.empty())
+      {
+        if (!root.path.empty())
+          out << "## " << root.path << "\n\n";
+        out << "| Key | Default | Allowed | Meaning |\n"
+            << "| --- | --- | --- | --- |\n";
+        for (const Parameters::Entry *entry : root.entries)
+          out << "| " << cell(key_of(entry->path)) << " | "
+              << (entry->default_value.empty() ?
+                    "" :
+                    "`" + cell(entry->default_value) + "`")
+              << " | " << cell(allowed_in_words(*entry->pattern)) << " | "
+              << cell(entry->documentation) << " |\n";
+        out << '\n';
+      }
+    for (const ParameterSection &child : root.subsections)
+      print_markdown(out, child);
+  }
+} // namespace SlipStep

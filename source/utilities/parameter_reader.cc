@@ -1,0 +1,503 @@
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/parameter_reader.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    using dealii::Utilities::trim;
+
+    std::string place(const std::filesystem::path &file,
+                      const unsigned int           line)
+    {
+      return file.string() + ":" + std::to_string(line);
+    }
+
+
+
+    // Split off the first word; the rest is trimmed.
+    std::string first_word(std::string &text)
+    {
+      const std::size_t length =
+        std::min(text.find_first_of(" \t"), text.size());
+      const std::string word = text.substr(0, length);
+      text                   = trim(text.substr(length));
+      return word;
+    }
+
+
+
+    PrmStatement parse_statement(const std::string &text,
+                                 const std::string &where,
+                                 const unsigned int line)
+    {
+      PrmStatement statement;
+      statement.line   = line;
+      std::string rest = text;
+      std::string word = first_word(rest);
+      if (word == "subsection" && !rest.empty())
+        {
+          statement.kind = PrmStatement::Kind::subsection;
+          statement.name = rest;
+        }
+      else if (word == "end" && rest.empty())
+        statement.kind = PrmStatement::Kind::end;
+      else if (word == "include" && !rest.empty())
+        {
+          statement.kind  = PrmStatement::Kind::include;
+          statement.value = rest;
+        }
+      else if (word == "set" && rest.find('=') != std::string::npos &&
+               rest.front() != '=')
+        {
+          const std::size_t sign = rest.find('=');
+          statement.kind         = PrmStatement::Kind::set;
+          statement.name         = trim(rest.substr(0, sign));
+          statement.value        = trim(rest.substr(sign + 1));
+        }
+      else
+        {
+          const std::vector<std::string> words = {"set",
+                                                  "subsection",
+                                                  "end",
+                                                  "include"};
+          const bool                     is_known =
+            std::find(words.begin(), words.end(), word) != words.end();
+          throw InputError(where + ": \"" + text + "\" is not understood" +
+                           (is_known ? "" : did_you_mean(word, words)) +
+                           "\n  a line is one of: set KEY = VALUE, subsection "
+                           "NAME, end, include FILE, # comment");
+        }
+      return statement;
+    }
+  } // namespace
+
+
+
+  std::vector<PrmStatement> scan_prm_file(const std::filesystem::path &file)
+  {
+    if (std::filesystem::is_directory(file))
+      throw InputError(file.string() + " is a folder, not a .prm file");
+    if (!std::filesystem::exists(file))
+      throw InputError(file.string() + ": no such file");
+    if (file.extension() != ".prm")
+      throw InputError(file.string() +
+                       ": not a .prm file (its name must end in .prm)");
+    std::ifstream in(file);
+    if (!in)
+      throw InputError(file.string() + ": cannot be opened for reading");
+
+    std::vector<PrmStatement> statements;
+    std::string               text, line;
+    unsigned int              n_lines = 0, first_line = 0;
+    bool                      is_continued = false;
+    while (std::getline(in, line))
+      {
+        ++n_lines;
+        if (line.find('\0') != std::string::npos)
+          throw InputError(place(file, n_lines) +
+                           ": not a .prm file (it is not text)");
+        if (n_lines == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
+          line.erase(0, 3);
+        const std::size_t comment = line.find('#');
+        const bool        is_only_comment =
+          comment != std::string::npos && trim(line.substr(0, comment)).empty();
+        line = trim(line.substr(0, comment));
+        // A comment between continued lines does not end them.
+        if (is_continued && is_only_comment)
+          continue;
+        if (!is_continued)
+          {
+            text.clear();
+            first_line = n_lines;
+          }
+        is_continued = !line.empty() && line.back() == '\\';
+        if (is_continued)
+          line = trim(line.substr(0, line.size() - 1));
+        text += (text.empty() || line.empty() ? "" : " ") + line;
+        if (!is_continued && !text.empty())
+          statements.push_back(
+            parse_statement(text, place(file, first_line), first_line));
+      }
+    if (is_continued)
+      throw InputError(place(file, n_lines) +
+                       ": the file ends after a \\ that continues the line");
+    return statements;
+  }
+
+
+
+  namespace
+  {
+    // The sections that define a sweep, as far as one file gives them.
+    struct SweepText
+    {
+      bool                 has_variants = false;
+      bool                 has_sweep    = false;
+      std::string          key, key_origin;
+      std::string          values, values_origin;
+      std::vector<Variant> variants;
+    };
+
+
+
+    // A legend as a folder name: nothing that a shell or a URL would need
+    // quoted.
+    std::string folder_name(const std::string &label)
+    {
+      std::string folder;
+      for (const char c : label)
+        {
+          const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) ||
+                                c == '.' || c == '-' || c == '+' || c == '_';
+          const char safe = is_plain ? c : (c == '/' ? '-' : '_');
+          if (safe != '_' || folder.empty() || folder.back() != '_')
+            folder += safe;
+        }
+      // Hidden folders, "..", and the report's own folder.
+      if (folder.empty() || folder.front() == '.' || folder.front() == '-')
+        folder.insert(0, "_");
+      if (folder == "report")
+        folder += "_";
+      return folder;
+    }
+
+
+
+    class CaseReader
+    {
+    public:
+      explicit CaseReader(const Parameters &known)
+        : known(known)
+      {}
+
+      /// Read a file, after everything that it includes.
+      void read_file(const std::filesystem::path &file);
+
+      CaseText text;
+
+    private:
+      struct OpenSection
+      {
+        std::string  name;
+        unsigned int line;
+      };
+
+      /// The state of reading one file.
+      struct FileState
+      {
+        std::filesystem::path               file;
+        std::vector<OpenSection>            sections;
+        std::vector<Assignment>             assignments;
+        std::map<std::string, unsigned int> line_of_key;
+        SweepText                           sweep;
+      };
+
+      void open_section(FileState &state, const PrmStatement &statement) const;
+
+      void close_section(FileState &state, const PrmStatement &statement) const;
+
+      void set_key(FileState &state, const PrmStatement &statement) const;
+
+      void set_sweep_key(FileState &state, const PrmStatement &statement) const;
+
+      void add_override(FileState &state, const PrmStatement &statement) const;
+
+      void include_file(FileState &state, const PrmStatement &statement);
+
+      void finish_sweep(FileState &state);
+
+      std::vector<Variant> variants_of_sweep(const SweepText &sweep,
+                                             const FileState &state) const;
+
+      static void add_variant(std::vector<Variant> &variants,
+                              const std::string    &label,
+                              const std::string    &origin);
+
+      static std::string path_of(const FileState   &state,
+                                 const std::string &name,
+                                 const std::size_t  n_skipped_sections = 0);
+
+      const Parameters                  &known;
+      std::vector<std::filesystem::path> open_files;
+    };
+
+
+
+    std::string CaseReader::path_of(const FileState   &state,
+                                    const std::string &name,
+                                    const std::size_t  n_skipped_sections)
+    {
+      std::string path;
+      for (std::size_t i = n_skipped_sections; i < state.sections.size(); ++i)
+        path += state.sections[i].name + "/";
+      return path + name;
+    }
+
+
+
+    void CaseReader::read_file(const std::filesystem::path &file)
+    {
+      FileState state;
+      state.file            = file;
+      const auto statements = scan_prm_file(file);
+      const auto canonical  = std::filesystem::canonical(file);
+      open_files.push_back(canonical);
+
+      for (const PrmStatement &statement : statements)
+        switch (statement.kind)
+          {
+            case PrmStatement::Kind::subsection:
+              open_section(state, statement);
+              break;
+            case PrmStatement::Kind::end:
+              close_section(state, statement);
+              break;
+            case PrmStatement::Kind::include:
+              include_file(state, statement);
+              break;
+            case PrmStatement::Kind::set:
+              if (!state.sections.empty() &&
+                  state.sections.front().name == "Sweep")
+                set_sweep_key(state, statement);
+              else if (!state.sections.empty() &&
+                       state.sections.front().name == "Variants")
+                add_override(state, statement);
+              else
+                set_key(state, statement);
+              break;
+          }
+      if (!state.sections.empty())
+        throw InputError(place(file, state.sections.back().line) +
+                         ": subsection " + state.sections.back().name +
+                         " is never closed by an \"end\"");
+
+      finish_sweep(state);
+      ++text.n_layers;
+      for (Assignment &assignment : state.assignments)
+        {
+          assignment.layer = text.n_layers;
+          text.assignments.push_back(assignment);
+        }
+      open_files.pop_back();
+    }
+
+
+
+    void CaseReader::open_section(FileState          &state,
+                                  const PrmStatement &statement) const
+    {
+      const std::string where  = place(state.file, statement.line);
+      SweepText        &sweep  = state.sweep;
+      const bool        is_top = state.sections.empty();
+      const bool        is_in_variants =
+        !is_top && state.sections.front().name == "Variants";
+
+      if (is_top && statement.name == "Variants")
+        sweep.has_variants = true;
+      else if (is_top && statement.name == "Sweep")
+        sweep.has_sweep = true;
+      else if (is_in_variants && state.sections.size() == 1)
+        add_variant(sweep.variants, statement.name, where);
+      else if (!is_top && state.sections.front().name == "Sweep")
+        throw InputError(where + ": Sweep has no subsections, only "
+                                 "\"set Key = ...\" and \"set Values = ...\"");
+      else
+        known.check_section(
+          path_of(state, statement.name, is_in_variants ? 2 : 0), where);
+      if (sweep.has_variants && sweep.has_sweep)
+        throw InputError(where + ": both Variants and Sweep are given; a case "
+                                 "has one of them");
+      state.sections.push_back({statement.name, statement.line});
+    }
+
+
+
+    void CaseReader::close_section(FileState          &state,
+                                   const PrmStatement &statement) const
+    {
+      if (state.sections.empty())
+        throw InputError(place(state.file, statement.line) +
+                         ": \"end\" without a subsection that it could close");
+      state.sections.pop_back();
+    }
+
+
+
+    void CaseReader::set_key(FileState          &state,
+                             const PrmStatement &statement) const
+    {
+      const std::string where = place(state.file, statement.line);
+      const std::string path  = path_of(state, statement.name);
+      known.check(path, statement.value, where);
+      const auto inserted = state.line_of_key.emplace(path, statement.line);
+      if (!inserted.second)
+        throw InputError(where + ": " + path +
+                         " is given twice, first in line " +
+                         std::to_string(inserted.first->second));
+      state.assignments.push_back({path, statement.value, where, 0});
+    }
+
+
+
+    void CaseReader::set_sweep_key(FileState          &state,
+                                   const PrmStatement &statement) const
+    {
+      const std::string where  = place(state.file, statement.line);
+      SweepText        &sweep  = state.sweep;
+      const bool        is_key = statement.name == "Key";
+      std::string      &value  = is_key ? sweep.key : sweep.values;
+      std::string &origin = is_key ? sweep.key_origin : sweep.values_origin;
+      if (!is_key && statement.name != "Values")
+        throw InputError(where + ": unknown key Sweep/" + statement.name +
+                         did_you_mean(statement.name, {"Key", "Values"}) +
+                         " Known are Key and Values");
+      if (!origin.empty())
+        throw InputError(where + ": Sweep/" + statement.name +
+                         " is given twice, first at " + origin);
+      value  = statement.value;
+      origin = where;
+      if (is_key)
+        known.check_path(value, where);
+    }
+
+
+
+    void CaseReader::add_override(FileState          &state,
+                                  const PrmStatement &statement) const
+    {
+      const std::string where = place(state.file, statement.line);
+      if (state.sections.size() < 2)
+        throw InputError(where + ": in Variants, \"set\" stands in a "
+                                 "subsection named after the variant");
+      const std::string path = path_of(state, statement.name, 2);
+      known.check(path, statement.value, where);
+      Variant &variant = state.sweep.variants.back();
+      for (const Variant::Override &other : variant.overrides)
+        if (other.path == path)
+          throw InputError(where + ": " + path +
+                           " is given twice in this variant, first at " +
+                           other.origin);
+      variant.overrides.push_back({path, statement.value, where});
+    }
+
+
+
+    void CaseReader::include_file(FileState          &state,
+                                  const PrmStatement &statement)
+    {
+      const std::string where = place(state.file, statement.line);
+      if (!state.sections.empty())
+        throw InputError(where +
+                         ": \"include\" must stand outside of "
+                         "subsections, but " +
+                         state.sections.back().name + " is open");
+      const std::filesystem::path file =
+        (state.file.parent_path() / statement.value).lexically_normal();
+      std::error_code error;
+      const auto canonical = std::filesystem::weakly_canonical(file, error);
+      if (std::find(open_files.begin(), open_files.end(), canonical) !=
+          open_files.end())
+        throw InputError(where + ": " + file.string() +
+                         " includes itself (a circle of includes)");
+      if (!std::filesystem::exists(file))
+        throw InputError(where + ": include " + statement.value +
+                         ": no such file (looked for " + file.string() + ")");
+
+      const std::size_t n_before = text.assignments.size();
+      read_file(file);
+      for (std::size_t i = n_before; i < text.assignments.size(); ++i)
+        {
+          const Assignment &included = text.assignments[i];
+          const auto        own      = state.line_of_key.find(included.path);
+          if (own != state.line_of_key.end())
+            throw InputError(where + ": " + included.path +
+                             " is set before this include (line " +
+                             std::to_string(own->second) + ") and in it (" +
+                             included.origin + "); move the include up");
+        }
+    }
+
+
+
+    void CaseReader::add_variant(std::vector<Variant> &variants,
+                                 const std::string    &label,
+                                 const std::string    &origin)
+    {
+      const std::string folder = folder_name(label);
+      for (const Variant &other : variants)
+        {
+          if (other.label == label)
+            throw InputError(origin + ": the variant \"" + label +
+                             "\" is given twice");
+          if (other.folder == folder)
+            throw InputError(origin + ": the variants \"" + other.label +
+                             "\" and \"" + label +
+                             "\" would share the folder " + folder);
+        }
+      variants.push_back({label, folder, {}});
+    }
+
+
+
+    std::vector<Variant>
+    CaseReader::variants_of_sweep(const SweepText &sweep,
+                                  const FileState &state) const
+    {
+      if (sweep.key_origin.empty() || sweep.values_origin.empty())
+        throw InputError(
+          (sweep.key_origin.empty() && sweep.values_origin.empty() ?
+             state.file.string() :
+             sweep.key_origin + sweep.values_origin) +
+          ": Sweep needs both \"set Key = ...\" and \"set Values = ...\"");
+      const char separator =
+        sweep.values.find(';') == std::string::npos ? ',' : ';';
+      const std::string name = sweep.key.substr(sweep.key.rfind('/') + 1);
+
+      std::vector<Variant> variants;
+      for (const std::string &value :
+           dealii::Utilities::split_string_list(sweep.values, separator))
+        {
+          known.check(sweep.key, value, sweep.values_origin);
+          // A bare number says nothing in a legend.
+          const bool is_bare =
+            value.find_first_not_of("0123456789.+-eE") == std::string::npos;
+          add_variant(variants,
+                      is_bare ? name + " " + value : value,
+                      sweep.values_origin);
+          variants.back().overrides.push_back(
+            {sweep.key, value, sweep.values_origin});
+        }
+      if (variants.empty())
+        throw InputError(sweep.values_origin + ": Sweep/Values is empty");
+      return variants;
+    }
+
+
+
+    void CaseReader::finish_sweep(FileState &state)
+    {
+      if (state.sweep.has_sweep)
+        text.variants = variants_of_sweep(state.sweep, state);
+      else if (state.sweep.has_variants)
+        text.variants = state.sweep.variants;
+    }
+  } // namespace
+
+
+
+  CaseText read_case_text(const std::filesystem::path &file,
+                          const Parameters            &known)
+  {
+    CaseReader reader(known);
+    reader.read_file(file);
+    return reader.text;
+  }
+} // namespace SlipStep

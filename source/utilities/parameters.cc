@@ -1,0 +1,342 @@
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/utilities/parameter_printer.h>
+#include <slipstep/utilities/parameter_reader.h>
+#include <slipstep/utilities/parameters.h>
+#include <slipstep/utilities/pattern_words.h>
+
+#include <algorithm>
+
+namespace SlipStep
+{
+  using dealii::Utilities::trim;
+
+  namespace
+  {
+    bool begins_with(const std::string &text, const std::string &prefix)
+    {
+      return text.compare(0, prefix.size(), prefix) == 0;
+    }
+
+
+
+    // What stands before the path in a message: "case.prm:12: ", "--set ".
+    std::string introduction(const std::string &origin)
+    {
+      if (origin.empty())
+        return "";
+      return origin + (begins_with(origin, "--") ? " " : ": ");
+    }
+
+
+
+    // A deep path is compared as a whole and, within its section or with the
+    // same last name elsewhere, by its parts.
+    std::string nearest_path(const std::string              &path,
+                             const std::vector<std::string> &candidates)
+    {
+      const std::size_t slash = path.rfind('/');
+      const std::string prefix =
+        path.substr(0, slash == std::string::npos ? 0 : slash + 1);
+      std::vector<std::string> siblings;
+      for (const std::string &candidate : candidates)
+        if (begins_with(candidate, prefix) &&
+            candidate.find('/', prefix.size()) == std::string::npos)
+          siblings.push_back(candidate.substr(prefix.size()));
+      const std::string name    = path.substr(prefix.size());
+      const std::string sibling = nearest_name(name, siblings);
+      if (!sibling.empty())
+        return prefix + sibling;
+      for (const std::string &candidate : candidates)
+        if (candidate.size() > name.size() &&
+            candidate.substr(candidate.rfind('/') + 1) == name)
+          return candidate;
+      return nearest_name(path, candidates);
+    }
+  } // namespace
+
+
+
+  void Parameters::declare(const std::string                   &path,
+                           const std::string                   &default_value,
+                           const dealii::Patterns::PatternBase &pattern,
+                           const std::string                   &documentation)
+  {
+    AssertThrow(index_of_path.count(path) == 0,
+                dealii::ExcMessage("Parameter declared twice: " + path));
+    AssertThrow(pattern.match(default_value),
+                dealii::ExcMessage("The default of " + path +
+                                   " is not allowed: " +
+                                   why_not_allowed(pattern, default_value)));
+    Assert(path.find_first_of("#=\n") == std::string::npos,
+           dealii::ExcMessage("Not a name for a parameter: " + path));
+    index_of_path[path] = entries.size();
+    entries.push_back(
+      {path,
+       trim(default_value),
+       std::shared_ptr<const dealii::Patterns::PatternBase>(pattern.clone()),
+       documentation,
+       trim(default_value),
+       "",
+       0});
+  }
+
+
+
+  void Parameters::read(const std::filesystem::path &file)
+  {
+    const CaseText text = read_case_text(file, *this);
+    for (const Assignment &assignment : text.assignments)
+      {
+        Entry &entry = entries[index_of_path.at(assignment.path)];
+        entry.value  = assignment.value;
+        entry.origin = assignment.origin;
+        entry.layer  = n_layers + assignment.layer;
+      }
+    n_layers += text.n_layers;
+    variant_list = text.variants;
+    file_read    = file;
+  }
+
+
+
+  void Parameters::check_path(const std::string &path,
+                              const std::string &origin) const
+  {
+    if (index_of_path.count(path) != 0)
+      return;
+    if (!paths(path + "/").empty())
+      throw InputError(introduction(origin) + path +
+                       " is a section, not a key");
+    const std::string nearest = nearest_path(path, paths());
+    throw InputError(introduction(origin) + "unknown key " + path +
+                     (nearest.empty() ?
+                        "; \"slipstep parameters\" lists the known ones" :
+                        "; did you mean " + nearest + "?"));
+  }
+
+
+
+  void Parameters::check_section(const std::string &path,
+                                 const std::string &origin) const
+  {
+    if (!paths(path + "/").empty())
+      return;
+    std::vector<std::string> sections = {"Variants", "Sweep"};
+    for (const Entry &entry : entries)
+      for (std::size_t slash = entry.path.find('/'); slash != std::string::npos;
+           slash             = entry.path.find('/', slash + 1))
+        {
+                      const std::string section = entry.path.substr(0, slash);
+                      if (std::find(sections.begin(), sections.end(), section) ==
+              sections.end())
+            sections.push_back(section);
+        }
+    const std::string nearest = nearest_path(path, sections);
+    throw InputError(introduction(origin) + "unknown section " + path +
+                     (nearest.empty() ?
+                        "; \"slipstep parameters\" lists the known ones" :
+                        "; did you mean " + nearest + "?"));
+  }
+
+
+
+  void Parameters::check(const std::string &path,
+                         const std::string &value,
+                         const std::string &origin) const
+  {
+    check_path(path, origin);
+    const std::string why = value.find_first_of("#\n") == std::string::npos ?
+                              why_not_allowed(*entry(path).pattern, value) :
+                              "a value cannot contain # or a line break";
+    if (!why.empty())
+      throw InputError(introduction(origin) + path + " = " + value + ": " +
+                       why);
+  }
+
+
+
+  void Parameters::set(const std::string &path,
+                       const std::string &value,
+                       const std::string &origin)
+  {
+    const std::string trimmed = trim(value);
+    check(path, trimmed, origin);
+    Entry &entry = entries[index_of_path.at(path)];
+    entry.value  = trimmed;
+    entry.origin = origin;
+    entry.layer  = ++n_layers;
+
+    bool is_swept = false;
+    for (Variant &variant : variant_list)
+      {
+        auto      &overrides = variant.overrides;
+        const auto end       = std::remove_if(overrides.begin(),
+                                        overrides.end(),
+                                        [&](const Variant::Override &setting) {
+                                          return setting.path == path;
+                                        });
+        is_swept             = is_swept || end != overrides.end();
+        overrides.erase(end, overrides.end());
+      }
+    if (is_swept && std::all_of(variant_list.begin(),
+                                variant_list.end(),
+                                [](const Variant &variant) {
+                                  return variant.overrides.empty();
+                                }))
+      variant_list.clear();
+  }
+
+
+
+  const Parameters::Entry &Parameters::entry(const std::string &path) const
+  {
+    const auto found = index_of_path.find(path);
+    AssertThrow(found != index_of_path.end(),
+                dealii::ExcMessage("Undeclared parameter: " + path));
+    return entries[found->second];
+  }
+
+
+
+  std::string Parameters::text(const std::string &path) const
+  {
+    return entry(path).value;
+  }
+
+
+
+  double Parameters::number(const std::string &path) const
+  {
+    const Entry &found = entry(path);
+    if (const auto quantity =
+          dynamic_cast<const Quantity *>(found.pattern.get()))
+      return quantity->value(found.value);
+    return dealii::Utilities::string_to_double(found.value);
+  }
+
+
+
+  int Parameters::integer(const std::string &path) const
+  {
+    return dealii::Utilities::string_to_int(entry(path).value);
+  }
+
+
+
+  bool Parameters::boolean(const std::string &path) const
+  {
+    Assert(dynamic_cast<const dealii::Patterns::Bool *>(
+             entry(path).pattern.get()),
+           dealii::ExcMessage("Not declared as true or false: " + path));
+    const std::string value = entry(path).value;
+    return value == "true" || value == "yes";
+  }
+
+
+
+  std::vector<std::string> Parameters::list(const std::string &path) const
+  {
+    return dealii::Utilities::split_string_list(entry(path).value, ',');
+  }
+
+
+
+  bool Parameters::is_set(const std::string &path) const
+  {
+    return layer(path) > 0;
+  }
+
+
+
+  unsigned int Parameters::layer(const std::string &path) const
+  {
+    return entry(path).layer;
+  }
+
+
+
+  std::vector<std::string> Parameters::paths(const std::string &prefix) const
+  {
+    std::vector<std::string> found;
+    for (const Entry &entry : entries)
+      if (begins_with(entry.path, prefix))
+        found.push_back(entry.path);
+    return found;
+  }
+
+
+
+  void Parameters::reject(const std::string &path, const std::string &why) const
+  {
+    const Entry      &found = entry(path);
+    const std::string place = found.layer > 0   ? introduction(found.origin) :
+                              file_read.empty() ? "" :
+                                                  file_read.string() + ": ";
+    throw InputError(place + path + " =" + (found.value.empty() ? "" : " ") +
+                     found.value + (found.layer > 0 ? "" : " (the default)") +
+                     ": " + why);
+  }
+
+
+
+  std::filesystem::path Parameters::resolve(const std::string &file_name) const
+  {
+    return (file_read.parent_path() / file_name).lexically_normal();
+  }
+
+
+
+  const std::filesystem::path &Parameters::case_file() const
+  {
+    return file_read;
+  }
+
+
+
+  const std::vector<Variant> &Parameters::variants() const
+  {
+    return variant_list;
+  }
+
+
+
+  Parameters Parameters::with_variant(const Variant &variant) const
+  {
+    Parameters result = *this;
+    result.variant_list.clear();
+    for (const Variant::Override &setting : variant.overrides)
+      result.set(setting.path, setting.value, setting.origin);
+    return result;
+  }
+
+
+
+  void Parameters::print(std::ostream                &out,
+                         const Format                 format,
+                         const std::set<std::string> &omitted_sections) const
+  {
+    std::vector<const Entry *> shown;
+    for (const Entry &entry : entries)
+      if (std::none_of(omitted_sections.begin(),
+                       omitted_sections.end(),
+                       [&](const std::string &section) {
+                         return begins_with(entry.path, section + "/");
+                       }))
+        shown.push_back(&entry);
+    const ParameterSection root = parameter_tree(shown);
+    switch (format)
+      {
+        case Format::prm:
+          print_prm(out, root, variant_list);
+          break;
+        case Format::json:
+          print_json(out, root);
+          break;
+        case Format::markdown:
+          print_markdown(out, root);
+          break;
+      }
+  }
+} // namespace SlipStep

@@ -1,0 +1,168 @@
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/units.h>
+
+#include <algorithm>
+#include <limits>
+#include <regex>
+
+namespace SlipStep
+{
+  namespace
+  {
+    using dealii::Patterns::PatternBase;
+
+    std::string machine_words(const PatternBase &pattern)
+    {
+      return pattern.description(PatternBase::Machine);
+    }
+
+
+
+    // deal.II keeps the alternatives and bounds of its patterns private; its
+    // machine-readable descriptions are the documented way to them.
+    std::vector<std::string> alternatives(const PatternBase &pattern)
+    {
+      static const std::regex form(R"(\[(?:Multiple)?Selection (.*)\])");
+      const std::string       words = machine_words(pattern);
+      std::smatch             match;
+      if (!std::regex_match(words, match, form))
+        return {};
+      return dealii::Utilities::split_string_list(
+        dealii::Utilities::trim(match[1]), '|');
+    }
+
+
+
+    std::string joined(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (const std::string &name : names)
+        text += (text.empty() ? "" : ", ") + name;
+      return text;
+    }
+
+
+
+    // " from 1 to 3", " of at least 0", "": the range of an Integer or Double.
+    std::string range_in_words(const PatternBase &pattern)
+    {
+      static const std::regex form(
+        R"(\[(?:Integer range|Double) (\S+?)\.\.\.(\S+) \(inclusive\)\])");
+      const std::string words = machine_words(pattern);
+      std::smatch       match;
+      if (!std::regex_match(words, match, form))
+        return "";
+      const auto is_open = [](const std::string &bound) {
+        return bound.find("DOUBLE") != std::string::npos ||
+               bound == std::to_string(std::numeric_limits<int>::max()) ||
+               bound == std::to_string(std::numeric_limits<int>::min());
+      };
+      const std::string low  = match[1];
+      const std::string high = match[2];
+      if (is_open(low) && is_open(high))
+        return "";
+      if (is_open(high))
+        return " of at least " + low;
+      if (is_open(low))
+        return " of at most " + high;
+      return " from " + low + " to " + high;
+    }
+
+
+
+    std::vector<std::string> elements(const dealii::Patterns::List &list,
+                                      const std::string            &text)
+    {
+      return dealii::Utilities::split_string_list(text, list.get_separator());
+    }
+  } // namespace
+
+
+
+  std::string allowed_in_words(const PatternBase &pattern)
+  {
+    namespace P = dealii::Patterns;
+    if (const auto quantity = dynamic_cast<const Quantity *>(&pattern))
+      return quantity->description();
+    if (dynamic_cast<const P::Integer *>(&pattern))
+      return "a whole number" + range_in_words(pattern);
+    if (dynamic_cast<const P::Double *>(&pattern))
+      return "a number" + range_in_words(pattern);
+    if (dynamic_cast<const P::Bool *>(&pattern))
+      return "true or false";
+    if (dynamic_cast<const P::Selection *>(&pattern))
+      return "one of: " + joined(alternatives(pattern));
+    if (dynamic_cast<const P::MultipleSelection *>(&pattern))
+      return "any of: " + joined(alternatives(pattern));
+    if (dynamic_cast<const P::Anything *>(&pattern))
+      return "any text";
+    if (dynamic_cast<const P::FileName *>(&pattern))
+      return "the name of a file";
+    if (dynamic_cast<const P::DirectoryName *>(&pattern))
+      return "the name of a folder";
+    if (const auto list = dynamic_cast<const P::List *>(&pattern))
+      {
+        const std::string separator = list->get_separator();
+        // "[List of <...> of length 1...2 (inclusive)]"
+        static const std::regex form(
+          R"(.*of length (\d+)\.\.\.(\d+) \(inclusive\).*)");
+        const std::string words = machine_words(pattern);
+        std::smatch       match;
+        std::string       count;
+        if (std::regex_match(words, match, form))
+          {
+            const std::string most = match[2];
+            const bool is_open = most == std::to_string(P::List::max_int_value);
+            if (match[1] == most)
+              count = " of " + most;
+            else if (!is_open)
+              count = " of " + match[1].str() + " to " + most;
+            else if (match[1] != "0")
+              count = " of at least " + match[1].str();
+          }
+        return "a list" + count + " (separated by " +
+               (separator == "," ? "commas" :
+                separator == ";" ? "semicolons" :
+                                   "\"" + separator + "\"") +
+               "), each " + allowed_in_words(list->get_base_pattern());
+      }
+    return pattern.description(PatternBase::Text);
+  }
+
+
+
+  std::string why_not_allowed(const PatternBase &pattern,
+                              const std::string &text)
+  {
+    namespace P = dealii::Patterns;
+    if (pattern.match(text))
+      return "";
+
+    if (const auto list = dynamic_cast<const P::List *>(&pattern))
+      for (const std::string &element : elements(*list, text))
+        if (!list->get_base_pattern().match(element))
+          return "\"" + element +
+                 "\": " + why_not_allowed(list->get_base_pattern(), element);
+
+    const std::string allowed = "allowed is " + allowed_in_words(pattern);
+    if (const auto quantity = dynamic_cast<const Quantity *>(&pattern))
+      return quantity->why_not(text) + "; " + allowed;
+
+    const std::vector<std::string> words = alternatives(pattern);
+    if (words.empty())
+      return allowed;
+    std::string unknown = text;
+    if (dynamic_cast<const P::MultipleSelection *>(&pattern))
+      for (const std::string &word : dealii::Utilities::split_string_list(text))
+        if (std::find(words.begin(), words.end(), word) == words.end())
+          {
+            unknown = word;
+            break;
+          }
+    return "\"" + unknown + "\" is not known" + did_you_mean(unknown, words) +
+           " " + allowed;
+  }
+} // namespace SlipStep

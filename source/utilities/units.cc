@@ -1,0 +1,295 @@
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/units.h>
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // Value in base units = number * numerator / denominator. Two numbers, so
+    // that 60 mm/min is 1 mm/s to the last bit.
+    struct Unit
+    {
+      std::string name;
+      double      numerator;
+      double      denominator;
+    };
+
+    struct DimensionEntry
+    {
+      std::string       name; // with its article
+      std::vector<Unit> units;
+    };
+
+
+
+    // The first unit of each list is the base unit.
+    const DimensionEntry &entry(const Dimension dimension)
+    {
+      static const DimensionEntry number{"a number", {}};
+      static const DimensionEntry length{"a length",
+                                         {{"mm", 1, 1},
+                                          {"um", 1, 1e3},
+                                          {"nm", 1, 1e6},
+                                          {"cm", 10, 1},
+                                          {"m", 1e3, 1},
+                                          {"µm", 1, 1e3}}};
+      static const DimensionEntry time{"a time",
+                                       {{"s", 1, 1},
+                                        {"ms", 1, 1e3},
+                                        {"us", 1, 1e6},
+                                        {"min", 60, 1},
+                                        {"h", 3600, 1},
+                                        {"d", 86400, 1}}};
+      static const DimensionEntry speed{"a speed",
+                                        {{"mm/s", 1, 1},
+                                         {"mm/min", 1, 60},
+                                         {"mm/h", 1, 3600},
+                                         {"um/s", 1, 1e3},
+                                         {"nm/s", 1, 1e6},
+                                         {"cm/s", 10, 1},
+                                         {"m/s", 1e3, 1},
+                                         {"m/min", 1e3, 60},
+                                         {"µm/s", 1, 1e3}}};
+      static const DimensionEntry stress{"a stress",
+                                         {{"MPa", 1, 1},
+                                          {"Pa", 1, 1e6},
+                                          {"kPa", 1, 1e3},
+                                          {"GPa", 1e3, 1},
+                                          {"bar", 1, 10},
+                                          {"N/mm^2", 1, 1}}};
+      static const DimensionEntry stiffness{"a stiffness",
+                                            {{"MPa/mm", 1, 1},
+                                             {"kPa/mm", 1, 1e3},
+                                             {"GPa/mm", 1e3, 1},
+                                             {"MPa/m", 1, 1e3},
+                                             {"GPa/m", 1, 1},
+                                             {"N/mm^3", 1, 1}}};
+      static const DimensionEntry per_length{
+        "a value per length",
+        {{"1/mm", 1, 1}, {"1/um", 1e3, 1}, {"1/cm", 1, 10}, {"1/m", 1, 1e3}}};
+      static const DimensionEntry per_time{
+        "a rate per time",
+        {{"1/s", 1, 1}, {"1/ms", 1e3, 1}, {"1/min", 1, 60}, {"1/h", 1, 3600}}};
+      static const DimensionEntry viscosity{
+        "a viscosity",
+        {{"s/mm", 1, 1}, {"min/mm", 60, 1}, {"s/um", 1e3, 1}, {"s/m", 1, 1e3}}};
+      static const DimensionEntry angle{"an angle",
+                                        {{"deg", 1, 1},
+                                         {"rad", 180, dealii::numbers::PI}}};
+      switch (dimension)
+        {
+          case Dimension::number:
+            return number;
+          case Dimension::length:
+            return length;
+          case Dimension::time:
+            return time;
+          case Dimension::speed:
+            return speed;
+          case Dimension::stress:
+            return stress;
+          case Dimension::stiffness:
+            return stiffness;
+          case Dimension::per_length:
+            return per_length;
+          case Dimension::per_time:
+            return per_time;
+          case Dimension::viscosity:
+            return viscosity;
+          case Dimension::angle:
+            return angle;
+        }
+      Assert(false, dealii::ExcInternalError());
+      return number;
+    }
+
+
+
+    std::vector<std::string> unit_names(const Dimension dimension)
+    {
+      std::vector<std::string> names;
+      for (const Unit &unit : entry(dimension).units)
+        names.push_back(unit.name);
+      return names;
+    }
+
+
+
+    std::string joined_unit_names(const Dimension dimension)
+    {
+      std::string text;
+      for (const std::string &name : unit_names(dimension))
+        text += (text.empty() ? "" : ", ") + name;
+      return text;
+    }
+
+
+
+    // Why a text is not a quantity; "" on success, when @p value is set, in
+    // degrees for angles.
+    std::string parse(const std::string &written,
+                      const Dimension    dimension,
+                      const bool         unit_required,
+                      double            &value)
+    {
+      const std::string text  = dealii::Utilities::trim(written);
+      const char       *begin = text.data();
+      const char *const end   = begin + text.size();
+      // from_chars depends on no locale, but does not know a leading plus.
+      if (begin != end && *begin == '+')
+        ++begin;
+      const auto parsed = std::from_chars(begin, end, value);
+      if (parsed.ec != std::errc() || !std::isfinite(value))
+        return "not a number" + std::string(dimension == Dimension::number ?
+                                              "" :
+                                              " followed by a unit");
+
+      const std::string unit =
+        dealii::Utilities::trim(std::string(parsed.ptr, end));
+      if (dimension == Dimension::number)
+        return unit.empty() ? "" :
+                              "a plain number has no unit \"" + unit + "\"";
+      if (unit.empty())
+        return unit_required ?
+                 "the unit is missing (known: " + joined_unit_names(dimension) +
+                   ")" :
+                 "";
+      for (const Unit &known : entry(dimension).units)
+        if (known.name == unit)
+          {
+            value = value * known.numerator / known.denominator;
+            return "";
+          }
+      const std::string nearest = nearest_name(unit, unit_names(dimension));
+      return "\"" + unit + "\" is not a unit of " + entry(dimension).name +
+             (nearest.empty() ? "" : ", nearest is " + nearest) +
+             " (known: " + joined_unit_names(dimension) + ")";
+    }
+
+
+
+    double degrees_to_base(const double value, const Dimension dimension)
+    {
+      return dimension == Dimension::angle ?
+               value * dealii::numbers::PI / 180. :
+               value;
+    }
+
+
+
+    std::string short_number(const double value)
+    {
+      std::ostringstream out;
+      out.precision(10);
+      out << value;
+      return out.str();
+    }
+  } // namespace
+
+
+
+  std::string base_unit(const Dimension dimension)
+  {
+    const auto &units = entry(dimension).units;
+    return units.empty() ? "" : units.front().name;
+  }
+
+
+
+  double parse_quantity(const std::string &text,
+                        const Dimension    dimension,
+                        const bool         unit_required)
+  {
+    double            value = 0.;
+    const std::string why   = parse(text, dimension, unit_required, value);
+    if (!why.empty())
+      throw InputError("\"" + dealii::Utilities::trim(text) + "\": " + why);
+    return degrees_to_base(value, dimension);
+  }
+
+
+
+  Quantity::Quantity(const Dimension dimension,
+                     const double    minimum,
+                     const double    maximum,
+                     const bool      minimum_is_excluded,
+                     const bool      unit_required)
+    : dimension(dimension)
+    , minimum(minimum)
+    , maximum(maximum)
+    , minimum_is_excluded(minimum_is_excluded)
+    , unit_required(unit_required)
+  {
+    Assert(minimum <= maximum, dealii::ExcMessage("The range is empty."));
+  }
+
+
+
+  std::string Quantity::why_not(const std::string &text) const
+  {
+    double            value = 0.;
+    const std::string why   = parse(text, dimension, unit_required, value);
+    if (!why.empty())
+      return why;
+    if (value < minimum || value > maximum ||
+        (minimum_is_excluded && value == minimum))
+      return "out of range";
+    return "";
+  }
+
+
+
+  bool Quantity::match(const std::string &text) const
+  {
+    return why_not(text).empty();
+  }
+
+
+
+  std::string Quantity::description(const OutputStyle) const
+  {
+    std::string unit;
+    if (dimension != Dimension::number)
+      unit = (unit_required ? " with its unit (" : " (in ") +
+             (unit_required ? joined_unit_names(dimension) :
+                              base_unit(dimension) + " if no unit is given") +
+             ")";
+
+    std::string       range;
+    const bool        has_minimum = std::isfinite(minimum);
+    const bool        has_maximum = std::isfinite(maximum);
+    const std::string base =
+      dimension == Dimension::number ? "" : " " + base_unit(dimension);
+    if (has_minimum)
+      range += (minimum_is_excluded ? " greater than " : " of at least ") +
+               short_number(minimum) + (has_maximum ? "" : base);
+    if (has_maximum)
+      range += std::string(has_minimum ? " and" : " of") + " at most " +
+               short_number(maximum) + base;
+    return entry(dimension).name + unit + range;
+  }
+
+
+
+  std::unique_ptr<dealii::Patterns::PatternBase> Quantity::clone() const
+  {
+    return std::make_unique<Quantity>(
+      dimension, minimum, maximum, minimum_is_excluded, unit_required);
+  }
+
+
+
+  double Quantity::value(const std::string &text) const
+  {
+    return parse_quantity(text, dimension, unit_required);
+  }
+} // namespace SlipStep
