@@ -1,0 +1,83 @@
+#ifndef slipstep_utilities_progress_h
+#define slipstep_utilities_progress_h
+
+#include <chrono>
+#include <ostream>
+#include <string>
+
+namespace SlipStep
+{
+  /// Tells how far a run is: on a terminal one live line with the time left,
+  /// in a file or pipe a plain line about every 5 % or 10 s, nothing if quiet.
+  ///
+  /// A plain line is `[ 42.0 %] <label>: <text>, 12 s left`;
+  /// parse_progress_line() reads it back.
+  class Progress
+  {
+  public:
+    /// @param quiet print nothing (also for all ranks but one)
+    /// @param label what is running, e.g. the variant's
+    Progress(const bool quiet, const std::string &label);
+
+    /// For tests and for output to somewhere else than stdout.
+    Progress(const bool         quiet,
+             const std::string &label,
+             std::ostream      &out,
+             const bool         is_live);
+
+    /// Ends a live line, so that what follows starts on its own.
+    ~Progress();
+
+    Progress(const Progress &)            = delete;
+    Progress &operator=(const Progress &) = delete;
+
+    /// Cheap enough to be called in every step.
+    /// @param fraction done so far, from 0 to 1
+    /// @param text the present state, e.g. "12.3 mm, step 240"
+    void update(const double fraction, const std::string &text);
+
+    /// The last line, with the time taken.
+    void finish();
+
+    /// Remove the live line, because something else is to be printed; the next
+    /// update() shows it again.
+    void clear();
+
+    /// From now on plain lines come up to five times a second: set in a child
+    /// process whose parent shows the live line.
+    static void report_often();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void print(const double fraction, const std::string &text);
+
+    const bool        quiet;
+    const std::string label;
+    std::ostream     &out;
+    const bool        is_live;
+    bool              line_is_open  = false;
+    bool              has_printed   = false;
+    bool              is_finished   = false;
+    double            last_fraction = 0.;
+    Clock::time_point start;
+    Clock::time_point last_print;
+
+    static bool often;
+  };
+
+  /// What a plain progress line said.
+  struct ProgressLine
+  {
+    double      fraction = 0.;
+    std::string text; ///< after the label, without the time left
+  };
+
+  /// @return whether the line is a progress line
+  bool parse_progress_line(const std::string &line, ProgressLine &parsed);
+
+  /// "45 s", "3 min 20 s", "2 h 5 min".
+  std::string duration_in_words(const double seconds);
+} // namespace SlipStep
+
+#endif
