@@ -13,8 +13,7 @@ namespace SlipStep
   {
     const char *const blanks = " \t\r";
 
-    std::string
-    trim(const std::string &text)
+    std::string trim(const std::string &text)
     {
       const auto begin = text.find_first_not_of(blanks);
       if (begin == std::string::npos)
@@ -29,7 +28,7 @@ namespace SlipStep
       std::vector<std::pair<std::string, std::size_t>> cells;
       for (std::size_t begin = 0; begin <= line.size();)
         {
-          const std::size_t end = std::min(line.find(',', begin), line.size());
+          const std::size_t end  = std::min(line.find(',', begin), line.size());
           const std::string cell = line.substr(begin, end - begin);
           const auto        skip = cell.find_first_not_of(blanks);
           cells.emplace_back(trim(cell),
@@ -40,8 +39,7 @@ namespace SlipStep
     }
 
     /// Independent of the locale, unlike strtod.
-    bool
-    read_number(const std::string &text, double &value)
+    bool read_number(const std::string &text, double &value)
     {
       const char *begin = text.data();
       const char *end   = begin + text.size();
@@ -54,8 +52,7 @@ namespace SlipStep
 
 
 
-  std::string
-  exact_text(const double value)
+  std::string exact_text(const double value)
   {
     std::array<char, 32> buffer;
     const auto           result =
@@ -65,7 +62,7 @@ namespace SlipStep
 
 
 
-  CsvTable::CsvTable(const std::filesystem::path &   file,
+  CsvTable::CsvTable(const std::filesystem::path    &file,
                      const std::vector<std::string> &required,
                      const std::vector<std::string> &optional)
     : file(file)
@@ -109,23 +106,19 @@ namespace SlipStep
 
 
 
-  void
-  CsvTable::read_header(const std::string &             line,
-                        const std::vector<std::string> &required,
-                        const std::vector<std::string> &optional)
+  void CsvTable::read_header(const std::string              &line,
+                             const std::vector<std::string> &required,
+                             const std::vector<std::string> &optional)
   {
     const auto cells = split(line);
     n_cells          = cells.size();
     for (std::size_t i = 0; i < cells.size(); ++i)
       {
-        const std::string &name      = cells[i].first;
-        const bool         is_wanted = std::count(required.begin(),
-                                          required.end(),
-                                          name) +
-                               std::count(optional.begin(),
-                                          optional.end(),
-                                          name) >
-                               0;
+        const std::string &name = cells[i].first;
+        const bool         is_wanted =
+          std::count(required.begin(), required.end(), name) +
+            std::count(optional.begin(), optional.end(), name) >
+          0;
         if (!is_wanted)
           continue;
         if (!cell_of.emplace(name, i).second)
@@ -150,8 +143,7 @@ namespace SlipStep
 
 
 
-  void
-  CsvTable::read_row(const std::string &line)
+  void CsvTable::read_row(const std::string &line)
   {
     const auto cells = split(line);
     if (cells.size() != n_cells)
@@ -177,16 +169,14 @@ namespace SlipStep
 
 
 
-  const std::map<std::string, std::string> &
-  CsvTable::comments() const
+  const std::map<std::string, std::string> &CsvTable::comments() const
   {
     return comment_values;
   }
 
 
 
-  bool
-  CsvTable::has(const std::string &column) const
+  bool CsvTable::has(const std::string &column) const
   {
     return cell_of.count(column) > 0;
   }
@@ -203,21 +193,18 @@ namespace SlipStep
 
 
 
-  std::size_t
-  CsvTable::size() const
+  std::size_t CsvTable::size() const
   {
     return line_of_row.size();
   }
 
 
 
-  void
-  CsvTable::reject(const std::size_t  row,
-                   const std::string &column,
-                   const std::string &why) const
+  void CsvTable::reject(const std::size_t  row,
+                        const std::string &column,
+                        const std::string &why) const
   {
-    const auto position =
-      std::distance(cell_of.begin(), cell_of.find(column));
+    const auto position = std::distance(cell_of.begin(), cell_of.find(column));
     fail(line_of_row.at(row),
          begin_of_cell.at(row * cell_of.size() + position) + 1,
          why);
@@ -225,10 +212,9 @@ namespace SlipStep
 
 
 
-  void
-  CsvTable::fail(const std::size_t  line,
-                 const std::size_t  column,
-                 const std::string &why) const
+  void CsvTable::fail(const std::size_t  line,
+                      const std::size_t  column,
+                      const std::string &why) const
   {
     throw InputError(file.string() + ":" + std::to_string(line) + ":" +
                      std::to_string(column) + ": " + why);

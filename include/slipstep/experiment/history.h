@@ -5,7 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <limits>
+#include <string>
 #include <vector>
 
 namespace SlipStep
@@ -22,18 +22,18 @@ namespace SlipStep
   /// contact point and a run of the block fill the same columns.
   struct HistoryRow
   {
-    double time           = 0.; ///< [s]
-    double displacement   = 0.; ///< of the drive, first tangential axis [mm]
-    double pressure       = 0.; ///< normal load / nominal contact area [MPa]
-    double friction       = 0.; ///< tangential / normal load; > 0 resists
-    double displacement_y = 0.; ///< second tangential axis [mm]
-    double friction_y     = 0.;
-    double normal_load    = 0.; ///< [N]
-    double tangential_load = 0.; ///< first tangential axis [N]
-    Spread loading_ratio;        ///< r
-    Spread normal_ratio;         ///< r_s
-    Spread coefficient;          ///< mu
-    double slip_fraction = 0.;   ///< share of the area in contact that slips
+    double time            = 0.; ///< [s]
+    double displacement    = 0.; ///< of the drive, first tangential axis [mm]
+    double pressure        = 0.; ///< normal load / nominal contact area [MPa]
+    double friction        = 0.; ///< tangential / normal load; > 0 resists
+    double displacement_y  = 0.; ///< second tangential axis [mm]
+    double friction_y      = 0.;
+    double normal_load     = 0.;   ///< [N]
+    double tangential_load = 0.;   ///< first tangential axis [N]
+    Spread loading_ratio;          ///< r
+    Spread normal_ratio;           ///< r_s
+    Spread coefficient;            ///< mu
+    double slip_fraction     = 0.; ///< share of the area in contact that slips
     double dissipated_energy = 0.; ///< [N mm]
     double stored_energy     = 0.; ///< block and contact stiffness [N mm]
     double external_work     = 0.; ///< [N mm]
@@ -42,7 +42,8 @@ namespace SlipStep
     unsigned int linear_iterations = 0;
   };
 
-  /// Writes history.csv, complete after every row.
+  /// Writes history.csv, complete after every row, every number with as many
+  /// digits as it takes to read back exactly.
   ///
   /// Columns: time_s, displacement_mm, pressure_MPa, friction,
   /// displacement_y_mm, friction_y, normal_load_N, tangential_load_N, r_mean,
@@ -60,17 +61,15 @@ namespace SlipStep
     HistoryWriter(const std::filesystem::path &file, const std::string &name);
 
     /// @throws RunError if the row cannot be written (disk full)
-    void
-    write(const HistoryRow &row);
+    void write(const HistoryRow &row);
 
   private:
-    std::ofstream out;
+    std::ofstream         out;
     std::filesystem::path file;
   };
 
   /// Read a history.csv back. @throws InputError naming file:line
-  std::vector<HistoryRow>
-  read_history(const std::filesystem::path &file);
+  std::vector<HistoryRow> read_history(const std::filesystem::path &file);
 } // namespace SlipStep
 
 #endif

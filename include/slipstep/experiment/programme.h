@@ -28,12 +28,21 @@ namespace SlipStep
     double  end_time   = 0.; ///< [s]
     Loading start;           ///< velocity is that of the segment
     Loading end;
+    /// Which statement of the programme it belongs to, counted from 0: a
+    /// `follow` has many segments, every other statement one.
+    unsigned int statement = 0;
   };
 
   /// The loading programme, written to be read aloud:
   /// `press 5.8 MPa in 1 s; hold 10 s; slide 1 mm/min for 60 mm;
-  ///  slide -1 mm/min for 5 mm at 30 deg; slide for 10 mm; slide 2 mm/s for 3 s;
-  ///  follow measured/test_01.csv`
+  ///  slide -1 mm/min for 5 mm at 30 deg; slide for 10 mm; slide 2 mm/s for 3
+  ///  s; follow measured/test_01.csv`
+  ///
+  /// Units are mandatory. Pressure starts at 0 and displacement at the origin;
+  /// `press` ramps from the present pressure; a negative speed reverses the
+  /// direction, which is (cos, sin) of the angle in the contact plane. `follow`
+  /// replays displacement relative to the start of the test, and its pressure;
+  /// a different pressure at its start is reached within its first interval.
   class Programme
   {
   public:
@@ -43,24 +52,20 @@ namespace SlipStep
     /// @param default_speed speed [mm/s] of a `slide` that states none
     /// @param directory what file names after `follow` are relative to
     /// @throws InputError with a caret under the column where it went wrong
-    Programme(const std::string &          text,
+    Programme(const std::string           &text,
               const double                 default_speed,
               const std::filesystem::path &directory);
 
     /// Loading at a time within [0, end_time()]. At the border of two segments
     /// the velocity is that of the earlier one.
-    Loading
-    at(const double time) const;
+    Loading at(const double time) const;
 
-    double
-    end_time() const;
+    double end_time() const;
 
-    const std::vector<Segment> &
-    segments() const;
+    const std::vector<Segment> &segments() const;
 
     /// Largest nominal pressure met [MPa].
-    double
-    largest_pressure() const;
+    double largest_pressure() const;
 
   private:
     std::vector<Segment> segment_list;

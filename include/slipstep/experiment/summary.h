@@ -30,43 +30,45 @@ namespace SlipStep
     std::string              label;   ///< of the variant, or ""
     std::string              command; ///< "run" or "point"
     std::vector<std::string> effects;
-    std::string              status = "running"; ///< or "finished", "failed"
-    std::string              reason;             ///< why it failed
-    unsigned int             dimension = 0;      ///< 0 for a contact point
-    unsigned long long       cells     = 0;
-    unsigned long long       dofs      = 0;
-    unsigned int             ranks     = 1;
-    unsigned int             steps     = 0;
-    unsigned int             rejected_steps = 0;
+    std::string              status = "running";    ///< or "finished", "failed"
+    std::string              reason;                ///< why it failed
+    unsigned int             dimension         = 0; ///< 0 for a contact point
+    unsigned long long       cells             = 0;
+    unsigned long long       dofs              = 0;
+    unsigned int             ranks             = 1;
+    unsigned int             steps             = 0;
+    unsigned int             rejected_steps    = 0;
     unsigned long long       newton_iterations = 0;
     unsigned long long       linear_iterations = 0;
     double                   wall_time         = 0.; ///< [s]
     double                   cpu_time          = 0.; ///< [s], all ranks
     double                   peak_memory       = 0.; ///< [MB], all ranks
-    double                   peak_friction     = 0.;
-    double                   peak_displacement = 0.; ///< [mm]
-    double                   final_friction    = 0.;
-    double                   work              = 0.; ///< [N mm]
-    double                   stored            = 0.; ///< [N mm]
-    double                   dissipated        = 0.; ///< [N mm]
-    double                   balance_error     = 0.; ///< relative
+    double                   peak_friction     = 0.; ///< largest magnitude
+    double peak_displacement = 0.; ///< of the drive, there [mm]
+    double final_friction    = 0.; ///< along the last direction of motion
+    double work              = 0.; ///< [N mm]
+    double stored            = 0.; ///< [N mm]
+    double dissipated        = 0.; ///< [N mm]
+    double balance_error     = 0.; ///< relative to work
     std::vector<SlideSummary> slides;
     std::vector<std::string>  warnings;
   };
 
   /// Write atomically (a temporary file renamed into place).
-  void
-  write_summary(const std::filesystem::path &file, const Summary &summary);
+  /// @throws RunError if the disk refuses
+  void write_summary(const std::filesystem::path &file, const Summary &summary);
 
   /// @throws InputError if it is missing or not such a file
-  Summary
-  read_summary(const std::filesystem::path &file);
+  Summary read_summary(const std::filesystem::path &file);
 
   /// Fill peak, final, energy and slides from a history and its programme.
-  void
-  summarise_history(const std::vector<HistoryRow> &history,
-                    const Programme &              programme,
-                    Summary &                      summary);
+  ///
+  /// Every statement that moves is a slide, seen along its own direction, so
+  /// that friction of a reverse slide is positive, too. A history that ends
+  /// early gives the slides it reached.
+  void summarise_history(const std::vector<HistoryRow> &history,
+                         const Programme               &programme,
+                         Summary                       &summary);
 } // namespace SlipStep
 
 #endif

@@ -21,45 +21,37 @@ namespace SlipStep
     /// @throws InputError naming file:line:column (both counted from 1) if the
     /// file cannot be opened, a required column is absent, a row has another
     /// number of cells than the header, or a cell is not a number
-    CsvTable(const std::filesystem::path &   file,
+    CsvTable(const std::filesystem::path    &file,
              const std::vector<std::string> &required,
              const std::vector<std::string> &optional = {});
 
     /// What the `# key: value` comments say, keys in lower case.
-    const std::map<std::string, std::string> &
-    comments() const;
+    const std::map<std::string, std::string> &comments() const;
 
-    bool
-    has(const std::string &column) const;
+    bool has(const std::string &column) const;
 
     /// The values of a column that was asked for; empty if the file lacks it.
-    const std::vector<double> &
-    operator[](const std::string &column) const;
+    const std::vector<double> &operator[](const std::string &column) const;
 
     /// Number of rows.
-    std::size_t
-    size() const;
+    std::size_t size() const;
 
     /// Report a value that is a number but makes no sense.
     /// @throws InputError "file:line:column: why"
-    [[noreturn]] void
-    reject(const std::size_t  row,
-           const std::string &column,
-           const std::string &why) const;
+    [[noreturn]] void reject(const std::size_t  row,
+                             const std::string &column,
+                             const std::string &why) const;
 
   private:
-    void
-    read_header(const std::string &             line,
-                const std::vector<std::string> &required,
-                const std::vector<std::string> &optional);
+    void read_header(const std::string              &line,
+                     const std::vector<std::string> &required,
+                     const std::vector<std::string> &optional);
 
-    void
-    read_row(const std::string &line);
+    void read_row(const std::string &line);
 
-    [[noreturn]] void
-    fail(const std::size_t  line,
-         const std::size_t  column,
-         const std::string &why) const;
+    [[noreturn]] void fail(const std::size_t  line,
+                           const std::size_t  column,
+                           const std::string &why) const;
 
     std::filesystem::path                      file;
     std::map<std::string, std::string>         comment_values;
@@ -77,8 +69,7 @@ namespace SlipStep
   };
 
   /// Shortest decimal text that reads back as exactly the same number.
-  std::string
-  exact_text(const double value);
+  std::string exact_text(const double value);
 } // namespace SlipStep
 
 #endif

@@ -1,0 +1,138 @@
+#include <slipstep/experiment/history.h>
+
+#include <slipstep/utilities/csv.h>
+
+#include <array>
+#include <functional>
+#include <string>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// One column of history.csv: the only place that ties names to members,
+    /// so that writing and reading cannot disagree.
+    struct Column
+    {
+      const char *name;
+      /// The member, or null for a count.
+      std::function<double &(HistoryRow &)>       number;
+      std::function<unsigned int &(HistoryRow &)> count;
+    };
+
+    Column number(const char *name, double HistoryRow::*member)
+    {
+      return {name,
+              [member](HistoryRow &row) -> double & { return row.*member; },
+              nullptr};
+    }
+
+    Column
+    spread(const char *name, Spread HistoryRow::*member, double Spread::*part)
+    {
+      return {name,
+              [member, part](HistoryRow &row) -> double & {
+                return (row.*member).*part;
+              },
+              nullptr};
+    }
+
+    Column count(const char *name, unsigned int HistoryRow::*member)
+    {
+      return {name, nullptr, [member](HistoryRow &row) -> unsigned int & {
+                return row.*member;
+              }};
+    }
+
+    const std::vector<Column> &columns()
+    {
+      using Row                            = HistoryRow;
+      static const std::vector<Column> all = {
+        number("time_s", &Row::time),
+        number("displacement_mm", &Row::displacement),
+        number("pressure_MPa", &Row::pressure),
+        number("friction", &Row::friction),
+        number("displacement_y_mm", &Row::displacement_y),
+        number("friction_y", &Row::friction_y),
+        number("normal_load_N", &Row::normal_load),
+        number("tangential_load_N", &Row::tangential_load),
+        spread("r_mean", &Row::loading_ratio, &Spread::mean),
+        spread("r_min", &Row::loading_ratio, &Spread::minimum),
+        spread("r_max", &Row::loading_ratio, &Spread::maximum),
+        spread("r_s_mean", &Row::normal_ratio, &Spread::mean),
+        spread("r_s_min", &Row::normal_ratio, &Spread::minimum),
+        spread("r_s_max", &Row::normal_ratio, &Spread::maximum),
+        spread("mu_mean", &Row::coefficient, &Spread::mean),
+        spread("mu_min", &Row::coefficient, &Spread::minimum),
+        spread("mu_max", &Row::coefficient, &Spread::maximum),
+        number("slip_fraction", &Row::slip_fraction),
+        number("dissipated_energy_Nmm", &Row::dissipated_energy),
+        number("stored_energy_Nmm", &Row::stored_energy),
+        number("external_work_Nmm", &Row::external_work),
+        number("step_s", &Row::step_size),
+        count("newton_iterations", &Row::newton_iterations),
+        count("linear_iterations", &Row::linear_iterations)};
+      return all;
+    }
+  } // namespace
+
+
+
+  HistoryWriter::HistoryWriter(const std::filesystem::path &file,
+                               const std::string           &name)
+    : out(file)
+    , file(file)
+  {
+    out << "# name: " << name << "\n# source: simulated by slipstep\n";
+    const char *separator = "";
+    for (const Column &column : columns())
+      {
+        out << separator << column.name;
+        separator = ",";
+      }
+    out << '\n' << std::flush;
+    if (!out)
+      throw InputError(file.string() + ": this file cannot be written");
+  }
+
+
+
+  void HistoryWriter::write(const HistoryRow &row)
+  {
+    HistoryRow  values = row;
+    std::string line;
+    for (const Column &column : columns())
+      {
+        if (!line.empty())
+          line += ',';
+        line += column.number ? exact_text(column.number(values)) :
+                                std::to_string(column.count(values));
+      }
+    out << line << '\n' << std::flush;
+    if (!out)
+      throw RunError(file.string() +
+                     ": a row cannot be written (is the disk full?)");
+  }
+
+
+
+  std::vector<HistoryRow> read_history(const std::filesystem::path &file)
+  {
+    std::vector<std::string> names;
+    for (const Column &column : columns())
+      names.emplace_back(column.name);
+    const CsvTable table(file, names);
+
+    std::vector<HistoryRow> history(table.size());
+    for (const Column &column : columns())
+      {
+        const std::vector<double> &values = table[column.name];
+        for (std::size_t row = 0; row < values.size(); ++row)
+          if (column.number)
+            column.number(history[row]) = values[row];
+          else
+            column.count(history[row]) = static_cast<unsigned int>(values[row]);
+      }
+    return history;
+  }
+} // namespace SlipStep

@@ -1,0 +1,496 @@
+#include <slipstep/experiment/programme.h>
+
+#include <slipstep/experiment/measured_test.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/units.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+namespace SlipStep
+{
+  namespace
+  {
+    const char *const blanks = " \t\r\n";
+
+    /// A piece of the programme and where it begins.
+    struct Piece
+    {
+      std::string text;
+      std::size_t column = 0;
+
+      std::size_t end() const
+      {
+        return column + text.size();
+      }
+    };
+
+    Piece trim(const Piece &piece)
+    {
+      const auto begin = piece.text.find_first_not_of(blanks);
+      if (begin == std::string::npos)
+        return {"", piece.column};
+      const auto end = piece.text.find_last_not_of(blanks);
+      return {piece.text.substr(begin, end - begin + 1), piece.column + begin};
+    }
+
+    std::vector<Piece> words(const Piece &piece)
+    {
+      std::vector<Piece> result;
+      std::size_t        begin = piece.text.find_first_not_of(blanks);
+      while (begin != std::string::npos)
+        {
+          const auto end = std::min(piece.text.find_first_of(blanks, begin),
+                                    piece.text.size());
+          result.push_back(
+            {piece.text.substr(begin, end - begin), piece.column + begin});
+          begin = piece.text.find_first_not_of(blanks, end);
+        }
+      return result;
+    }
+
+    /// How each verb is written: shown when something is missing. Which
+    /// keywords it takes is read from here, too.
+    const std::map<std::string, std::string> usage = {
+      {"press", "press 5.8 MPa in 1 s"},
+      {"hold", "hold 10 s"},
+      {"slide", "slide 1 mm/min for 60 mm at 0 deg"},
+      {"follow", "follow measured/test_01.csv"}};
+
+    const std::vector<std::string> keywords = {"in", "for", "at"};
+
+    bool is_keyword(const std::string &word)
+    {
+      return std::count(keywords.begin(), keywords.end(), word) > 0;
+    }
+
+
+
+    class Parser
+    {
+    public:
+      Parser(const std::string           &text,
+             const double                 default_speed,
+             const std::filesystem::path &directory)
+        : text(text)
+        , default_speed(default_speed)
+        , directory(directory)
+      {
+        for (char &c : this->text)
+          if (c == '\n' || c == '\t' || c == '\r')
+            c = ' ';
+      }
+
+      std::vector<Segment> parse();
+
+    private:
+      /// A verb and what follows it, by keyword; the part right after the verb
+      /// has the keyword "".
+      struct Statement
+      {
+        Piece                        verb;
+        std::map<std::string, Piece> parts;
+        std::size_t                  end = 0;
+      };
+
+      Statement read_statement(const Piece &piece) const;
+
+      void press(const Statement &statement);
+      void hold(const Statement &statement);
+      void slide(const Statement &statement);
+      void follow(const Statement &statement);
+
+      /// The part behind a keyword, which has to be there.
+      const Piece &part(const Statement   &statement,
+                        const std::string &keyword) const;
+
+      /// The number and unit in @p piece, in base units.
+      double quantity(const Piece &piece, const Dimension dimension) const;
+
+      /// A quantity that has to be above zero.
+      double positive(const Piece      &piece,
+                      const Dimension   dimension,
+                      const std::string what) const;
+
+      bool is_quantity(const Piece &piece, const Dimension dimension) const;
+
+      /// Append a segment from the present state to the given one.
+      void add(const double                duration,
+               const double                pressure,
+               const dealii::Tensor<1, 2> &displacement);
+
+      [[noreturn]] void fail(const std::size_t  column,
+                             const std::string &message) const;
+
+      std::string                 text;
+      const double                default_speed;
+      const std::filesystem::path directory;
+
+      unsigned int         n_statements = 0;
+      std::vector<Segment> segments;
+      double               time = 0.;
+      Loading              present;
+    };
+
+
+
+    std::vector<Segment> Parser::parse()
+    {
+      std::size_t begin = 0;
+      while (begin < text.size())
+        {
+          const auto  end   = std::min(text.find(';', begin), text.size());
+          const Piece piece = trim({text.substr(begin, end - begin), begin});
+          begin             = end + 1;
+          if (piece.text.empty())
+            continue;
+
+          const Statement statement = read_statement(piece);
+          if (statement.verb.text == "press")
+            press(statement);
+          else if (statement.verb.text == "hold")
+            hold(statement);
+          else if (statement.verb.text == "slide")
+            slide(statement);
+          else
+            follow(statement);
+          ++n_statements;
+        }
+      if (segments.empty())
+        throw InputError("the programme is empty; write e.g. 'press 5.8 MPa "
+                         "in 1 s; hold 10 s; slide 1 mm/min for 60 mm'");
+      return segments;
+    }
+
+
+
+    Parser::Statement Parser::read_statement(const Piece &piece) const
+    {
+      const std::vector<Piece> all = words(piece);
+
+      Statement statement;
+      statement.verb = all.front();
+      statement.end  = piece.end();
+
+      const std::string &verb = statement.verb.text;
+      if (usage.count(verb) == 0)
+        {
+          std::vector<std::string> verbs;
+          for (const auto &entry : usage)
+            verbs.push_back(entry.first);
+          const std::string nearest = nearest_name(verb, verbs);
+          fail(statement.verb.column,
+               "unknown word '" + verb + "'" +
+                 (nearest.empty() ? "; known are press, hold, slide, follow" :
+                                    "; did you mean '" + nearest + "'?"));
+        }
+
+      // A file name may contain blanks and words that are keywords elsewhere.
+      if (verb == "follow")
+        {
+          const Piece rest    = {text.substr(statement.verb.end(),
+                                          piece.end() - statement.verb.end()),
+                                 statement.verb.end()};
+          statement.parts[""] = trim(rest);
+          return statement;
+        }
+
+      Piece       start   = statement.verb;
+      std::string keyword = "";
+      for (std::size_t i = 1; i <= all.size(); ++i)
+        if (i == all.size() || is_keyword(all[i].text))
+          {
+            const auto end = i == all.size() ? piece.end() : all[i].column;
+            statement.parts[keyword] =
+              trim({text.substr(start.end(), end - start.end()), start.end()});
+            if (i == all.size())
+              break;
+            start   = all[i];
+            keyword = start.text;
+            if (usage.at(verb).find(" " + keyword + " ") == std::string::npos)
+              fail(start.column,
+                   "'" + verb + "' has no '" + keyword + "'; write e.g. '" +
+                     usage.at(verb) + "'");
+            if (statement.parts.count(keyword) > 0)
+              fail(start.column, "'" + keyword + "' is given twice");
+          }
+      return statement;
+    }
+
+
+
+    void Parser::press(const Statement &statement)
+    {
+      const Piece &pressure_text = part(statement, "");
+      const double pressure      = quantity(pressure_text, Dimension::stress);
+      if (pressure < 0.)
+        fail(pressure_text.column, "a pressure must not be negative");
+      add(positive(part(statement, "in"), Dimension::time, "time"),
+          pressure,
+          present.displacement);
+    }
+
+
+
+    void Parser::hold(const Statement &statement)
+    {
+      add(positive(part(statement, ""), Dimension::time, "time"),
+          present.pressure,
+          present.displacement);
+    }
+
+
+
+    void Parser::slide(const Statement &statement)
+    {
+      double       speed      = default_speed;
+      const Piece &speed_text = statement.parts.at("");
+      if (!speed_text.text.empty())
+        speed = quantity(speed_text, Dimension::speed);
+      if (speed == 0. || !std::isfinite(speed))
+        fail(speed_text.text.empty() ? statement.verb.column :
+                                       speed_text.column,
+             speed_text.text.empty() ?
+               "this slide states no speed, and the case gives none" :
+               "a speed must not be zero; to rest, write 'hold 10 s'");
+
+      double angle = 0.;
+      if (statement.parts.count("at") > 0)
+        angle = quantity(part(statement, "at"), Dimension::angle);
+      dealii::Tensor<1, 2> direction;
+      direction[0] = std::cos(angle);
+      direction[1] = std::sin(angle);
+
+      const Piece &extent = part(statement, "for");
+      double       length = 0., duration = 0.;
+      if (is_quantity(extent, Dimension::time))
+        {
+          duration = positive(extent, Dimension::time, "time");
+          length   = duration * std::abs(speed);
+        }
+      else
+        {
+          length   = positive(extent,
+                            Dimension::length,
+                            "length (to slide back, give a negative speed)");
+          duration = length / std::abs(speed);
+        }
+      add(duration,
+          present.pressure,
+          present.displacement + std::copysign(length, speed) * direction);
+    }
+
+
+
+    void Parser::follow(const Statement &statement)
+    {
+      const Piece                &name = part(statement, "");
+      const std::filesystem::path file = directory / name.text;
+      if (!std::filesystem::is_regular_file(file))
+        fail(name.column, "there is no file " + file.string());
+
+      const MeasuredTest   test   = read_measured_test(file);
+      const auto           origin = present.displacement;
+      dealii::Tensor<1, 2> moved;
+      for (std::size_t i = 1; i < test.time.size(); ++i)
+        {
+          moved[0] = test.displacement[i] - test.displacement[0];
+          if (!test.displacement_y.empty())
+            moved[1] = test.displacement_y[i] - test.displacement_y[0];
+          add(test.time[i] - test.time[i - 1],
+              test.pressure[i],
+              origin + moved);
+        }
+    }
+
+
+
+    const Piece &Parser::part(const Statement   &statement,
+                              const std::string &keyword) const
+    {
+      const auto found = statement.parts.find(keyword);
+      if (found == statement.parts.end() || found->second.text.empty())
+        {
+          const auto column = found == statement.parts.end() ?
+                                statement.end :
+                                found->second.column;
+          fail(column,
+               "'" + statement.verb.text + "' needs " +
+                 (keyword.empty() ? "a value" :
+                                    "'" + keyword + "' with a value") +
+                 "; write e.g. '" + usage.at(statement.verb.text) + "'");
+        }
+      return found->second;
+    }
+
+
+
+    double Parser::quantity(const Piece &piece, const Dimension dimension) const
+    {
+      double      value = 0.;
+      const char *begin = piece.text.data();
+      const char *end   = begin + piece.text.size();
+      const auto  stop  = std::from_chars(begin + (*begin == '+'), end, value);
+      if (stop.ec != std::errc())
+        fail(piece.column, "a number is missing before '" + piece.text + "'");
+
+      const std::size_t number_end = stop.ptr - begin;
+      const Piece       unit =
+        trim({piece.text.substr(number_end), piece.column + number_end});
+      if (unit.text.empty() && dimension != Dimension::number)
+        fail(piece.end(),
+             "the unit is missing (e.g. " + base_unit(dimension) + ")");
+
+      try
+        {
+          return parse_quantity(piece.text, dimension, true);
+        }
+      catch (const InputError &error)
+        {
+          // If the first word alone is right, the rest does not belong here.
+          const std::vector<Piece> parts = words(unit);
+          if (parts.size() > 1 &&
+              is_quantity({text.substr(piece.column,
+                                       parts[0].end() - piece.column),
+                           piece.column},
+                          dimension))
+            fail(parts[1].column,
+                 "'" + parts[1].text +
+                   "' is not expected here; use 'in', 'for', 'at' or ';'");
+          fail(unit.column, error.what());
+        }
+    }
+
+
+
+    double Parser::positive(const Piece      &piece,
+                            const Dimension   dimension,
+                            const std::string what) const
+    {
+      const double value = quantity(piece, dimension);
+      if (!(value > 0.) || !std::isfinite(value))
+        fail(piece.column, "expected a positive " + what);
+      return value;
+    }
+
+
+
+    bool Parser::is_quantity(const Piece    &piece,
+                             const Dimension dimension) const
+    {
+      try
+        {
+          parse_quantity(piece.text, dimension, true);
+          return true;
+        }
+      catch (const InputError &)
+        {
+          return false;
+        }
+    }
+
+
+
+    void Parser::add(const double                duration,
+                     const double                pressure,
+                     const dealii::Tensor<1, 2> &displacement)
+    {
+      Segment segment;
+      segment.start_time       = time;
+      segment.end_time         = time + duration;
+      segment.statement        = n_statements;
+      segment.start            = present;
+      segment.end.pressure     = pressure;
+      segment.end.displacement = displacement;
+      segment.start.velocity   = segment.end.velocity =
+        (displacement - present.displacement) / duration;
+      segments.push_back(segment);
+
+      time    = segment.end_time;
+      present = segment.end;
+    }
+
+
+
+    void Parser::fail(const std::size_t  column,
+                      const std::string &message) const
+    {
+      // A wrapped line would misplace the caret: show the neighbourhood only.
+      const std::size_t width = 72;
+      std::size_t       first = 0;
+      if (text.size() > width && column > width / 2)
+        first = std::min(column - width / 2, text.size() - width);
+      const std::string before = first > 0 ? "..." : "";
+      const std::string after  = first + width < text.size() ? "..." : "";
+      throw InputError("column " + std::to_string(column + 1) + ": " + message +
+                       "\n  " + before + text.substr(first, width) + after +
+                       "\n  " +
+                       std::string(before.size() + column - first, ' ') + "^");
+    }
+  } // namespace
+
+
+
+  Programme::Programme(const std::string           &text,
+                       const double                 default_speed,
+                       const std::filesystem::path &directory)
+    : segment_list(Parser(text, default_speed, directory).parse())
+  {}
+
+
+
+  Loading Programme::at(const double time) const
+  {
+    Assert(!segment_list.empty(), dealii::ExcNotInitialized());
+    const auto found =
+      std::lower_bound(segment_list.begin(),
+                       segment_list.end(),
+                       time,
+                       [](const Segment &segment, const double t) {
+                         return segment.end_time < t;
+                       });
+    if (found == segment_list.end())
+      return segment_list.back().end;
+    const Segment &segment = *found;
+    if (time == segment.end_time)
+      return segment.end;
+
+    const double weight = std::max(0., time - segment.start_time) /
+                          (segment.end_time - segment.start_time);
+    Loading loading = segment.start;
+    loading.pressure +=
+      weight * (segment.end.pressure - segment.start.pressure);
+    loading.displacement +=
+      weight * (segment.end.displacement - segment.start.displacement);
+    return loading;
+  }
+
+
+
+  double Programme::end_time() const
+  {
+    return segment_list.empty() ? 0. : segment_list.back().end_time;
+  }
+
+
+
+  const std::vector<Segment> &Programme::segments() const
+  {
+    return segment_list;
+  }
+
+
+
+  double Programme::largest_pressure() const
+  {
+    double largest = 0.;
+    for (const Segment &segment : segment_list)
+      largest = std::max(largest, segment.end.pressure);
+    return largest;
+  }
+} // namespace SlipStep

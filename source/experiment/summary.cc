@@ -1,0 +1,301 @@
+#include <slipstep/experiment/summary.h>
+
+#include <slipstep/utilities/version.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+namespace SlipStep
+{
+  namespace
+  {
+    using json = nlohmann::ordered_json;
+
+    constexpr double degrees   = 180. / dealii::numbers::PI;
+    constexpr double mm_min    = 60.; // mm/s in mm/min
+    constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+    json slide_to_json(const SlideSummary &slide)
+    {
+      return {{"speed_mm_per_min", slide.speed * mm_min},
+              {"angle_deg", slide.angle * degrees},
+              {"length_mm", slide.length},
+              {"peak", slide.peak},
+              {"peak_displacement_mm", slide.peak_displacement},
+              {"kinetic", slide.kinetic},
+              {"r", slide.dynamic_ratio},
+              {"mu", slide.coefficient}};
+    }
+
+    /// JSON has no NaN: the library writes null, read back here.
+    double number(const json &object, const char *key)
+    {
+      const json &value = object.at(key);
+      return value.is_null() ? undefined : value.get<double>();
+    }
+
+    SlideSummary slide_from_json(const json &object)
+    {
+      SlideSummary slide;
+      slide.speed             = number(object, "speed_mm_per_min") / mm_min;
+      slide.angle             = number(object, "angle_deg") / degrees;
+      slide.length            = number(object, "length_mm");
+      slide.peak              = number(object, "peak");
+      slide.peak_displacement = number(object, "peak_displacement_mm");
+      slide.kinetic           = number(object, "kinetic");
+      slide.dynamic_ratio     = number(object, "r");
+      slide.coefficient       = number(object, "mu");
+      return slide;
+    }
+
+    json to_json(const Summary &summary)
+    {
+      json slides = json::array();
+      for (const SlideSummary &slide : summary.slides)
+        slides.push_back(slide_to_json(slide));
+
+      return {{"version", version()},
+              {"git_hash", git_hash()},
+              {"case", summary.case_name},
+              {"label", summary.label},
+              {"command", summary.command},
+              {"status", summary.status},
+              {"reason", summary.reason},
+              {"effects", summary.effects},
+              {"dimension", summary.dimension},
+              {"cells", summary.cells},
+              {"dofs", summary.dofs},
+              {"ranks", summary.ranks},
+              {"steps", summary.steps},
+              {"rejected_steps", summary.rejected_steps},
+              {"newton_iterations", summary.newton_iterations},
+              {"linear_iterations", summary.linear_iterations},
+              {"wall_s", summary.wall_time},
+              {"cpu_s", summary.cpu_time},
+              {"peak_memory_MB", summary.peak_memory},
+              {"friction",
+               {{"peak", summary.peak_friction},
+                {"at_displacement_mm", summary.peak_displacement},
+                {"final", summary.final_friction}}},
+              {"energy",
+               {{"work", summary.work},
+                {"stored", summary.stored},
+                {"dissipated", summary.dissipated},
+                {"balance_error", summary.balance_error}}},
+              {"slides", slides},
+              {"warnings", summary.warnings}};
+    }
+
+    Summary from_json(const json &object)
+    {
+      Summary summary;
+      object.at("case").get_to(summary.case_name);
+      object.at("label").get_to(summary.label);
+      object.at("command").get_to(summary.command);
+      object.at("status").get_to(summary.status);
+      object.at("reason").get_to(summary.reason);
+      object.at("effects").get_to(summary.effects);
+      object.at("dimension").get_to(summary.dimension);
+      object.at("cells").get_to(summary.cells);
+      object.at("dofs").get_to(summary.dofs);
+      object.at("ranks").get_to(summary.ranks);
+      object.at("steps").get_to(summary.steps);
+      object.at("rejected_steps").get_to(summary.rejected_steps);
+      object.at("newton_iterations").get_to(summary.newton_iterations);
+      object.at("linear_iterations").get_to(summary.linear_iterations);
+      summary.wall_time         = number(object, "wall_s");
+      summary.cpu_time          = number(object, "cpu_s");
+      summary.peak_memory       = number(object, "peak_memory_MB");
+      const json &friction      = object.at("friction");
+      summary.peak_friction     = number(friction, "peak");
+      summary.peak_displacement = number(friction, "at_displacement_mm");
+      summary.final_friction    = number(friction, "final");
+      const json &energy        = object.at("energy");
+      summary.work              = number(energy, "work");
+      summary.stored            = number(energy, "stored");
+      summary.dissipated        = number(energy, "dissipated");
+      summary.balance_error     = number(energy, "balance_error");
+      for (const json &slide : object.at("slides"))
+        summary.slides.push_back(slide_from_json(slide));
+      object.at("warnings").get_to(summary.warnings);
+      return summary;
+    }
+  } // namespace
+
+
+
+  void write_summary(const std::filesystem::path &file, const Summary &summary)
+  {
+    const std::filesystem::path temporary = file.string() + ".part";
+    {
+      std::ofstream out(temporary);
+      out << to_json(summary).dump(2,
+                                   ' ',
+                                   false,
+                                   json::error_handler_t::replace)
+          << std::endl;
+      if (!out)
+        throw RunError(temporary.string() +
+                       ": cannot be written (is the disk full?)");
+    }
+    std::filesystem::rename(temporary, file);
+  }
+
+
+
+  Summary read_summary(const std::filesystem::path &file)
+  {
+    std::ifstream in(file);
+    if (!in)
+      throw InputError(file.string() + ": this file cannot be read");
+    try
+      {
+        return from_json(json::parse(in));
+      }
+    catch (const json::exception &error)
+      {
+        throw InputError(file.string() +
+                         ": not a summary of slipstep: " + error.what());
+      }
+  }
+
+
+
+  namespace
+  {
+    /// The motion of one statement of the programme.
+    struct Motion
+    {
+      double               start_time = 0.;
+      double               end_time   = 0.;
+      dealii::Tensor<1, 2> start;
+      /// Unit vector from its first to its last position.
+      dealii::Tensor<1, 2> direction;
+      /// Mean over the path, so that rests within a followed test do not count.
+      double speed = 0.;
+    };
+
+    std::vector<Motion> motions(const Programme &programme)
+    {
+      std::vector<Motion>         result;
+      const std::vector<Segment> &all = programme.segments();
+      for (std::size_t first = 0, last = 0; first < all.size(); first = last)
+        {
+          double path = 0., speed_by_path = 0.;
+          for (;
+               last < all.size() && all[last].statement == all[first].statement;
+               ++last)
+            {
+              const double speed = all[last].end.velocity.norm();
+              const double distance =
+                speed * (all[last].end_time - all[last].start_time);
+              path += distance;
+              speed_by_path += speed * distance;
+            }
+          const auto moved =
+            all[last - 1].end.displacement - all[first].start.displacement;
+          // A test that comes back to where it began has no direction.
+          if (moved.norm() > 0.01 * path)
+            result.push_back({all[first].start_time,
+                              all[last - 1].end_time,
+                              all[first].start.displacement,
+                              moved / moved.norm(),
+                              speed_by_path / path});
+        }
+      return result;
+    }
+
+    double
+    along(const dealii::Tensor<1, 2> &direction, const double x, const double y)
+    {
+      return direction[0] * x + direction[1] * y;
+    }
+
+    /// @return false if the history holds no row of this motion
+    bool summarise(const Motion                  &motion,
+                   const std::vector<HistoryRow> &history,
+                   SlideSummary                  &slide)
+    {
+      const double tolerance = 1e-9 * (std::abs(motion.end_time) +
+                                       motion.end_time - motion.start_time);
+      slide.speed            = motion.speed;
+      // Adding zero turns -0, for which atan2 gives -pi, into +0.
+      slide.angle = std::atan2(motion.direction[1] + 0., motion.direction[0]);
+      slide.peak  = -std::numeric_limits<double>::infinity();
+
+      bool found = false;
+      for (const HistoryRow &row : history)
+        if (row.time > motion.start_time + tolerance &&
+            row.time <= motion.end_time + tolerance)
+          {
+            found = true;
+            slide.kinetic =
+              along(motion.direction, row.friction, row.friction_y);
+            slide.length        = along(motion.direction,
+                                 row.displacement - motion.start[0],
+                                 row.displacement_y - motion.start[1]);
+            slide.dynamic_ratio = row.loading_ratio.mean;
+            slide.coefficient   = row.coefficient.mean;
+            if (slide.kinetic > slide.peak)
+              {
+                slide.peak              = slide.kinetic;
+                slide.peak_displacement = slide.length;
+              }
+          }
+      return found;
+    }
+  } // namespace
+
+
+
+  void summarise_history(const std::vector<HistoryRow> &history,
+                         const Programme               &programme,
+                         Summary                       &summary)
+  {
+    summary.slides.clear();
+    if (history.empty())
+      return;
+
+    dealii::Tensor<1, 2> last_direction;
+    last_direction[0] = 1.;
+    for (const Motion &motion : motions(programme))
+      {
+        SlideSummary slide;
+        if (summarise(motion, history, slide))
+          {
+            summary.slides.push_back(slide);
+            last_direction = motion.direction;
+          }
+      }
+
+    summary.peak_friction = 0.;
+    for (const HistoryRow &row : history)
+      {
+        const double magnitude = std::hypot(row.friction, row.friction_y);
+        if (magnitude > summary.peak_friction)
+          {
+            summary.peak_friction     = magnitude;
+            summary.peak_displacement = row.displacement;
+          }
+      }
+
+    const HistoryRow &last = history.back();
+    summary.final_friction =
+      along(last_direction, last.friction, last.friction_y);
+    summary.work       = last.external_work;
+    summary.stored     = last.stored_energy;
+    summary.dissipated = last.dissipated_energy;
+
+    const double scale =
+      std::max(std::abs(summary.work),
+               std::abs(summary.stored) + std::abs(summary.dissipated));
+    const double gap      = summary.work - summary.stored - summary.dissipated;
+    summary.balance_error = scale > 0. ? std::abs(gap) / scale : 0.;
+  }
+} // namespace SlipStep

@@ -1,0 +1,149 @@
+#include <slipstep/experiment/history.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+using namespace SlipStep;
+
+namespace
+{
+  std::filesystem::path scratch_file()
+  {
+    return std::filesystem::path(testing::TempDir()) / "slipstep_history.csv";
+  }
+
+  /// A row in which every member has its own, not exactly printable value.
+  HistoryRow sample_row()
+  {
+    HistoryRow row;
+    double     value = 1. / 3.;
+    for (double *member : {&row.time,
+                           &row.displacement,
+                           &row.pressure,
+                           &row.friction,
+                           &row.displacement_y,
+                           &row.friction_y,
+                           &row.normal_load,
+                           &row.tangential_load,
+                           &row.loading_ratio.mean,
+                           &row.loading_ratio.minimum,
+                           &row.loading_ratio.maximum,
+                           &row.normal_ratio.mean,
+                           &row.normal_ratio.minimum,
+                           &row.normal_ratio.maximum,
+                           &row.coefficient.mean,
+                           &row.coefficient.minimum,
+                           &row.coefficient.maximum,
+                           &row.slip_fraction,
+                           &row.dissipated_energy,
+                           &row.stored_energy,
+                           &row.external_work,
+                           &row.step_size})
+      *member = (value *= -1.7e-3 / 0.9e-3);
+    row.newton_iterations = 3;
+    row.linear_iterations = 4000000000u;
+    return row;
+  }
+} // namespace
+
+
+
+// Users and scripts read these columns: a change here is a change for them.
+TEST(History, TheColumnsAreTheDocumentedOnes)
+{
+  HistoryWriter(scratch_file(), "schema");
+  std::ifstream in(scratch_file());
+  std::string   line;
+  while (std::getline(in, line) && line[0] == '#')
+    {}
+  EXPECT_EQ(line,
+            "time_s,displacement_mm,pressure_MPa,friction,displacement_y_mm,"
+            "friction_y,normal_load_N,tangential_load_N,r_mean,r_min,r_max,"
+            "r_s_mean,r_s_min,r_s_max,mu_mean,mu_min,mu_max,slip_fraction,"
+            "dissipated_energy_Nmm,stored_energy_Nmm,external_work_Nmm,step_s,"
+            "newton_iterations,linear_iterations");
+}
+
+
+
+TEST(History, RowsReadBackExactly)
+{
+  const HistoryRow row = sample_row();
+  HistoryWriter    writer(scratch_file(), "round trip");
+  writer.write(row);
+  writer.write(row);
+
+  const std::vector<HistoryRow> rows = read_history(scratch_file());
+  ASSERT_EQ(rows.size(), 2u);
+  const HistoryRow &back = rows[1];
+  EXPECT_EQ(back.time, row.time);
+  EXPECT_EQ(back.displacement, row.displacement);
+  EXPECT_EQ(back.pressure, row.pressure);
+  EXPECT_EQ(back.friction, row.friction);
+  EXPECT_EQ(back.displacement_y, row.displacement_y);
+  EXPECT_EQ(back.friction_y, row.friction_y);
+  EXPECT_EQ(back.normal_load, row.normal_load);
+  EXPECT_EQ(back.tangential_load, row.tangential_load);
+  EXPECT_EQ(back.loading_ratio.mean, row.loading_ratio.mean);
+  EXPECT_EQ(back.loading_ratio.minimum, row.loading_ratio.minimum);
+  EXPECT_EQ(back.loading_ratio.maximum, row.loading_ratio.maximum);
+  EXPECT_EQ(back.normal_ratio.mean, row.normal_ratio.mean);
+  EXPECT_EQ(back.coefficient.maximum, row.coefficient.maximum);
+  EXPECT_EQ(back.slip_fraction, row.slip_fraction);
+  EXPECT_EQ(back.dissipated_energy, row.dissipated_energy);
+  EXPECT_EQ(back.stored_energy, row.stored_energy);
+  EXPECT_EQ(back.external_work, row.external_work);
+  EXPECT_EQ(back.step_size, row.step_size);
+  EXPECT_EQ(back.newton_iterations, row.newton_iterations);
+  EXPECT_EQ(back.linear_iterations, row.linear_iterations);
+}
+
+
+
+TEST(History, TheFileIsCompleteAfterEveryRow)
+{
+  HistoryWriter writer(scratch_file(), "unfinished");
+  for (unsigned int n = 1; n < 4; ++n)
+    {
+      writer.write(sample_row());
+      EXPECT_EQ(read_history(scratch_file()).size(), n);
+    }
+}
+
+
+
+TEST(History, AnUndefinedRatioSurvives)
+{
+  HistoryRow row;
+  row.friction = std::nan("");
+  HistoryWriter(scratch_file(), "no contact").write(row);
+  EXPECT_TRUE(std::isnan(read_history(scratch_file())[0].friction));
+}
+
+
+
+TEST(History, AFolderThatDoesNotExistIsReported)
+{
+  EXPECT_THROW(HistoryWriter("no/such/folder/history.csv", ""), InputError);
+}
+
+
+
+TEST(History, ADamagedFileIsReported)
+{
+  HistoryWriter(scratch_file(), "damaged").write(sample_row());
+  std::ofstream(scratch_file(), std::ios::app) << "1,2,3\n";
+  try
+    {
+      read_history(scratch_file());
+      FAIL() << "a short row is accepted";
+    }
+  catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find(".csv:5:"), std::string::npos)
+        << error.what();
+    }
+}

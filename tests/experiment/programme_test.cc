@@ -1,0 +1,215 @@
+#include <slipstep/experiment/programme.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+using namespace SlipStep;
+
+namespace
+{
+  constexpr double default_speed = 2. / 60.; // mm/s
+
+  Programme parse(const std::string &text)
+  {
+    return Programme(text, default_speed, ".");
+  }
+
+  /// The message for a wrong programme, "" if it is accepted.
+  std::string message(const std::string &text)
+  {
+    try
+      {
+        parse(text);
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+
+  /// The text that begins right above the caret of a message.
+  std::string under_caret(const std::string &text)
+  {
+    const auto caret_line = text.rfind('\n');
+    const auto line       = text.rfind('\n', caret_line - 1);
+    const auto offset     = text.find('^', caret_line) - caret_line;
+    return text.substr(line + offset, caret_line - line - offset);
+  }
+} // namespace
+
+
+
+TEST(Programme, TheExampleOfTheDesignIsRead)
+{
+  const Programme programme =
+    parse("press 5.8 MPa in 1 s; hold 10 s; slide 1 mm/min for 60 mm; "
+          "hold 100 s; slide -1 mm/min for 5 mm; press 8 MPa in 1 s");
+  ASSERT_EQ(programme.segments().size(), 6u);
+  EXPECT_NEAR(programme.end_time(), 1 + 10 + 3600 + 100 + 300 + 1, 1e-9);
+  EXPECT_DOUBLE_EQ(programme.at(0.25).pressure, 0.25 * 5.8);
+  EXPECT_DOUBLE_EQ(programme.at(5.).pressure, 5.8);
+  EXPECT_DOUBLE_EQ(programme.at(5.).velocity.norm(), 0.);
+  EXPECT_NEAR(programme.at(11. + 60.).displacement[0], 1., 1e-12);
+  EXPECT_NEAR(programme.at(11. + 60.).velocity[0], 1. / 60., 1e-15);
+  EXPECT_NEAR(programme.at(3711. + 300.).displacement[0], 55., 1e-12);
+  EXPECT_NEAR(programme.at(3711. + 300.).velocity[0], -1. / 60., 1e-15);
+  EXPECT_NEAR(programme.at(programme.end_time() - 0.5).pressure, 6.9, 1e-9);
+  EXPECT_DOUBLE_EQ(programme.largest_pressure(), 8.);
+}
+
+
+
+TEST(Programme, SegmentsJoinWithoutAJump)
+{
+  const auto programme =
+    parse("slide for 1 mm; press 3 MPa in 2 s; slide 1 mm/s for 2 s at 90 deg;"
+          "press 1 MPa in 1 s; slide -1 mm/s at 45 deg for 1 mm;");
+  const auto &segments = programme.segments();
+  ASSERT_EQ(segments.size(), 5u);
+  EXPECT_EQ(segments.front().start.pressure, 0.);
+  for (std::size_t i = 1; i < segments.size(); ++i)
+    {
+      EXPECT_EQ(segments[i].start_time, segments[i - 1].end_time);
+      EXPECT_EQ(segments[i].start.pressure, segments[i - 1].end.pressure);
+      EXPECT_EQ((segments[i].start.displacement -
+                 segments[i - 1].end.displacement)
+                  .norm(),
+                0.);
+      EXPECT_EQ(segments[i].statement, i);
+    }
+  EXPECT_NEAR(segments[0].end_time, 1. / default_speed, 1e-9);
+  EXPECT_NEAR(segments[2].end.displacement[1], 2., 1e-12);
+  EXPECT_NEAR(segments[2].end.displacement[0], 1., 1e-12);
+  EXPECT_NEAR(segments[4].end.displacement[0], 1. - std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(segments[4].end.displacement[1], 2. - std::sqrt(0.5), 1e-12);
+}
+
+
+
+TEST(Programme, AtTheBorderTheEarlierVelocityHolds)
+{
+  const Programme programme = parse("slide 1 mm/s for 2 mm; hold 3 s");
+  EXPECT_DOUBLE_EQ(programme.at(2.).velocity[0], 1.);
+  EXPECT_DOUBLE_EQ(programme.at(2.).displacement[0], 2.);
+  EXPECT_DOUBLE_EQ(programme.at(2.0001).velocity[0], 0.);
+}
+
+
+
+TEST(Programme, UnitsAreConverted)
+{
+  EXPECT_NEAR(parse("slide 60 mm/min for 1 mm").end_time(), 1., 1e-12);
+  EXPECT_NEAR(parse("hold 2 min").end_time(), 120., 1e-9);
+  EXPECT_NEAR(parse("slide +1 mm/s for 1 min").at(60.).displacement[0],
+              60.,
+              1e-9);
+}
+
+
+
+TEST(Programme, TheCaretMarksTheFault)
+{
+  const std::string good = "press 5.8 MPa in 1 s; ";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+    // what is wrong, what the caret has to point at
+    {"sldie 1 mm/min for 60 mm", "sldie 1"},
+    {"jump 1 mm", "jump 1"},
+    {"slide 1 for 60 mm", " for 60"},
+    {"slide 1 parsec/s for 60 mm", "parsec/s for"},
+    {"slide 1 MPa for 60 mm", "MPa for"},
+    {"slide fast for 60 mm", "fast for"},
+    {"slide 0 mm/s for 60 mm", "0 mm/s for"},
+    {"slide 1 mm/min for -60 mm", "-60 mm"},
+    {"slide 1 mm/min for 0 mm", "0 mm"},
+    {"slide 1 mm/min for 60", ""},
+    {"slide 1 mm/min for 60 MPa", "MPa"},
+    {"slide 1 mm/min", ""},
+    {"slide 1 mm/min for 6 mm for 7 mm", "for 7"},
+    {"slide 1 mm/min in 6 s", "in 6"},
+    {"hold", ""},
+    {"hold 0 s", "0 s"},
+    {"hold 1 h at 20 deg", "at 20"},
+    {"press -1 MPa in 1 s", "-1 MPa"},
+    {"press 1 MPa within 1 s", "within 1"},
+    {"press 1 MPa", ""},
+    {"press 1 MPa in 0 s", "0 s"},
+    {"follow", ""},
+    {"follow no such file.csv", "no such file.csv"}};
+  for (const auto &[fault, expected] : cases)
+    {
+      const std::string text = message(good + fault);
+      ASSERT_NE(text, "") << fault << " is accepted";
+      EXPECT_EQ(under_caret(text).substr(0, expected.size()), expected) << text;
+      // Where nothing may follow, the caret stands behind the last word.
+      if (expected.empty())
+        {
+          EXPECT_EQ(under_caret(text), "") << text;
+        }
+    }
+}
+
+
+
+TEST(Programme, TheNearestVerbIsNamed)
+{
+  EXPECT_NE(message("sldie 1 mm/s for 1 mm").find("'slide'"),
+            std::string::npos);
+  EXPECT_NE(message("pres 1 MPa in 1 s").find("'press'"), std::string::npos);
+}
+
+
+
+TEST(Programme, LongProgrammesAreShownAroundTheFault)
+{
+  std::string text;
+  for (int i = 0; i < 40; ++i)
+    text += "hold 10 s; ";
+  const std::string shown = message(text + "hlod 1 s; " + text);
+  EXPECT_EQ(under_caret(shown).substr(0, 8), "hlod 1 s");
+  EXPECT_LT(shown.size(), 260u);
+}
+
+
+
+TEST(Programme, EmptyProgrammesAreRefused)
+{
+  EXPECT_NE(message(""), "");
+  EXPECT_NE(message(" ; ; "), "");
+}
+
+
+
+TEST(Programme, ASlideWithoutAnySpeedIsRefused)
+{
+  EXPECT_THROW(Programme("slide for 1 mm", 0., "."), InputError);
+}
+
+
+
+TEST(Programme, FollowReplaysATest)
+{
+  const auto folder =
+    std::filesystem::path(testing::TempDir()) / "slipstep_programme";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "my test for one.csv")
+    << "# name: replay\ntime_s,displacement_mm,pressure_MPa,friction\n"
+       "100,7,5,0\n101,7,5,0\n103,9,6,0.1\n";
+
+  const Programme programme(
+    "press 5 MPa in 1 s; slide 1 mm/s for 4 mm; follow my test for one.csv",
+    default_speed,
+    folder);
+  ASSERT_EQ(programme.segments().size(), 4u);
+  EXPECT_EQ(programme.segments()[3].statement, 2u);
+  EXPECT_DOUBLE_EQ(programme.end_time(), 8.);
+  EXPECT_DOUBLE_EQ(programme.at(6.).displacement[0], 4.);
+  EXPECT_DOUBLE_EQ(programme.at(7.).displacement[0], 5.);
+  EXPECT_DOUBLE_EQ(programme.at(7.).pressure, 5.5);
+  EXPECT_DOUBLE_EQ(programme.at(8.).displacement[0], 6.);
+  EXPECT_DOUBLE_EQ(programme.at(7.).velocity[0], 1.);
+}

@@ -1,0 +1,247 @@
+#include <slipstep/experiment/summary.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+using namespace SlipStep;
+
+namespace
+{
+  constexpr double pi = 3.14159265358979323846;
+
+  std::filesystem::path scratch_file()
+  {
+    return std::filesystem::path(testing::TempDir()) / "slipstep_summary.json";
+  }
+
+  /// The programme sampled @p n times per segment, with a friction which rises
+  /// to 0.12 after a tenth of each slide and falls to 0.1 at its end.
+  std::vector<HistoryRow> sampled(const Programme   &programme,
+                                  const unsigned int n)
+  {
+    std::vector<HistoryRow> history;
+    for (const Segment &segment : programme.segments())
+      for (unsigned int i = 1; i <= n; ++i)
+        {
+          const double share = double(i) / n;
+          HistoryRow   row;
+          row.time = segment.start_time +
+                     share * (segment.end_time - segment.start_time);
+          const Loading loading = programme.at(row.time);
+          const double  magnitude =
+            share < 0.1 ? 1.2 * share : 0.12 - 0.02 * (share - 0.1) / 0.9;
+          const double speed     = loading.velocity.norm();
+          const auto   friction  = speed > 0. ?
+                                     magnitude * loading.velocity / speed :
+                                     loading.velocity;
+          row.displacement       = loading.displacement[0];
+          row.displacement_y     = loading.displacement[1];
+          row.friction           = friction[0];
+          row.friction_y         = friction[1];
+          row.loading_ratio.mean = 1.25;
+          row.coefficient.mean   = 0.08;
+          row.external_work      = 10. * row.time;
+          row.stored_energy      = 1.;
+          row.dissipated_energy  = 10. * row.time - 1.1;
+          history.push_back(row);
+        }
+    return history;
+  }
+} // namespace
+
+
+
+// Scripts read these keys: a change here is a change for them.
+TEST(Summary, TheKeysAreTheDocumentedOnes)
+{
+  Summary summary;
+  summary.slides.resize(1);
+  write_summary(scratch_file(), summary);
+  std::ifstream in(scratch_file());
+  const auto    object = nlohmann::json::parse(in);
+
+  const auto has_exactly = [](const nlohmann::json          &object,
+                              const std::vector<std::string> keys) {
+    for (const auto &key : keys)
+      EXPECT_TRUE(object.contains(key)) << key;
+    EXPECT_EQ(object.size(), keys.size());
+  };
+  has_exactly(object, {"version",  "git_hash",       "case",
+                       "label",    "command",        "status",
+                       "reason",   "effects",        "dimension",
+                       "cells",    "dofs",           "ranks",
+                       "steps",    "rejected_steps", "newton_iterations",
+                       "wall_s",   "cpu_s",          "linear_iterations",
+                       "friction", "energy",         "peak_memory_MB",
+                       "slides",   "warnings"});
+  has_exactly(object["friction"], {"peak", "at_displacement_mm", "final"});
+  has_exactly(object["energy"],
+              {"work", "stored", "dissipated", "balance_error"});
+  has_exactly(object["slides"][0],
+              {"speed_mm_per_min",
+               "angle_deg",
+               "length_mm",
+               "peak",
+               "peak_displacement_mm",
+               "kinetic",
+               "r",
+               "mu"});
+}
+
+
+
+TEST(Summary, ItReadsBack)
+{
+  Summary summary;
+  summary.case_name         = "flat \"surface\"";
+  summary.label             = "10 mm/min";
+  summary.command           = "run";
+  summary.effects           = {"overstress", "softening"};
+  summary.status            = "failed";
+  summary.reason            = "the block tips over";
+  summary.dimension         = 3;
+  summary.cells             = 5000000000ull;
+  summary.dofs              = 7;
+  summary.ranks             = 4;
+  summary.steps             = 8;
+  summary.rejected_steps    = 9;
+  summary.newton_iterations = 10;
+  summary.linear_iterations = 11;
+  summary.wall_time         = 1. / 3.;
+  summary.cpu_time          = 2. / 3.;
+  summary.peak_memory       = 12.5;
+  summary.peak_friction     = 0.1 / 3.;
+  summary.peak_displacement = 0.2 / 3.;
+  summary.final_friction    = std::nan("");
+  summary.work              = 3.;
+  summary.stored            = 1.;
+  summary.dissipated        = 2.;
+  summary.balance_error     = 1e-9;
+  summary.slides            = {{1. / 60., pi, 60., 0.12, 0.3, 0.1, 1.3, 0.08}};
+  summary.warnings          = {"one", "two"};
+  write_summary(scratch_file(), summary);
+
+  const Summary back = read_summary(scratch_file());
+  EXPECT_EQ(back.case_name, summary.case_name);
+  EXPECT_EQ(back.label, summary.label);
+  EXPECT_EQ(back.command, summary.command);
+  EXPECT_EQ(back.effects, summary.effects);
+  EXPECT_EQ(back.status, summary.status);
+  EXPECT_EQ(back.reason, summary.reason);
+  EXPECT_EQ(back.dimension, summary.dimension);
+  EXPECT_EQ(back.cells, summary.cells);
+  EXPECT_EQ(back.dofs, summary.dofs);
+  EXPECT_EQ(back.ranks, summary.ranks);
+  EXPECT_EQ(back.steps, summary.steps);
+  EXPECT_EQ(back.rejected_steps, summary.rejected_steps);
+  EXPECT_EQ(back.newton_iterations, summary.newton_iterations);
+  EXPECT_EQ(back.linear_iterations, summary.linear_iterations);
+  EXPECT_EQ(back.wall_time, summary.wall_time);
+  EXPECT_EQ(back.cpu_time, summary.cpu_time);
+  EXPECT_EQ(back.peak_memory, summary.peak_memory);
+  EXPECT_EQ(back.peak_friction, summary.peak_friction);
+  EXPECT_EQ(back.peak_displacement, summary.peak_displacement);
+  EXPECT_TRUE(std::isnan(back.final_friction));
+  EXPECT_EQ(back.balance_error, summary.balance_error);
+  ASSERT_EQ(back.slides.size(), 1u);
+  EXPECT_NEAR(back.slides[0].speed, 1. / 60., 1e-17);
+  EXPECT_NEAR(back.slides[0].angle, pi, 1e-15);
+  EXPECT_EQ(back.slides[0].coefficient, 0.08);
+  EXPECT_EQ(back.warnings, summary.warnings);
+}
+
+
+
+TEST(Summary, OtherFilesAreRefused)
+{
+  EXPECT_THROW(read_summary("no_such_summary.json"), InputError);
+  std::ofstream(scratch_file()) << "{\"case\": 3}";
+  EXPECT_THROW(read_summary(scratch_file()), InputError);
+  std::ofstream(scratch_file()) << "half a fil";
+  EXPECT_THROW(read_summary(scratch_file()), InputError);
+}
+
+
+
+TEST(Summary, SlidesAreSeenAlongTheirOwnDirection)
+{
+  const Programme programme("press 1 MPa in 1 s; slide 1 mm/s for 10 mm; "
+                            "hold 5 s; slide -2 mm/s for 4 mm; "
+                            "slide 1 mm/s for 2 mm at 60 deg",
+                            0.,
+                            ".");
+  Summary         summary;
+  summarise_history(sampled(programme, 100), programme, summary);
+
+  ASSERT_EQ(summary.slides.size(), 3u);
+  const std::vector<double> speeds  = {1., 2., 1.};
+  const std::vector<double> angles  = {0., pi, pi / 3.};
+  const std::vector<double> lengths = {10., 4., 2.};
+  for (unsigned int i = 0; i < 3; ++i)
+    {
+      const SlideSummary &slide = summary.slides[i];
+      EXPECT_NEAR(slide.speed, speeds[i], 1e-12);
+      EXPECT_NEAR(slide.angle, angles[i], 1e-12);
+      EXPECT_NEAR(slide.length, lengths[i], 1e-10);
+      EXPECT_NEAR(slide.peak, 0.12, 1e-12);
+      EXPECT_NEAR(slide.peak_displacement, 0.1 * lengths[i], 1e-10);
+      EXPECT_NEAR(slide.kinetic, 0.1, 1e-12);
+      EXPECT_EQ(slide.dynamic_ratio, 1.25);
+      EXPECT_EQ(slide.coefficient, 0.08);
+    }
+  EXPECT_NEAR(summary.peak_friction, 0.12, 1e-12);
+  EXPECT_NEAR(summary.final_friction, 0.1, 1e-12);
+}
+
+
+
+TEST(Summary, TheEnergyBalanceIsRelativeToTheWork)
+{
+  const Programme programme("slide 1 mm/s for 10 mm", 0., ".");
+  Summary         summary;
+  summarise_history(sampled(programme, 10), programme, summary);
+  EXPECT_NEAR(summary.peak_displacement, 1., 1e-10);
+  EXPECT_NEAR(summary.work, 100., 1e-12);
+  EXPECT_NEAR(summary.balance_error, 0.1 / 100., 1e-12);
+}
+
+
+
+TEST(Summary, AnUnfinishedHistoryGivesTheSlidesItReached)
+{
+  const Programme programme("slide 1 mm/s for 10 mm; slide 2 mm/s for 10 mm; "
+                            "slide 3 mm/s for 10 mm",
+                            0.,
+                            ".");
+  auto            history = sampled(programme, 100);
+  history.resize(150);
+  Summary summary;
+  summarise_history(history, programme, summary);
+  ASSERT_EQ(summary.slides.size(), 2u);
+  EXPECT_NEAR(summary.slides[1].length, 5., 1e-10);
+
+  summarise_history({}, programme, summary);
+  EXPECT_TRUE(summary.slides.empty());
+}
+
+
+
+TEST(Summary, AFollowedTestIsOneSlideAtItsSpeed)
+{
+  const auto folder = std::filesystem::path(testing::TempDir());
+  std::ofstream(folder / "slipstep_followed.csv")
+    << "time_s,displacement_mm,pressure_MPa,friction\n"
+       "0,0,1,0\n5,0,1,0\n6,-3,1,0\n7,-6,1,0\n20,-6,1,0\n";
+  const Programme programme("follow slipstep_followed.csv", 0., folder);
+  Summary         summary;
+  summarise_history(sampled(programme, 10), programme, summary);
+  ASSERT_EQ(summary.slides.size(), 1u);
+  EXPECT_NEAR(summary.slides[0].speed, 3., 1e-12);
+  EXPECT_NEAR(summary.slides[0].angle, pi, 1e-12);
+  EXPECT_NEAR(summary.slides[0].length, 6., 1e-12);
+}
