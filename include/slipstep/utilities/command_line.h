@@ -1,0 +1,43 @@
+#ifndef slipstep_utilities_command_line_h
+#define slipstep_utilities_command_line_h
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace SlipStep
+{
+  /// What the user typed.
+  struct CommandLine
+  {
+    std::string                        command;
+    std::vector<std::filesystem::path> files;
+    /// Pairs (path of a parameter, value) of the options --set.
+    std::vector<std::pair<std::string, std::string>> settings;
+    /// The options --set as typed, to be handed to a child.
+    std::vector<std::string> settings_as_typed;
+    std::string              output; ///< "" = not given
+    std::string              format; ///< "" = the command's default
+    std::string              variant;
+    bool                     quiet = false;
+    /// Started by the sweep of a parent, which does the reporting.
+    bool is_child = false;
+    /// Print the help of the command ("" = of the program), do nothing else.
+    bool help    = false;
+    bool version = false;
+  };
+
+  /// @throws InputError for an unknown command or option (naming the nearest),
+  /// or a wrong number of files
+  CommandLine parse_command_line(const int argc, char **argv);
+
+  /// @param command "" for the program's help
+  void print_help(std::ostream &out, const std::string &command);
+
+  /// "slipstep 0.1.0 (1a2b3c4)".
+  std::string version_text();
+} // namespace SlipStep
+
+#endif

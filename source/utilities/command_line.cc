@@ -1,0 +1,313 @@
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/utilities/command_line.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
+
+#include <boost/program_options.hpp>
+
+#include <limits>
+
+#ifndef SLIPSTEP_VERSION
+#  define SLIPSTEP_VERSION "(version unknown)"
+#endif
+#ifndef SLIPSTEP_GIT_HASH
+#  define SLIPSTEP_GIT_HASH "unknown"
+#endif
+
+namespace SlipStep
+{
+  namespace
+  {
+    namespace po = boost::program_options;
+
+    struct Command
+    {
+      std::string              name;
+      std::string              arguments;
+      std::string              summary;
+      std::string              details;
+      unsigned int             least_files;
+      unsigned int             most_files;
+      std::vector<std::string> formats; // the first is the default
+    };
+
+
+
+    const std::vector<Command> &commands()
+    {
+      constexpr unsigned int            any  = std::numeric_limits<int>::max();
+      static const std::vector<Command> list = {
+        {"run",
+         "CASE.prm",
+         "simulate the block with finite elements",
+         "Runs the case, or all its variants side by side on the cores. On\n"
+         "several processes: mpirun -np N slipstep run CASE.prm\n",
+         1,
+         1,
+         {}},
+        {"point",
+         "CASE.prm",
+         "the same law and loading on one contact point",
+         "Like run, but without block and mesh: a matter of seconds.\n",
+         1,
+         1,
+         {}},
+        {"check",
+         "CASE.prm ...",
+         "read and cross-check cases, compute nothing",
+         "Prints one line per case; writes no file.\n",
+         1,
+         any,
+         {}},
+        {"effects",
+         "",
+         "list the effects of the friction law",
+         "With formula, parameters, units and source of each.\n",
+         0,
+         0,
+         {"text", "md"}},
+        {"parameters",
+         "",
+         "list all parameters with their defaults",
+         "As a commented .prm file to start from, for programs (json), or as\n"
+         "tables (md).\n",
+         0,
+         0,
+         {"prm", "json", "md"}},
+        {"help",
+         "[COMMAND]",
+         "explain the program or a command",
+         "",
+         0,
+         1,
+         {}}};
+      return list;
+    }
+
+
+
+    std::vector<std::string> command_names()
+    {
+      std::vector<std::string> names;
+      for (const Command &command : commands())
+        names.push_back(command.name);
+      return names;
+    }
+
+
+
+    const Command &find_command(const std::string &name)
+    {
+      for (const Command &command : commands())
+        if (command.name == name)
+          return command;
+      std::string known;
+      for (const std::string &other : command_names())
+        known += (known.empty() ? "" : ", ") + other;
+      throw InputError("unknown command \"" + name + "\"" +
+                       did_you_mean(name, command_names()) +
+                       "\n  known commands: " + known);
+    }
+
+
+
+    po::options_description visible_options()
+    {
+      po::options_description options("options");
+      // clang-format off
+      options.add_options()
+        ("set", po::value<std::vector<std::string>>()->value_name("\"PATH=VALUE\""),
+         "override a parameter, e.g. --set \"Friction/softening/Rate=0.05\"; repeatable")
+        ("output", po::value<std::string>()->value_name("DIR"),
+         "folder of the results, instead of Output/Directory")
+        ("variant", po::value<std::string>()->value_name("NAME"),
+         "only this member of the case's sweep")
+        ("format", po::value<std::string>()->value_name("NAME"),
+         "of the list: prm, json, md (parameters); text, md (effects)")
+        ("quiet", "print errors and warnings only")
+        ("help", "this text")
+        ("version", "version of the program");
+      // clang-format on
+      return options;
+    }
+
+
+
+    std::vector<std::string>
+    option_names(const po::options_description &options)
+    {
+      std::vector<std::string> names;
+      for (const auto &option : options.options())
+        names.push_back("--" + option->long_name());
+      return names;
+    }
+
+
+
+    po::variables_map parse_options(const int argc, char **argv)
+    {
+      const po::options_description visible = visible_options();
+      po::options_description       all;
+      all.add(visible);
+      all.add_options()("child", "")("words",
+                                     po::value<std::vector<std::string>>());
+      po::positional_options_description words;
+      words.add("words", -1);
+      try
+        {
+          po::variables_map values;
+          // An option must be written out: a shortened one could change its
+          // meaning with the next version.
+          po::store(po::command_line_parser(argc, argv)
+                      .options(all)
+                      .positional(words)
+                      .style(po::command_line_style::unix_style &
+                             ~po::command_line_style::allow_guessing)
+                      .run(),
+                    values);
+          po::notify(values);
+          return values;
+        }
+      catch (const po::unknown_option &error)
+        {
+          throw InputError(
+            "unknown option " + error.get_option_name() +
+            did_you_mean(error.get_option_name(), option_names(visible)));
+        }
+      catch (const po::error &error)
+        {
+          throw InputError(error.what());
+        }
+    }
+
+
+
+    std::pair<std::string, std::string> parse_setting(const std::string &text)
+    {
+      const std::size_t sign = text.find('=');
+      if (sign == std::string::npos || sign == 0)
+        throw InputError("--set " + text +
+                         ": write it as --set \"Section/Key = value\"");
+      return {dealii::Utilities::trim(text.substr(0, sign)),
+              dealii::Utilities::trim(text.substr(sign + 1))};
+    }
+
+
+
+    void check_usage(const CommandLine &line)
+    {
+      const Command &command = find_command(line.command);
+      const auto     usage   = [&]() {
+        return "; usage: slipstep " + command.name +
+               (command.arguments.empty() ? "" : " " + command.arguments);
+      };
+      if (line.files.size() < command.least_files)
+        throw InputError("slipstep " + command.name +
+                         ": the name of a .prm file is missing" + usage());
+      if (line.files.size() > command.most_files)
+        throw InputError("slipstep " + command.name + ": \"" +
+                         line.files[command.most_files].string() +
+                         "\" is one argument too many" + usage());
+      if (line.format.empty())
+        return;
+      std::string known;
+      for (const std::string &format : command.formats)
+        {
+          if (format == line.format)
+            return;
+          known += (known.empty() ? "" : ", ") + format;
+        }
+      throw InputError("--format " + line.format + ": " +
+                       (known.empty() ?
+                          "slipstep " + command.name + " has no formats" :
+                          "allowed is one of: " + known));
+    }
+  } // namespace
+
+
+
+  CommandLine parse_command_line(const int argc, char **argv)
+  {
+    const po::variables_map values = parse_options(argc, argv);
+    CommandLine             line;
+    const auto              text = [&values](const std::string &name) {
+      return values.count(name) ? values[name].as<std::string>() : "";
+    };
+    const auto list = [&values](const std::string &name) {
+      return values.count(name) ? values[name].as<std::vector<std::string>>() :
+                                  std::vector<std::string>();
+    };
+    line.output            = text("output");
+    line.format            = text("format");
+    line.variant           = text("variant");
+    line.quiet             = values.count("quiet") > 0;
+    line.is_child          = values.count("child") > 0;
+    line.version           = values.count("version") > 0;
+    line.help              = values.count("help") > 0;
+    line.settings_as_typed = list("set");
+    for (const std::string &setting : line.settings_as_typed)
+      line.settings.push_back(parse_setting(setting));
+    if (values.count("output") && line.output.empty())
+      throw InputError("--output: the name of a folder is needed");
+
+    const std::vector<std::string> words = list("words");
+    if (!words.empty())
+      line.command = words.front();
+    if (line.version)
+      return line;
+    if (line.command == "help")
+      {
+        line.help    = true;
+        line.command = words.size() > 1 ? words[1] : "";
+      }
+    if (line.command.empty() && !line.help)
+      throw InputError("a command is missing; \"slipstep help\" lists them");
+    if (!line.command.empty())
+      find_command(line.command);
+    if (line.help)
+      return line;
+
+    line.files.assign(words.begin() + 1, words.end());
+    check_usage(line);
+    return line;
+  }
+
+
+
+  void print_help(std::ostream &out, const std::string &name)
+  {
+    if (name.empty())
+      {
+        out
+          << "slipstep: rate-dependent friction of a sliding elastic block\n\n"
+          << "usage: slipstep COMMAND [CASE.prm] [options]\n\ncommands:\n";
+        for (const Command &command : commands())
+          {
+            const std::string left = command.name + " " + command.arguments;
+            out << "  " << left
+                << std::string(left.size() < 24 ? 24 - left.size() : 1, ' ')
+                << command.summary << '\n';
+          }
+      }
+    else
+      {
+        const Command &command = find_command(name);
+        out << "slipstep " << name << ": " << command.summary << "\n\n"
+            << "usage: slipstep " << name
+            << (command.arguments.empty() ? "" : " ") << command.arguments
+            << " [options]\n\n"
+            << command.details;
+      }
+    out << '\n'
+        << visible_options()
+        << "\nExit code: 0 done, 1 the run failed, 2 the input is wrong.\n";
+  }
+
+
+
+  std::string version_text()
+  {
+    return "slipstep " SLIPSTEP_VERSION " (" SLIPSTEP_GIT_HASH ")";
+  }
+} // namespace SlipStep
