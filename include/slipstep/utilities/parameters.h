@@ -125,6 +125,9 @@ namespace SlipStep
                const std::string &value,
                const std::string &origin) const;
 
+    /// Everything known of one parameter.
+    const Entry &entry(const std::string &path) const;
+
     /// All declared paths that begin with @p prefix, in declared order.
     std::vector<std::string> paths(const std::string &prefix = "") const;
 
@@ -157,8 +160,6 @@ namespace SlipStep
                const std::set<std::string> &omitted_sections = {}) const;
 
   private:
-    const Entry &entry(const std::string &path) const;
-
     std::vector<Entry>                 entries;
     std::map<std::string, std::size_t> index_of_path;
     std::filesystem::path              file_read;
