@@ -3,17 +3,11 @@
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/version.h>
 
 #include <boost/program_options.hpp>
 
 #include <limits>
-
-#ifndef SLIPSTEP_VERSION
-#  define SLIPSTEP_VERSION "(version unknown)"
-#endif
-#ifndef SLIPSTEP_GIT_HASH
-#  define SLIPSTEP_GIT_HASH "unknown"
-#endif
 
 namespace SlipStep
 {
@@ -308,6 +302,6 @@ namespace SlipStep
 
   std::string version_text()
   {
-    return "slipstep " SLIPSTEP_VERSION " (" SLIPSTEP_GIT_HASH ")";
+    return std::string("slipstep ") + version() + " (" + git_hash() + ")";
   }
 } // namespace SlipStep

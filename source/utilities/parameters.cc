@@ -268,13 +268,20 @@ namespace SlipStep
 
 
 
+  std::string Parameters::origin(const std::string &path) const
+  {
+    const Entry &found = entry(path);
+    if (found.layer > 0)
+      return introduction(found.origin) + path;
+    return (file_read.empty() ? "" : file_read.string() + ": ") + path;
+  }
+
+
+
   void Parameters::reject(const std::string &path, const std::string &why) const
   {
-    const Entry      &found = entry(path);
-    const std::string place = found.layer > 0   ? introduction(found.origin) :
-                              file_read.empty() ? "" :
-                                                  file_read.string() + ": ";
-    throw InputError(place + path + " =" + (found.value.empty() ? "" : " ") +
+    const Entry &found = entry(path);
+    throw InputError(origin(path) + " =" + (found.value.empty() ? "" : " ") +
                      found.value + (found.layer > 0 ? "" : " (the default)") +
                      ": " + why);
   }

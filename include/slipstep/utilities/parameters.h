@@ -131,6 +131,11 @@ namespace SlipStep
     /// All declared paths that begin with @p prefix, in declared order.
     std::vector<std::string> paths(const std::string &prefix = "") const;
 
+    /// Where a value was given, as messages begin: "file:line: key" or
+    /// "--set key".
+    std::string
+    origin(const std::string &path) const;
+
     /// Report a wrong value: throws InputError
     /// "file:line: key = value: why" (or "--set key = value: why").
     [[noreturn]] void reject(const std::string &path,
