@@ -6,8 +6,7 @@
 
 #include <cstring>
 
-int
-main(int argc, char **argv)
+int main(int argc, char **argv)
 {
   // Listing the tests needs no MPI, and starting it costs half a second.
   for (int i = 1; i < argc; ++i)

@@ -4,16 +4,14 @@
 
 namespace SlipStep
 {
-  const char *
-  version()
+  const char *version()
   {
     return SLIPSTEP_VERSION;
   }
 
 
 
-  const char *
-  git_hash()
+  const char *git_hash()
   {
     return SLIPSTEP_GIT_HASH;
   }

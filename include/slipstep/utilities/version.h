@@ -4,13 +4,11 @@
 namespace SlipStep
 {
   /// Version of the program, `major.minor.patch`.
-  const char *
-  version();
+  const char *version();
 
   /// Abbreviated hash of the commit the program was built from, with `-dirty`
   /// appended when files differed from it, or `unknown` outside a git checkout.
-  const char *
-  git_hash();
+  const char *git_hash();
 } // namespace SlipStep
 
 #endif
