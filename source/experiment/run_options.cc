@@ -94,4 +94,13 @@ namespace SlipStep
       throw InputError(folder.string() +
                        ": the folder cannot be created: " + error.message());
   }
+
+
+
+  void remove_earlier_results(const fs::path &folder)
+  {
+    std::error_code error;
+    for (const char *name : {"history.csv", "summary.json", "report.html"})
+      fs::remove(folder / name, error);
+  }
 } // namespace SlipStep

@@ -39,6 +39,10 @@ namespace SlipStep
   /// Create the folder with its parents.
   /// @throws InputError if that fails
   void create_output_folder(const std::filesystem::path &folder);
+
+  /// Remove the history, summary and report of an earlier run, so that a run
+  /// that fails early does not seem to have written them.
+  void remove_earlier_results(const std::filesystem::path &folder);
 } // namespace SlipStep
 
 #endif
