@@ -18,24 +18,25 @@ namespace SlipStep
   };
 
   /// Declares section "Report": what the results are compared with.
-  void
-  declare_report_parameters(Parameters &parameters);
+  void declare_report_parameters(Parameters &parameters);
+
+  /// Check what section "Report" says, before a run is started.
+  /// @throws InputError for a formula or a speed that cannot be read
+  void check_report_parameters(const Parameters &parameters);
 
   /// Write report.html (self-contained, pictures inside as SVG made by gnuplot)
   /// and the data and gnuplot scripts behind each picture into
   /// `<folder>/report/`. Without gnuplot the data and scripts are still written
   /// and a warning is returned.
   /// @return warnings for the user
-  std::vector<std::string>
-  write_report(const std::filesystem::path &   folder,
-               const Parameters &              parameters,
-               const std::vector<ReportedRun> &runs);
+  std::vector<std::string> write_report(const std::filesystem::path &folder,
+                                        const Parameters            &parameters,
+                                        const std::vector<ReportedRun> &runs);
 
   /// The table printed at the end: one row per slide and run: speed, peak,
   /// kinetic coefficient, reference, difference in %.
-  std::string
-  result_table(const Parameters &              parameters,
-               const std::vector<ReportedRun> &runs);
+  std::string result_table(const Parameters               &parameters,
+                           const std::vector<ReportedRun> &runs);
 } // namespace SlipStep
 
 #endif

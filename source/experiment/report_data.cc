@@ -1,0 +1,275 @@
+#include <slipstep/experiment/report_data.h>
+
+#include <slipstep/utilities/units.h>
+
+#include <deal.II/base/function_parser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace SlipStep
+{
+  namespace
+  {
+    constexpr double mm_min = 60.; // mm/s in mm/min
+
+    const std::vector<std::string> face_columns = {"x_mm",
+                                                   "y_mm",
+                                                   "cell_size_x_mm",
+                                                   "cell_size_y_mm",
+                                                   "pressure_MPa",
+                                                   "slip_mm"};
+
+    /// A bare number is in mm/min, as in the formula.
+    double read_speed(const std::string &text)
+    {
+      const bool has_unit = text.find_first_of("/") != std::string::npos;
+      return parse_quantity(has_unit ? text : text + " mm/min",
+                            Dimension::speed,
+                            true);
+    }
+
+    double evaluate(const dealii::FunctionParser<1> &formula,
+                    const double                     speed)
+    {
+      return formula.value(dealii::Point<1>(speed * mm_min));
+    }
+  } // namespace
+
+
+
+  std::vector<RunResults> load_runs(const std::vector<ReportedRun> &runs,
+                                    std::vector<std::string>       &warnings)
+  {
+    std::vector<RunResults> results;
+    for (const ReportedRun &run : runs)
+      try
+        {
+          RunResults result;
+          result.label    = run.label;
+          result.folder   = run.folder;
+          result.summary  = read_summary(run.folder / "summary.json");
+          result.history  = read_history(run.folder / "history.csv");
+          const auto face = run.folder / "contact_face.csv";
+          if (std::filesystem::exists(face))
+            result.contact_face.emplace(face, face_columns);
+          results.push_back(std::move(result));
+        }
+      catch (const InputError &error)
+        {
+          warnings.push_back("run '" + run.label +
+                             "' is not in the report: " + error.what());
+        }
+    return results;
+  }
+
+
+
+  Reference::Reference(const Parameters &parameters)
+    : reference_name(parameters.text("Report/Reference name"))
+    , quasi_static(
+        parameters.number("Report/Reference quasi-static coefficient"))
+  {
+    for (const std::string &text : parameters.list("Report/Reference speeds"))
+      try
+        {
+          speed_list.push_back(read_speed(text));
+          if (!(speed_list.back() > 0.))
+            throw InputError("'" + text + "' is not above zero");
+        }
+      catch (const InputError &error)
+        {
+          parameters.reject("Report/Reference speeds", error.what());
+        }
+
+    const std::string key  = "Report/Reference kinetic coefficient";
+    const std::string text = parameters.text(key);
+    if (text.empty())
+      return;
+    formula        = std::make_shared<dealii::FunctionParser<1>>();
+    bool is_number = false;
+    try
+      {
+        // Parsing happens at the first evaluation.
+        formula->initialize("V", text, std::map<std::string, double>());
+        is_number = std::isfinite(evaluate(*formula, 1. / mm_min));
+      }
+    catch (const std::exception &)
+      {}
+    if (!is_number)
+      parameters.reject(key,
+                        "not a formula of the speed V in mm/min that can be "
+                        "evaluated at V = 1, e.g. 0.0042*log(V) + 0.1");
+  }
+
+
+
+  bool Reference::exists() const
+  {
+    return formula != nullptr;
+  }
+
+
+
+  double Reference::kinetic(const double speed) const
+  {
+    return exists() ? evaluate(*formula, speed) :
+                      std::numeric_limits<double>::quiet_NaN();
+  }
+
+
+
+  double Reference::dynamic_ratio(const double speed) const
+  {
+    return quasi_static > 0. && exists() ? kinetic(speed) / quasi_static : 0.;
+  }
+
+
+
+  const std::vector<double> &Reference::speeds() const
+  {
+    return speed_list;
+  }
+
+
+
+  const std::string &Reference::name() const
+  {
+    return reference_name;
+  }
+
+
+
+  std::vector<ResultRow> result_rows(const std::vector<RunResults> &runs,
+                                     const Reference               &reference)
+  {
+    std::vector<ResultRow> rows;
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      for (const SlideSummary &slide : runs[i].summary.slides)
+        {
+          ResultRow row;
+          row.label      = runs[i].label;
+          row.run        = i;
+          row.slide      = slide;
+          row.drop       = 100. * (1. - slide.kinetic / slide.peak);
+          row.reference  = reference.kinetic(slide.speed);
+          row.difference = 100. * (slide.kinetic / row.reference - 1.);
+          rows.push_back(row);
+        }
+    return rows;
+  }
+
+
+
+  namespace
+  {
+    std::string comparison(const double lowest, const double highest)
+    {
+      if (lowest == highest)
+        return fixed_text(std::abs(lowest), 1) + " % " +
+               (lowest < 0. ? "below " : "above ");
+      return "within " +
+             fixed_text(std::max(std::abs(lowest), std::abs(highest)), 1) +
+             " % of ";
+    }
+
+    std::string one_slide(const ResultRow &row, const Reference &reference)
+    {
+      std::string text =
+        "At " + speed_text(row.slide.speed) + ", friction peaks at " +
+        fixed_text(row.slide.peak, 4) + " after " +
+        short_text(row.slide.peak_displacement, 2) + " mm and settles at " +
+        fixed_text(row.slide.kinetic, 4) + ", " + fixed_text(row.drop, 1) +
+        " % lower";
+      if (reference.exists())
+        text += "; that is " + comparison(row.difference, row.difference) +
+                reference.name();
+      return text + ".";
+    }
+  } // namespace
+
+
+
+  std::string headline(const std::vector<ResultRow> &rows,
+                       const Reference              &reference)
+  {
+    if (rows.empty())
+      return "No slide has been reached.";
+    if (rows.size() == 1)
+      return one_slide(rows[0], reference);
+
+    const auto extremes = [&rows](const auto &value) {
+      return std::minmax_element(rows.begin(),
+                                 rows.end(),
+                                 [&](const ResultRow &a, const ResultRow &b) {
+                                   return value(a) < value(b);
+                                 });
+    };
+    const auto kinetic = [](const ResultRow &row) { return row.slide.kinetic; };
+    const auto speeds =
+      extremes([](const ResultRow &row) { return row.slide.speed; });
+    const auto by_kinetic = extremes(kinetic);
+
+    const bool is_speed_sweep =
+      speeds.second->slide.speed > 1.001 * speeds.first->slide.speed;
+    const auto first = is_speed_sweep ? speeds.first : by_kinetic.first;
+    const auto last  = is_speed_sweep ? speeds.second : by_kinetic.second;
+    const auto name  = [&](const ResultRow &row) {
+      return is_speed_sweep || row.label.empty() ? speed_text(row.slide.speed) :
+                                                    row.label;
+    };
+    std::string text = std::string("Kinetic friction ") +
+                       (!is_speed_sweep                   ? "ranges" :
+                        kinetic(*last) >= kinetic(*first) ? "rises" :
+                                                            "falls") +
+                       " from " + fixed_text(kinetic(*first), 4) + " at " +
+                       name(*first) + " to " + fixed_text(kinetic(*last), 4) +
+                       " at " + name(*last);
+
+    const auto difference =
+      extremes([](const ResultRow &row) { return row.difference; });
+    if (reference.exists())
+      text += ", " +
+              comparison(difference.first->difference,
+                         difference.second->difference) +
+              reference.name();
+
+    const auto drop = extremes([](const ResultRow &row) { return row.drop; });
+    const std::string lowest  = fixed_text(drop.first->drop, 1);
+    const std::string highest = fixed_text(drop.second->drop, 1);
+    return text + "; it is " +
+           (lowest == highest ? lowest : lowest + " to " + highest) +
+           " % lower than its peak.";
+  }
+
+
+
+  std::string fixed_text(const double value, const int decimals)
+  {
+    if (!std::isfinite(value))
+      return "–";
+    char buffer[64];
+    std::snprintf(buffer, sizeof(buffer), "%.*f", decimals, value);
+    return buffer;
+  }
+
+
+
+  std::string short_text(const double value, const int significant)
+  {
+    if (!std::isfinite(value))
+      return "–";
+    char buffer[64];
+    std::snprintf(buffer, sizeof(buffer), "%.*g", significant, value);
+    return buffer;
+  }
+
+
+
+  std::string speed_text(const double speed)
+  {
+    return short_text(speed * mm_min) + " mm/min";
+  }
+} // namespace SlipStep
