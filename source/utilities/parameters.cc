@@ -31,6 +31,13 @@ namespace SlipStep
 
 
 
+    std::string place(const std::string &origin)
+    {
+      return origin.empty() ? "" : origin + ": ";
+    }
+
+
+
     // A deep path is compared as a whole and, within its section or with the
     // same last name elsewhere, by its parts.
     std::string nearest_path(const std::string              &path,
@@ -107,10 +114,9 @@ namespace SlipStep
     if (index_of_path.count(path) != 0)
       return;
     if (!paths(path + "/").empty())
-      throw InputError(introduction(origin) + path +
-                       " is a section, not a key");
+      throw InputError(place(origin) + path + " is a section, not a key");
     const std::string nearest = nearest_path(path, paths());
-    throw InputError(introduction(origin) + "unknown key " + path +
+    throw InputError(place(origin) + "unknown key " + path +
                      (nearest.empty() ?
                         "; \"slipstep parameters\" lists the known ones" :
                         "; did you mean " + nearest + "?"));
@@ -134,7 +140,7 @@ namespace SlipStep
             sections.push_back(section);
         }
     const std::string nearest = nearest_path(path, sections);
-    throw InputError(introduction(origin) + "unknown section " + path +
+    throw InputError(place(origin) + "unknown section " + path +
                      (nearest.empty() ?
                         "; \"slipstep parameters\" lists the known ones" :
                         "; did you mean " + nearest + "?"));

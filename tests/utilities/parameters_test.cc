@@ -1,0 +1,405 @@
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/parameters.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace SlipStep;
+
+namespace
+{
+  namespace Patterns = dealii::Patterns;
+
+  Parameters declared()
+  {
+    Parameters p;
+    p.declare("Title", "none", Patterns::Anything(), "A text.");
+    p.declare("Friction/Effects",
+              "subloading, softening",
+              Patterns::MultipleSelection("subloading|softening|healing"),
+              "What acts.");
+    p.declare("Friction/softening/Rate",
+              "0.045",
+              Quantity(Dimension::per_length, 0.),
+              "How fast it softens.");
+    p.declare("Friction/healing/Rate",
+              "0",
+              Quantity(Dimension::per_time, 0.),
+              "How fast it heals.");
+    p.declare("Loading/Speed",
+              "1 mm/min",
+              Quantity(Dimension::speed, 0.),
+              "Of the drive.");
+    p.declare("Block/Degree", "1", Patterns::Integer(1, 2), "Of elements.");
+    p.declare("Block/Form", "box", Patterns::Selection("box|wedge"), "Shape.");
+    p.declare("Block/Ratio", "0.5", Patterns::Double(0., 0.5), "A number.");
+    p.declare("Block/Curved", "false", Patterns::Bool(), "A switch.");
+    p.declare("Block/Size",
+              "10, 20 mm",
+              Patterns::List(Quantity(Dimension::length, 0.), 2, 3),
+              "Edges.");
+    return p;
+  }
+
+
+
+  class ParametersTest : public testing::Test
+  {
+  protected:
+    void SetUp() override
+    {
+      const auto *info = testing::UnitTest::GetInstance()->current_test_info();
+      folder           = std::filesystem::temp_directory_path() /
+               ("slipstep_parameters_" + std::string(info->name()) + "_" +
+                std::to_string(getpid()));
+      std::filesystem::create_directories(folder);
+    }
+
+    void TearDown() override
+    {
+      std::filesystem::remove_all(folder);
+    }
+
+    std::filesystem::path write(const std::string &name,
+                                const std::string &text) const
+    {
+      std::ofstream(folder / name) << text;
+      return folder / name;
+    }
+
+    Parameters read(const std::string &text) const
+    {
+      Parameters p = declared();
+      p.read(write("case.prm", text));
+      return p;
+    }
+
+    // The message, with the folder cut out.
+    std::string error_of(const std::string &text) const
+    {
+      try
+        {
+          read(text);
+        }
+      catch (const InputError &error)
+        {
+          std::string message = error.what();
+          for (std::size_t at;
+               (at = message.find(folder.string() + "/")) != std::string::npos;)
+            message.erase(at, folder.string().size() + 1);
+          return message;
+        }
+      return "";
+    }
+
+    std::filesystem::path folder;
+  };
+
+
+
+  // ADD_FAILURE with both texts, which EXPECT_TRUE would not show.
+  void expect_contains(const std::string &text, const std::string &part)
+  {
+    EXPECT_NE(text.find(part), std::string::npos)
+      << "  \"" << part << "\" is not in\n  \"" << text << "\"";
+  }
+} // namespace
+
+
+
+TEST_F(ParametersTest, ReadsValuesCommentsAndContinuedLines)
+{
+  const Parameters p = read("# a comment\n"
+                            "set Title = one \\\n"
+                            "   # in between\n"
+                            "   two = three   # behind\n"
+                            "subsection Friction\n"
+                            "  subsection softening\n"
+                            "    set Rate=0.1 1/m\n"
+                            "  end\n"
+                            "end\n"
+                            "set Loading/Speed = 60 mm/min\n"
+                            "set Block/Degree = 2\n"
+                            "set Block/Curved = true\r\n");
+  EXPECT_EQ(p.text("Title"), "one two = three");
+  EXPECT_DOUBLE_EQ(p.number("Friction/softening/Rate"), 1e-4);
+  EXPECT_EQ(p.number("Loading/Speed"), 1.);
+  EXPECT_EQ(p.integer("Block/Degree"), 2);
+  EXPECT_EQ(p.number("Block/Degree"), 2.);
+  EXPECT_TRUE(p.boolean("Block/Curved"));
+  EXPECT_EQ(p.list("Friction/Effects"),
+            (std::vector<std::string>{"subloading", "softening"}));
+  EXPECT_TRUE(p.is_set("Title"));
+  EXPECT_FALSE(p.is_set("Block/Form"));
+  EXPECT_EQ(p.layer("Block/Form"), 0u);
+  EXPECT_EQ(p.layer("Title"), 1u);
+  EXPECT_EQ(p.resolve("measured/a.csv"), folder / "measured/a.csv");
+}
+
+
+
+TEST_F(ParametersTest, AFileOverridesWhatItIncludes)
+{
+  std::filesystem::create_directories(folder / "common");
+  write("common/inner.prm", "set Title = inner\nset Block/Degree = 2\n");
+  write("common/base.prm", "include inner.prm\nset Title = base\n");
+  const Parameters p =
+    read("include common/base.prm\nset Loading/Speed = 2 mm/s\n");
+  EXPECT_EQ(p.text("Title"), "base");
+  EXPECT_EQ(p.integer("Block/Degree"), 2);
+  EXPECT_LT(p.layer("Block/Degree"), p.layer("Title"));
+  EXPECT_LT(p.layer("Title"), p.layer("Loading/Speed"));
+  expect_contains(p.origin("Block/Degree"), "inner.prm:2: Block/Degree");
+}
+
+
+
+TEST_F(ParametersTest, UnknownNamesComeWithTheNearest)
+{
+  EXPECT_EQ(error_of("set Titel = x\n"),
+            "case.prm:1: unknown key Titel; did you mean Title?");
+  EXPECT_EQ(error_of("subsection Friction\n  subsection softening\n"
+                     "    set rte = 1\n  end\nend\n"),
+            "case.prm:3: unknown key Friction/softening/rte; did you mean "
+            "Friction/softening/Rate?");
+  EXPECT_EQ(error_of("subsection Block\n  set Speed = 1\nend\n"),
+            "case.prm:2: unknown key Block/Speed; did you mean "
+            "Loading/Speed?");
+  EXPECT_EQ(error_of("\nsubsection Frction\nend\n"),
+            "case.prm:2: unknown section Frction; did you mean Friction?");
+  expect_contains(error_of("set Xyzzyplugh = 1\n"), "slipstep parameters");
+  expect_contains(error_of("set Friction/softening = 1\n"),
+                  "is a section, not a key");
+}
+
+
+
+TEST_F(ParametersTest, WrongValuesSayWhatIsAllowed)
+{
+  EXPECT_EQ(error_of("set Block/Degree = 7\n"),
+            "case.prm:1: Block/Degree = 7: allowed is a whole number from 1 "
+            "to 2");
+  EXPECT_EQ(error_of("set Block/Ratio = much\n"),
+            "case.prm:1: Block/Ratio = much: allowed is a number from 0 to "
+            "0.5");
+  EXPECT_EQ(error_of("set Block/Form = wege\n"),
+            "case.prm:1: Block/Form = wege: \"wege\" is not known; did you "
+            "mean wedge? allowed is one of: box, wedge");
+  EXPECT_EQ(error_of("set Block/Curved = perhaps\n"),
+            "case.prm:1: Block/Curved = perhaps: allowed is true or false");
+  expect_contains(error_of("set Friction/Effects = subloading, heling\n"),
+                  "\"heling\" is not known; did you mean healing?");
+  expect_contains(error_of("set Loading/Speed = -1 mm/s\n"),
+                  "out of range; allowed is a speed");
+  expect_contains(error_of("set Loading/Speed = 1 mm/sec\n"),
+                  "nearest is mm/s");
+  expect_contains(error_of("set Block/Size = 1, 2 kg\n"), "\"2 kg\": ");
+  expect_contains(error_of("set Block/Size = 1\n"), "a list of 2 to 3");
+  expect_contains(error_of("set Block/Degree =\n"), "Block/Degree = : ");
+}
+
+
+
+TEST_F(ParametersTest, BrokenFilesAreRefused)
+{
+  EXPECT_EQ(error_of("set Title = a\n\nset Title = b\n"),
+            "case.prm:3: Title is given twice, first in line 1");
+  // Also when written in two ways.
+  expect_contains(error_of("subsection Block\nset Degree = 1\nend\n"
+                           "set Block/Degree = 2\n"),
+                  "case.prm:4: Block/Degree is given twice, first in line 2");
+  EXPECT_EQ(error_of("subsection Block\n"),
+            "case.prm:1: subsection Block is never closed by an \"end\"");
+  expect_contains(error_of("subsection Block\nend\nend\n"), "case.prm:3: ");
+  expect_contains(error_of("subsektion Block\n"), "did you mean subsection?");
+  expect_contains(error_of("set Title\n"), "case.prm:1: \"set Title\" is not");
+  expect_contains(error_of("set Title = a \\\n"), "the file ends after a \\");
+  expect_contains(error_of("include nowhere.prm\n"),
+                  "case.prm:1: include nowhere.prm: no such file");
+  expect_contains(error_of("include case.prm\n"), "circle of includes");
+  write("other.prm", "set Title = other\n");
+  expect_contains(error_of("set Title = own\ninclude other.prm\n"),
+                  "move the include up");
+  expect_contains(error_of("subsection Block\ninclude other.prm\nend\n"),
+                  "outside of subsections");
+}
+
+
+
+TEST_F(ParametersTest, OnlyPrmFilesAreRead)
+{
+  Parameters p = declared();
+  for (const auto &file : {write("case.txt", "set Title = a\n"),
+                           write("nul.prm", std::string("set\0x\n", 6)),
+                           folder,
+                           folder / "nowhere.prm"})
+    EXPECT_THROW(p.read(file), InputError) << file;
+}
+
+
+
+TEST_F(ParametersTest, SetOverridesAndNamesItsOrigin)
+{
+  Parameters p = read("set Title = file\n");
+  p.set("Title", " option ", "--set");
+  EXPECT_EQ(p.text("Title"), "option");
+  EXPECT_GT(p.layer("Title"), 1u);
+  const auto message = [&p](const auto &action) -> std::string {
+    try
+      {
+        action();
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "";
+  };
+  EXPECT_EQ(message([&] { p.set("Titel", "x", "--set"); }),
+            "--set: unknown key Titel; did you mean Title?");
+  expect_contains(message([&] { p.set("Block/Degree", "3", "--set"); }),
+                  "--set Block/Degree = 3: allowed is");
+  EXPECT_EQ(message([&] { p.reject("Title", "too short"); }),
+            "--set Title = option: too short");
+  expect_contains(message([&] { p.reject("Block/Form", "no"); }),
+                  "Block/Form = box (the default): no");
+}
+
+
+
+TEST_F(ParametersTest, ASweepHasAVariantPerValue)
+{
+  const Parameters p = read("subsection Sweep\n  set Key = Loading/Speed\n"
+                            "  set Values = 1 mm/min, 10 mm/min\nend\n");
+  ASSERT_EQ(p.variants().size(), 2u);
+  EXPECT_EQ(p.variants()[1].label, "10 mm/min");
+  EXPECT_EQ(p.variants()[1].folder, "10_mm-min");
+  const Parameters variant = p.with_variant(p.variants()[1]);
+  EXPECT_DOUBLE_EQ(variant.number("Loading/Speed"), 1. / 6.);
+  EXPECT_TRUE(variant.variants().empty());
+  expect_contains(variant.origin("Loading/Speed"), "case.prm:3: ");
+
+  // A value with a comma needs semicolons; a bare number gets its key's name.
+  const Parameters lists = read("subsection Sweep\n  set Key = Block/Size\n"
+                                "  set Values = 1, 2; 3, 4\nend\n");
+  ASSERT_EQ(lists.variants().size(), 2u);
+  EXPECT_EQ(lists.variants()[0].overrides[0].value, "1, 2");
+  const Parameters bare = read("subsection Sweep\n  set Key = Block/Degree\n"
+                               "  set Values = 1, 2\nend\n");
+  EXPECT_EQ(bare.variants()[0].folder, "Degree_1");
+}
+
+
+
+TEST_F(ParametersTest, VariantsNameTheirKeys)
+{
+  const std::string text = "subsection Variants\n"
+                           "  subsection ../slow & soft\n"
+                           "    set Loading/Speed = 1 mm/h\n"
+                           "    subsection Friction\n"
+                           "      set softening/Rate = 2\n"
+                           "    end\n"
+                           "  end\n"
+                           "  subsection report\n"
+                           "    set Block/Degree = 2\n"
+                           "  end\n"
+                           "end\n";
+  const Parameters  p    = read(text);
+  ASSERT_EQ(p.variants().size(), 2u);
+  EXPECT_EQ(p.variants()[0].overrides[1].path, "Friction/softening/Rate");
+  // Nothing leaves the output folder or hits the report's own.
+  EXPECT_EQ(p.variants()[0].folder, "_..-slow_soft");
+  EXPECT_NE(p.variants()[1].folder, "report");
+
+  // An including file can undo the sweep.
+  write("sweep.prm", text);
+  EXPECT_EQ(read("include sweep.prm\n").variants().size(), 2u);
+  EXPECT_TRUE(
+    read("include sweep.prm\nsubsection Variants\nend\n").variants().empty());
+}
+
+
+
+TEST_F(ParametersTest, SettingTheSweptKeyEndsTheSweep)
+{
+  Parameters p = read("subsection Sweep\n  set Key = Loading/Speed\n"
+                      "  set Values = 1 mm/min, 10 mm/min\nend\n");
+  p.set("Title", "x", "--set");
+  EXPECT_EQ(p.variants().size(), 2u);
+  p.set("Loading/Speed", "5 mm/min", "--set");
+  EXPECT_TRUE(p.variants().empty());
+}
+
+
+
+TEST_F(ParametersTest, WrongSweepsAreRefused)
+{
+  const auto sweep = [this](const std::string &lines) {
+    return error_of("subsection Sweep\n" + lines + "end\n");
+  };
+  expect_contains(sweep("set Key = Loading/Sped\nset Values = 1\n"),
+                  "case.prm:2: unknown key Loading/Sped; did you mean "
+                  "Loading/Speed?");
+  expect_contains(sweep("set Key = Block/Degree\nset Values = 1, 5\n"),
+                  "case.prm:3: Block/Degree = 5: allowed is");
+  expect_contains(sweep("set Key = Block/Degree\n"), "needs both");
+  expect_contains(sweep("set Key = Block/Degree\nset Values = 1, 1\n"),
+                  "case.prm:3: the variant \"Degree 1\" is given twice");
+  expect_contains(sweep("set Kay = Block/Degree\n"), "did you mean Key?");
+  expect_contains(error_of("subsection Variants\nsubsection a\nend\n"
+                           "subsection a\nend\nend\n"),
+                  "case.prm:4: the variant \"a\" is given twice");
+  expect_contains(error_of("subsection Variants\nsubsection a\n"
+                           "set Block/Degre = 1\nend\nend\n"),
+                  "case.prm:3: unknown key Block/Degre; did you mean");
+  expect_contains(error_of("subsection Variants\nend\nsubsection Sweep\nend\n"),
+                  "case.prm:3: both Variants and Sweep");
+}
+
+
+
+TEST_F(ParametersTest, PrintedPrmReadsBackTheSame)
+{
+  const Parameters   p = read("set Title =\nset Loading/Speed = 3 mm/h\n"
+                              "subsection Sweep\nset Key = Block/Size\n"
+                              "set Values = 1, 2; 3, 4\nend\n");
+  std::ostringstream first, second;
+  p.print(first, Parameters::Format::prm);
+  const Parameters again = read(first.str());
+  again.print(second, Parameters::Format::prm);
+  EXPECT_EQ(first.str(), second.str());
+  for (const std::string &path : p.paths())
+    EXPECT_EQ(p.text(path), again.text(path)) << path;
+  EXPECT_EQ(again.variants().size(), 2u);
+
+  std::ostringstream shorter;
+  p.print(shorter, Parameters::Format::prm, {"Friction/healing"});
+  EXPECT_EQ(shorter.str().find("subsection healing"), std::string::npos);
+  EXPECT_NE(shorter.str().find("subsection softening"), std::string::npos);
+}
+
+
+
+TEST_F(ParametersTest, PrintsForProgramsAndPages)
+{
+  const Parameters   p = read("set Block/Degree = 2\n");
+  std::ostringstream json_text, page;
+  p.print(json_text, Parameters::Format::json);
+  const auto json   = nlohmann::json::parse(json_text.str());
+  const auto degree = json.at("Block").at("Degree");
+  EXPECT_EQ(degree.at("value"), "2");
+  EXPECT_EQ(degree.at("default"), "1");
+  EXPECT_EQ(degree.at("allowed"), "a whole number from 1 to 2");
+  EXPECT_EQ(degree.at("documentation"), "Of elements.");
+
+  p.print(page, Parameters::Format::markdown);
+  expect_contains(page.str(), "## Friction/softening\n\n| Key |");
+  expect_contains(page.str(), "| Degree | `1` | a whole number from 1 to 2 |");
+}

@@ -1,0 +1,90 @@
+#include <slipstep/utilities/progress.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+using namespace SlipStep;
+
+
+
+TEST(Progress, AFileGetsFewPlainLines)
+{
+  std::ostringstream out;
+  {
+    Progress progress(false, "10 mm/min", out, false);
+    for (int i = 0; i <= 1000; ++i)
+      progress.update(i / 1000., "step " + std::to_string(i));
+    progress.finish();
+    progress.finish();
+  }
+  const std::string text = out.str();
+  const auto        n    = std::count(text.begin(), text.end(), '\n');
+  EXPECT_GE(n, 19);
+  EXPECT_LE(n, 23);
+  EXPECT_EQ(text.find('\r'), std::string::npos);
+  EXPECT_EQ(text.find("[  0.0 %] 10 mm/min: step 0\n"), 0u);
+  EXPECT_NE(text.find("[100.0 %] 10 mm/min: done in "), std::string::npos);
+}
+
+
+
+TEST(Progress, ATerminalGetsOneLiveLine)
+{
+  std::ostringstream out;
+  {
+    Progress progress(false, "", out, true);
+    for (int i = 0; i <= 1000; ++i)
+      progress.update(i / 1000., "step");
+  }
+  const std::string text = out.str();
+  EXPECT_EQ(text.find("\r\033[K[  0.0 %] step"), 0u);
+  // Left open, it is ended, so that a message starts on its own line.
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
+  EXPECT_EQ(text.back(), '\n');
+  // A thousand updates within an instant must not flood the terminal.
+  EXPECT_LE(std::count(text.begin(), text.end(), '\r'), 3);
+}
+
+
+
+TEST(Progress, QuietPrintsNothing)
+{
+  std::ostringstream out;
+  {
+    Progress progress(true, "x", out, true);
+    progress.update(0.5, "half");
+    progress.finish();
+  }
+  EXPECT_EQ(out.str(), "");
+}
+
+
+
+TEST(Progress, LinesAreReadBack)
+{
+  ProgressLine line;
+  ASSERT_TRUE(parse_progress_line(
+    "[ 42.5 %] 10 mm/min: 12.3 mm, step 240, 1 min 12 s left", line));
+  EXPECT_DOUBLE_EQ(line.fraction, 0.425);
+  EXPECT_EQ(line.text, "12.3 mm, step 240");
+  ASSERT_TRUE(parse_progress_line("[100.0 %] done in 3.0 s", line));
+  EXPECT_EQ(line.fraction, 1.);
+  EXPECT_EQ(line.text, "done in 3.0 s");
+  EXPECT_FALSE(parse_progress_line("warning: 42 % of nothing", line));
+  EXPECT_FALSE(parse_progress_line("[note] something", line));
+  EXPECT_FALSE(parse_progress_line("", line));
+}
+
+
+
+TEST(Progress, DurationsAreWords)
+{
+  EXPECT_EQ(duration_in_words(0.25), "0.2 s");
+  EXPECT_EQ(duration_in_words(59.4), "59 s");
+  EXPECT_EQ(duration_in_words(59.6), "1 min 0 s");
+  EXPECT_EQ(duration_in_words(200.), "3 min 20 s");
+  EXPECT_EQ(duration_in_words(7500.), "2 h 5 min");
+}
