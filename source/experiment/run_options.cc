@@ -91,8 +91,8 @@ namespace SlipStep
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)
-      throw InputError(folder.string() +
-                       ": the folder cannot be created: " + error.message());
+      throw InputError(folder.string() + ": the folder cannot be created (" +
+                       error.message() + "); give another one with --output");
   }
 
 

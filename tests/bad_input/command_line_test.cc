@@ -1,0 +1,189 @@
+#include <gtest/gtest.h>
+
+#include <sys/stat.h>
+
+#include <string>
+#include <vector>
+
+#include "slipstep_process.h"
+
+namespace
+{
+  // One message naming the matter, exit code 2.
+  void expect_refusal(const SlipstepProcess::Result  &result,
+                      const std::vector<std::string> &words)
+  {
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_LE(result.n_error_lines(), 2u) << result.err;
+    for (const std::string &word : words)
+      EXPECT_NE(result.err.find(word), std::string::npos)
+        << "  \"" << word << "\" is not in: " << result.err;
+  }
+
+
+
+  // A case which is right and short, should it ever be run.
+  const char *const right = "set Loading/Programme = press 1 MPa in 1 s; "
+                            "slide 1 mm/s for 0.01 mm\n";
+} // namespace
+
+
+
+TEST(CommandLine, UnknownWordsComeWithTheNearest)
+{
+  const SlipstepProcess process;
+  expect_refusal(process.run({"chek", "a.prm"}), {"\"chek\"", "mean check?"});
+  expect_refusal(process.run({"run", "a.prm", "--ouput", "x"}),
+                 {"--ouput", "mean --output?"});
+  expect_refusal(process.run({}), {"command is missing"});
+  expect_refusal(process.run({"run"}), {".prm file is missing"});
+  expect_refusal(process.run({"run", "a.prm", "b.prm"}), {"b.prm", "usage"});
+  expect_refusal(process.run({"parameters", "--format", "xml"}),
+                 {"xml", "prm, json, md"});
+  EXPECT_TRUE(process.wrote_nothing());
+}
+
+
+
+TEST(CommandLine, OnlyPrmFilesAreAccepted)
+{
+  for (const std::string command : {"run", "point", "check"})
+    {
+      const SlipstepProcess process;
+      expect_refusal(process.run({command, "nowhere.prm"}),
+                     {"nowhere.prm: no such file"});
+      EXPECT_TRUE(process.wrote_nothing());
+      process.write("case.txt", right);
+      expect_refusal(process.run({command, "case.txt"}),
+                     {"case.txt: not a .prm file"});
+      expect_refusal(process.run({command, "."}), {"is a folder"});
+      EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
+    }
+}
+
+
+
+TEST(CommandLine, SettingsAreChecked)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", right);
+  const auto with = [&](const std::string &setting) {
+    return process.run({"point", "case.prm", "--set", setting});
+  };
+  expect_refusal(with("Friction/Normal stiffness"), {"--set", "= value"});
+  expect_refusal(with("Friction/Normal stifness=1"),
+                 {"--set", "mean Friction/Normal stiffness?"});
+  expect_refusal(with("Friction/Normal stiffness = -1"),
+                 {"--set Friction/Normal stiffness = -1", "greater than 0"});
+  expect_refusal(with("Friction/healing/Rate = 1"),
+                 {"--set Friction/healing/Rate = 1", "'healing' is off"});
+  expect_refusal(process.run({"point", "case.prm", "--variant", "fast"}),
+                 {"--variant fast", "no such variant"});
+  EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
+}
+
+
+
+TEST(OutputFolder, MustHaveAName)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", right);
+  expect_refusal(process.run({"point", "case.prm", "--output", ""}),
+                 {"--output", "folder is needed"});
+  process.write("empty.prm", std::string(right) + "set Output/Directory =\n");
+  expect_refusal(process.run({"point", "empty.prm"}),
+                 {"empty.prm:2: Output/Directory =", "folder is needed"});
+}
+
+
+
+TEST(OutputFolder, MustBeOneThatCanBeCreated)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", right);
+  process.write("file", "not a folder\n");
+  for (const std::string folder : {"file", "file/in/a/file"})
+    expect_refusal(process.run({"point", "case.prm", "--output", folder}),
+                   {"--output = " + folder, "is not a folder"});
+  // Nobody, not even root, creates folders there.
+  expect_refusal(process.run({"point", "case.prm", "--output", "/proc/x/y"}),
+                 {"/proc/x/y", "cannot be created"});
+}
+
+
+
+TEST(OutputFolder, MustNotBeReadOnly)
+{
+  if (geteuid() == 0)
+    GTEST_SKIP() << "root may write anywhere";
+  const SlipstepProcess process;
+  process.write("case.prm", right);
+  std::filesystem::create_directory(process.folder() / "locked");
+  chmod((process.folder() / "locked").c_str(), 0555);
+  for (const std::string folder : {"locked", "locked/inside"})
+    expect_refusal(process.run({"point", "case.prm", "--output", folder}),
+                   {"read-only"});
+  chmod((process.folder() / "locked").c_str(), 0755);
+}
+
+
+
+TEST(OutputFolder, WithOtherFilesIsLeftAlone)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", right);
+  std::filesystem::create_directory(process.folder() / "thesis");
+  process.write("thesis/chapter.tex", "text\n");
+  expect_refusal(process.run({"point", "case.prm", "--output", "thesis"}),
+                 {"thesis", "no slipstep results"});
+  EXPECT_FALSE(
+    std::filesystem::exists(process.folder() / "thesis/history.csv"));
+
+  // The same folder with a result in it may be written again.
+  process.write("thesis/history.csv", "");
+  EXPECT_EQ(process.run({"point", "case.prm", "--output", "thesis"}).exit_code,
+            0);
+}
+
+
+
+TEST(Help, GoesToStdoutForEachCommand)
+{
+  const SlipstepProcess process;
+  for (const std::string command :
+       {"run", "point", "check", "effects", "parameters"})
+    {
+      const auto result = process.run({command, "--help"});
+      EXPECT_EQ(result.exit_code, 0);
+      EXPECT_EQ(result.err, "");
+      EXPECT_EQ(result.out.find("slipstep " + command + ": "), 0u);
+      EXPECT_EQ(process.run({"help", command}).out, result.out);
+    }
+  EXPECT_EQ(process.run({"--version"}).out.find("slipstep "), 0u);
+  EXPECT_TRUE(process.wrote_nothing());
+}
+
+
+
+TEST(Check, NamesEveryCaseAndWritesNothing)
+{
+  const SlipstepProcess process;
+  process.write("right.prm", right);
+  process.write("sweep.prm",
+                std::string(right) + "subsection Sweep\n"
+                                     "  set Key = Loading/Speed\n"
+                                     "  set Values = 1 mm/s, 2 mm/s\n"
+                                     "end\n");
+  process.write("wrong.prm", "set Nothing = 1\n");
+  const auto good = process.run({"check", "right.prm", "sweep.prm"});
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_EQ(good.out, "right.prm: OK\nsweep.prm: OK, 2 variants\n");
+
+  const auto mixed =
+    process.run({"check", "wrong.prm", "right.prm", "nowhere.prm"});
+  EXPECT_EQ(mixed.exit_code, 2);
+  EXPECT_EQ(mixed.out, "right.prm: OK\n");
+  EXPECT_EQ(mixed.n_error_lines(), 2u) << mixed.err;
+  EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
+}

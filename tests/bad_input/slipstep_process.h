@@ -1,0 +1,113 @@
+#ifndef tests_bad_input_slipstep_process_h
+#define tests_bad_input_slipstep_process_h
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// The real program, started in a folder of its own.
+class SlipstepProcess
+{
+public:
+  struct Result
+  {
+    int         exit_code = -1;
+    std::string out;
+    std::string err;
+
+    unsigned int n_error_lines() const
+    {
+      std::istringstream in(err);
+      unsigned int       n = 0;
+      for (std::string line; std::getline(in, line);)
+        ++n;
+      return n;
+    }
+  };
+
+  SlipstepProcess()
+  {
+    std::string pattern =
+      (std::filesystem::temp_directory_path() / "slipstep_XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+      throw std::runtime_error("no temporary folder");
+    root = pattern;
+    std::filesystem::create_directory(folder());
+  }
+
+  ~SlipstepProcess()
+  {
+    std::error_code error;
+    std::filesystem::remove_all(root, error);
+  }
+
+  SlipstepProcess(const SlipstepProcess &)            = delete;
+  SlipstepProcess &operator=(const SlipstepProcess &) = delete;
+
+  /// The working directory of the program.
+  std::filesystem::path folder() const
+  {
+    return root / "work";
+  }
+
+  /// @return whether the program left its working directory empty
+  bool wrote_nothing() const
+  {
+    return std::filesystem::is_empty(folder());
+  }
+
+  void write(const std::string &name, const std::string &text) const
+  {
+    std::ofstream(folder() / name) << text;
+  }
+
+  Result run(const std::vector<std::string> &arguments) const
+  {
+    // A case that is wrongly accepted must not run for hours.
+    std::string command =
+      "cd " + quoted(folder().string()) + " && timeout 60 " + quoted(binary());
+    for (const std::string &argument : arguments)
+      command += " " + quoted(argument);
+    command += " < /dev/null > " + quoted((root / "out").string()) + " 2> " +
+               quoted((root / "err").string());
+    const int status = std::system(command.c_str());
+    Result    result;
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    result.out       = content(root / "out");
+    result.err       = content(root / "err");
+    return result;
+  }
+
+private:
+  static std::string binary()
+  {
+    const char *from_environment = std::getenv("SLIPSTEP_BINARY");
+    return from_environment != nullptr ? from_environment : SLIPSTEP_BINARY;
+  }
+
+  static std::string quoted(const std::string &text)
+  {
+    std::string result = "'";
+    for (const char c : text)
+      result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+  }
+
+  static std::string content(const std::filesystem::path &file)
+  {
+    std::ifstream      in(file);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+
+  std::filesystem::path root;
+};
+
+#endif
