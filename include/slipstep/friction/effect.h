@@ -1,0 +1,171 @@
+#ifndef slipstep_friction_effect_h
+#define slipstep_friction_effect_h
+
+#include <deal.II/base/tensor.h>
+
+#include <slipstep/friction/contact_point.h>
+#include <slipstep/utilities/parameters.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace SlipStep
+{
+  /// The step for which an effect is asked: where it starts and how it ends.
+  struct SlipStepData
+  {
+    const ContactState &start;
+    double              time_step;       ///< [s]
+    double              normal_traction; ///< f_n at the end [MPa], > 0
+    double              slip;            ///< viscoplastic slip in the step [mm]
+    /// Unit vector of the viscoplastic slip.
+    dealii::Tensor<1, 2> direction;
+  };
+
+  /// A rate and its derivative with respect to the evolving variable.
+  struct Rate
+  {
+    double value      = 0.;
+    double derivative = 0.;
+  };
+
+  /// A contribution to the strength at the end of a step, and its derivatives
+  /// with respect to the slip in the step, the normal traction and the
+  /// direction of slip.
+  struct Strength
+  {
+    double               value    = 0.;
+    double               d_slip   = 0.;
+    double               d_normal = 0.;
+    dealii::Tensor<1, 2> d_direction;
+  };
+
+  /// r_s after some slip, with derivatives.
+  struct NormalRatio
+  {
+    double value   = 1.;
+    double d_slip  = 0.; ///< [1/mm]
+    double d_start = 0.; ///< with respect to r_s at the beginning
+  };
+
+  /// Residual of the flow rule: zero when the slip rate is the one that the
+  /// loading ratio drives, increasing with the slip rate, decreasing with r.
+  struct FlowResidual
+  {
+    double value          = 0.;
+    double d_ratio        = 0.; ///< d/dr
+    double d_normal_ratio = 0.; ///< d/dr_s
+    double d_rate         = 0.; ///< d/dlambda [s/mm]
+  };
+
+  /// Parts of the law that only one effect can provide.
+  enum class ExclusiveSlot
+  {
+    none,
+    normal_ratio,
+    overstress
+  };
+
+  /// What the coefficients in a case file mean to the law.
+  struct CoefficientBasis
+  {
+    /// mu_s, converted to the quasi-static coefficient of the law.
+    double static_coefficient = 0.;
+    /// Factor from a coefficient as written to the quasi-static one:
+    /// 1 / r at the speed at which the coefficients were read.
+    double scale = 1.;
+  };
+
+  /// An effect of the friction law: a set of hooks, each neutral by default.
+  ///
+  /// An effect lives in one file of friction/effects, which declares its
+  /// parameters in the section `Friction/<name>`, implements the hooks that it
+  /// needs, and ends with one line of registration. Hooks are pure functions,
+  /// so one object serves all contact points.
+  class Effect
+  {
+  public:
+    virtual ~Effect() = default;
+
+    /// Evolution of mu with slip, d mu / d lambda [1/mm].
+    virtual Rate coefficient_rate_per_slip(const double /*coefficient*/) const
+    {
+      return {};
+    }
+
+    /// Evolution of mu with time, d mu / dt [1/s].
+    virtual Rate coefficient_rate_per_time(const double /*coefficient*/) const
+    {
+      return {};
+    }
+
+    /// Factor G of the strength f_n mu.
+    virtual Strength strength_factor(const SlipStepData & /*step*/) const
+    {
+      return {1., 0., 0., {}};
+    }
+
+    /// Strength added to f_n mu G_1 G_2 ... [MPa].
+    virtual Strength additive_strength(const SlipStepData & /*step*/) const
+    {
+      return {};
+    }
+
+    /// Exclusive slot `normal_ratio`: r_s after the slip [mm], starting from
+    /// @p start. Neutral: r_s = 1, Coulomb's sudden transition.
+    virtual NormalRatio normal_ratio_after_slip(const double /*start*/,
+                                                const double /*slip*/) const
+    {
+      return {};
+    }
+
+    /// r_s of a point that was never loaded, or has come off the plane.
+    virtual double virgin_normal_ratio() const
+    {
+      return 1.;
+    }
+
+    /// Exclusive slot `overstress`: the flow rule. Neutral: r = r_s, whatever
+    /// the rate.
+    virtual FlowResidual flow_residual(const double ratio,
+                                       const double normal_ratio,
+                                       const double /*slip_rate*/) const
+    {
+      return {normal_ratio - ratio, -1., 1., 0.};
+    }
+
+    /// r in steady sliding at a speed [mm/s], r_s = 1.
+    virtual double steady_ratio(const double /*slip_rate*/) const
+    {
+      return 1.;
+    }
+  };
+
+  /// How an effect is listed, declared and made.
+  struct EffectInfo
+  {
+    std::string   name;
+    ExclusiveSlot slot = ExclusiveSlot::none;
+    std::string   formula; ///< one line of text
+    std::string   source;  ///< paper and equation
+    std::string   neutral; ///< parameter value for which it does nothing
+
+    std::function<void(Parameters &)> declare;
+    std::function<std::unique_ptr<Effect>(const Parameters &,
+                                          const CoefficientBasis &)>
+      create;
+  };
+
+  /// All effects linked into the program, by name.
+  const std::map<std::string, EffectInfo> &effect_registry();
+
+  /// A global object of this type registers an effect.
+  struct RegisterEffect
+  {
+    explicit RegisterEffect(const EffectInfo &info);
+  };
+} // namespace SlipStep
+
+#endif

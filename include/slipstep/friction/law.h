@@ -1,0 +1,116 @@
+#ifndef slipstep_friction_law_h
+#define slipstep_friction_law_h
+
+#include <slipstep/friction/effect.h>
+
+#include <ostream>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// The subloading-overstress friction law: effects around one core.
+  ///
+  /// The contact traction has a normal part f_n and a tangential part f_t,
+  /// bounded by the yield level
+  /// \f[ \tau_y = f_n\,\mu\,G_1 G_2\cdots + c_1 + c_2 + \cdots, \qquad
+  ///     r = |f_t| / \tau_y, \f]
+  /// and changes with the elastic part of the sliding velocity,
+  /// \f$\dot f_t = \alpha_t (V - \lambda f_t/|f_t|)\f$. The viscoplastic slip
+  /// rate \f$\lambda\f$ follows from the flow rule (Overstress; without it
+  /// r = r_s), the normal ratio r_s grows with slip (Subloading; without it
+  /// r_s = 1) and falls with r, and mu evolves with slip and time (Softening,
+  /// Healing).
+  ///
+  /// update() integrates one step by backward Euler: the traction stays along
+  /// its elastic trial, which leaves one scalar unknown, the slip in the step,
+  /// bracketed by 0 and |f_trial| / alpha_t. Immutable: one law serves all
+  /// points.
+  class FrictionLaw
+  {
+  public:
+    static void declare_parameters(Parameters &parameters);
+
+    /// @throws InputError for unknown or conflicting effects, values given to
+    /// an effect that is off, and coefficients that contradict each other
+    explicit FrictionLaw(const Parameters &parameters);
+
+    /// State of a point that has not been loaded yet.
+    ContactState initial_state() const;
+
+    /// One step from @p start; the result depends on the arguments only.
+    /// @param[out] end state at the end of the step
+    ContactResponse update(const ContactState         &start,
+                           const dealii::Tensor<1, 2> &slip_increment,
+                           const double                normal_traction,
+                           const double                time_step,
+                           ContactState               &end) const;
+
+    double normal_stiffness() const ///< alpha_n [MPa/mm]
+    {
+      return alpha_n;
+    }
+
+    double tangential_stiffness() const ///< alpha_t [MPa/mm]
+    {
+      return alpha_t;
+    }
+
+    /// Quasi-static mu of a point at rest since ever.
+    double static_coefficient() const
+    {
+      return basis.static_coefficient;
+    }
+
+    /// r in steady sliding at a speed [mm/s].
+    double steady_ratio(const double speed) const
+    {
+      return flow->steady_ratio(speed);
+    }
+
+    /// Names of the active effects, in the order of the catalogue.
+    const std::vector<std::string> &effects() const
+    {
+      return names;
+    }
+
+    /// Sections of effects that are off, such as "Friction/healing".
+    std::set<std::string> inactive_sections() const;
+
+  private:
+    struct LocalSystem;
+
+    void            start_ratio(const dealii::Tensor<1, 2> &traction_increment,
+                                LocalSystem                &local) const;
+    void            evolve_coefficient(LocalSystem &local) const;
+    void            evolve_strength(LocalSystem &local) const;
+    void            evaluate(const double traction, LocalSystem &local) const;
+    void            solve(LocalSystem &local) const;
+    double          error_estimate(const LocalSystem &local) const;
+    ContactResponse linearise(const LocalSystem &local) const;
+
+    Rate coefficient_rate_per_slip(const double coefficient) const;
+    Rate coefficient_rate_per_time(const double coefficient) const;
+
+    const double     alpha_n;
+    const double     alpha_t;
+    CoefficientBasis basis;
+    double           initial_coefficient;
+
+    std::vector<std::string>             names;
+    std::vector<std::unique_ptr<Effect>> active;
+
+    /// Owners of the exclusive slots; the neutral effect where there is none.
+    const Effect *normal_ratio = &neutral;
+    const Effect *flow         = &neutral;
+
+    static const Effect neutral;
+  };
+
+  /// The catalogue: every registered effect with formula, parameters, units,
+  /// bounds, neutral value and source.
+  void print_effects(std::ostream &out, const bool as_markdown = false);
+} // namespace SlipStep
+
+#endif

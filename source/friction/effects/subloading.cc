@@ -1,0 +1,135 @@
+#include <slipstep/friction/effect.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <boost/math/constants/constants.hpp>
+#include <boost/math/special_functions/expint.hpp>
+#include <boost/math/tools/roots.hpp>
+
+#include <cmath>
+#include <tuple>
+
+namespace SlipStep
+{
+  namespace
+  {
+    using dealii::numbers::PI_2;
+
+    /// The normal ratio grows with slip, ever slower towards 1, so that
+    /// sticking goes over into sliding smoothly: \f[ \frac{dr_s}{d\lambda} =
+    /// U(r_s), \qquad
+    ///     U = u \cot(\pi r_s/2) \quad\text{or}\quad U = -u \ln r_s. \f]
+    /// Hashiguchi et al. (2005), Int. J. Solids Struct. 42, 2845. Both forms
+    /// are integrated exactly over a step: the first gives
+    /// \f$\cos(\pi r_s/2) = \cos(\pi r_{s0}/2)\,e^{-\pi u\lambda/2}\f$, the
+    /// second \f$E_1(-\ln r_s) = E_1(-\ln r_{s0}) + u\lambda\f$.
+    class Subloading : public Effect
+    {
+    public:
+      Subloading(const Parameters &parameters, const CoefficientBasis &)
+        : u(parameters.number("Friction/subloading/Rate"))
+        , is_logarithmic(parameters.text("Friction/subloading/Form") == "log")
+        , initial_ratio(parameters.number("Friction/subloading/Initial ratio"))
+      {}
+
+      virtual double virgin_normal_ratio() const override
+      {
+        return initial_ratio;
+      }
+
+      virtual NormalRatio
+      normal_ratio_after_slip(const double start,
+                              const double slip) const override
+      {
+        // At r_s = 0 both forms have an infinite rate.
+        const double r_s0 = std::min(std::max(start, 1e-12), 1.);
+        if (slip <= 0.)
+          return {r_s0, rate(r_s0), 1.};
+        return is_logarithmic ? logarithmic(r_s0, slip) : cotangent(r_s0, slip);
+      }
+
+      static void declare(Parameters &parameters)
+      {
+        parameters.declare("Friction/subloading/Form",
+                           "cot",
+                           dealii::Patterns::Selection("cot|log"),
+                           "Evolution function U of the normal ratio: 'cot' is "
+                           "u cot(pi r_s/2), 'log' is -u ln(r_s).");
+        parameters.declare("Friction/subloading/Rate",
+                           "200",
+                           Quantity(Dimension::per_length, 0., 1e30, true),
+                           "Rate u at which the normal ratio grows with slip: "
+                           "sliding is fully developed after a slip of a few "
+                           "1/u; infinity is Coulomb's law. More than 0, in "
+                           "1/mm.");
+        parameters.declare("Friction/subloading/Initial ratio",
+                           "0",
+                           Quantity(Dimension::number, 0., 1.),
+                           "Normal ratio r_s of a point that was not loaded "
+                           "before: 0 gives slip from the first load on, 1 an "
+                           "elastic range. Between 0 and 1, no unit.");
+      }
+
+    private:
+      double rate(const double r_s) const
+      {
+        return is_logarithmic ? -u * std::log(r_s) : u / std::tan(PI_2 * r_s);
+      }
+
+      NormalRatio cotangent(const double r_s0, const double slip) const
+      {
+        // 1 - cos^2 is formed without cancellation, so that small ratios keep
+        // their digits.
+        const double s0    = std::sin(PI_2 * r_s0);
+        const double c0    = (r_s0 < 1. ? std::cos(PI_2 * r_s0) : 0.);
+        const double loss  = std::expm1(-PI_2 * u * slip);
+        const double decay = 1. + loss;
+        const double s1    = std::sqrt(s0 * s0 - c0 * c0 * loss * (1. + decay));
+        const double c1    = c0 * decay;
+        return {std::atan2(s1, c1) / PI_2, u * c1 / s1, decay * s0 / s1};
+      }
+
+      NormalRatio logarithmic(const double r_s0, const double slip) const
+      {
+        if (r_s0 >= 1.)
+          return {1., 0., 0.};
+        const double y0     = -std::log(r_s0);
+        const double target = boost::math::expint(1, y0) + u * slip;
+        // Unknown is z = ln(y), y = -ln(r_s), decreasing with slip.
+        // E_1(y) > -gamma - ln(y) bounds it from below.
+        const double lower = -boost::math::constants::euler<double>() - target;
+        if (lower < -40.)
+          return {1., 0., 0.};
+        boost::uintmax_t iterations = 200;
+        const double     z = boost::math::tools::newton_raphson_iterate(
+          [target](const double z) {
+            const double y = std::exp(z);
+            return std::make_tuple(boost::math::expint(1, y) - target,
+                                   -std::exp(-y));
+          },
+          std::max(lower, std::log(y0) - u * slip * std::exp(y0)),
+          lower,
+          std::log(y0) + 1e-12,
+          45,
+          iterations);
+        const double y = std::exp(z);
+        return {std::exp(-y), u * y, y / y0};
+      }
+
+      const double u;
+      const bool   is_logarithmic;
+      const double initial_ratio;
+    };
+
+    const RegisterEffect registration(
+      {"subloading",
+       ExclusiveSlot::normal_ratio,
+       "d r_s/d lambda = u cot(pi r_s/2) or -u ln(r_s); r_s <= r",
+       "Hashiguchi et al. (2005), Int. J. Solids Struct. 42, 2845-2871",
+       "Rate -> infinity; switch the effect off instead",
+       &Subloading::declare,
+       [](const Parameters &parameters, const CoefficientBasis &basis) {
+         return std::make_unique<Subloading>(parameters, basis);
+       }});
+  } // namespace
+} // namespace SlipStep

@@ -1,0 +1,249 @@
+// The law against closed forms: steady sliding, first slip, softening, healing.
+
+#include "law_test_tools.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+using dealii::numbers::PI;
+
+namespace
+{
+  const double millimetre_per_minute = 1. / 60.;
+
+  // Slide a point at constant pressure in equal steps; returns the last state.
+  ContactState slide(const FrictionLaw &law,
+                     const double       pressure,
+                     const double       speed,
+                     const double       length,
+                     const unsigned int n_steps,
+                     ContactState       state)
+  {
+    for (unsigned int step = 0; step < n_steps; ++step)
+      {
+        ContactState end;
+        law.update(state,
+                   vector(length / n_steps),
+                   pressure,
+                   length / speed / n_steps,
+                   end);
+        state = end;
+      }
+    return state;
+  }
+} // namespace
+
+
+
+TEST(ClosedForms, steady_ratio_of_the_overstress)
+{
+  // Roots of eta_v V (r_m - r) = exp(n (r - 1)) - 1 with Table 3 of the source
+  // paper, to the digits of the reference.
+  const auto law = make_law({{"Effects", "overstress"}});
+  EXPECT_NEAR(law->steady_ratio(1. * millimetre_per_minute), 1.2793, 5e-5);
+  EXPECT_NEAR(law->steady_ratio(10. * millimetre_per_minute), 1.4019, 5e-5);
+  EXPECT_NEAR(law->steady_ratio(50. * millimetre_per_minute), 1.4850, 5e-5);
+  EXPECT_NEAR(law->steady_ratio(200. * millimetre_per_minute), 1.5540, 5e-5);
+
+  const double V = 3.7, r = law->steady_ratio(V);
+  EXPECT_NEAR(1.15e4 * V * (1.8 - r) / std::expm1(16.52 * (r - 1.)), 1., 1e-10);
+}
+
+
+
+TEST(ClosedForms, point_reaches_the_steady_ratio)
+{
+  const auto law = make_law(
+    {{"Effects", "subloading, overstress"}, {"Static coefficient", "0.078"}});
+  for (const double V : {1., 10., 50., 200.})
+    {
+      const double       speed = V * millimetre_per_minute;
+      const ContactState end =
+        slide(*law, 5.8, speed, 5., 200, law->initial_state());
+      EXPECT_NEAR(end.loading_ratio, law->steady_ratio(speed), 1e-9);
+      EXPECT_NEAR(end.normal_ratio, 1., 1e-12);
+      EXPECT_NEAR(end.traction[0] / 5.8,
+                  0.078 * law->steady_ratio(speed),
+                  1e-10);
+    }
+}
+
+
+
+TEST(ClosedForms, rate_independent_first_slip)
+{
+  // delta(r) = (mu f_n / alpha_t) r - 2/(pi u) ln cos(pi r / 2), exactly and
+  // for any number of steps, because the cot form is integrated exactly.
+  const double u = 200., mu = 0.115, f_n = 5.8, alpha_t = 1e4;
+  const auto   law = make_law({{"Effects", "subloading"}});
+  for (const unsigned int n_steps : {1, 7, 50})
+    for (const double delta : {1e-5, 1e-4, 1e-3, 0.01})
+      {
+        const ContactState end =
+          slide(*law, f_n, 1., delta, n_steps, law->initial_state());
+        const double r = end.loading_ratio;
+        EXPECT_NEAR(end.normal_ratio, r, 1e-12);
+        EXPECT_NEAR(mu * f_n / alpha_t * r -
+                      2. / (PI * u) * std::log(std::cos(PI * r / 2.)),
+                    delta,
+                    1e-11);
+      }
+}
+
+
+
+TEST(ClosedForms, logarithmic_first_slip)
+{
+  // In the log form slip is an exponential integral: check its differential
+  // equation, d r / d slip = -u ln r, and exactness over one step or many.
+  const auto law =
+    make_law({{"Effects", "subloading"}, {"subloading/Form", "log"}});
+  const double       delta = 2e-3, h = 1e-6;
+  const ContactState one = slide(*law, 5.8, 1., delta, 1, law->initial_state());
+  const ContactState many =
+    slide(*law, 5.8, 1., delta, 40, law->initial_state());
+  EXPECT_NEAR(one.normal_ratio, many.normal_ratio, 1e-11);
+
+  const ContactState next = slide(*law, 5.8, 1., h, 1, many);
+  const double       r    = (many.normal_ratio + next.normal_ratio) / 2.;
+  EXPECT_NEAR((next.normal_ratio - many.normal_ratio) /
+                (next.slip_path - many.slip_path) / (-200. * std::log(r)),
+              1.,
+              1e-6);
+}
+
+
+
+TEST(ClosedForms, large_rate_is_coulomb)
+{
+  const auto coulomb = make_law({{"Effects", ""}});
+  const auto subloading =
+    make_law({{"Effects", "subloading"}, {"subloading/Rate", "1e12"}});
+  ContactState a = coulomb->initial_state(), b = subloading->initial_state();
+  for (const double slip : {2e-5, 3e-5, 1e-4, -5e-5, -1e-3, 1e-5})
+    {
+      ContactState a_end, b_end;
+      coulomb->update(a, vector(slip), 5.8, 1., a_end);
+      subloading->update(b, vector(slip), 5.8, 1., b_end);
+      a = a_end;
+      b = b_end;
+      EXPECT_NEAR(a.traction[0], b.traction[0], 1e-6);
+      EXPECT_LE(std::abs(a.traction[0]), 0.115 * 5.8 * (1. + 1e-14));
+    }
+  // Elastic stick has the slope alpha_t.
+  ContactState end;
+  coulomb->update(coulomb->initial_state(), vector(1e-5), 5.8, 1., end);
+  EXPECT_DOUBLE_EQ(end.traction[0], 0.1);
+}
+
+
+
+TEST(ClosedForms, softening_in_sliding)
+{
+  // mu(s), of which backward Euler is first-order accurate.
+  const double a = 3., kappa = 0.045, mu_s = 0.115, mu_k = 0.098, s = 20.;
+  const auto   law =
+    make_law({{"Effects", "softening"}, {"softening/Steepness", "3"}});
+  const double exact =
+    mu_k - 1. / a *
+             std::log(1. - (1. - std::exp(-a * (mu_s - mu_k))) *
+                             std::exp(-a * kappa * s));
+  double last_error = 0.;
+  for (const unsigned int n_steps : {100, 200, 400})
+    {
+      // Start from full stress, so that all of s is viscoplastic slip.
+      ContactState start     = law->initial_state();
+      start.normal_traction  = 5.8;
+      start.strength         = 5.8 * mu_s;
+      start.traction         = vector(start.strength);
+      start.loading_ratio    = 1.;
+      const ContactState end = slide(*law, 5.8, 1., s, n_steps, start);
+      // The relaxed traction turns a little elastic slip into plastic slip.
+      const double error = std::abs(end.coefficient - exact);
+      if (last_error > 0.)
+        {
+          EXPECT_NEAR(std::log2(last_error / error), 1., 0.1);
+        }
+      last_error = error;
+    }
+  EXPECT_LT(last_error, 2e-4 * (mu_s - mu_k) / 0.1);
+}
+
+
+
+TEST(ClosedForms, healing_at_rest)
+{
+  const double b = 200., xi = 1e-4, mu_s = 0.115, mu_0 = 0.098, t = 50.;
+  const auto   law = make_law({{"Effects", "healing"},
+                               {"healing/Rate", "1e-4"},
+                               {"healing/Steepness", "200"},
+                               {"Initial coefficient", "0.098"}});
+  const double exact =
+    mu_s + 1. / b *
+             std::log(1. - (1. - std::exp(-b * (mu_s - mu_0))) *
+                             std::exp(-b * xi * t));
+  double last_error = 0.;
+  for (const unsigned int n_steps : {200, 400, 800})
+    {
+      ContactState state = law->initial_state();
+      EXPECT_DOUBLE_EQ(state.coefficient, mu_0);
+      for (unsigned int step = 0; step < n_steps; ++step)
+        {
+          ContactState end;
+          law->update(state, vector(0.), 5.8, t / n_steps, end);
+          state = end;
+        }
+      const double error = std::abs(state.coefficient - exact);
+      if (last_error > 0.)
+        {
+          EXPECT_NEAR(std::log2(last_error / error), 1., 0.1);
+        }
+      last_error = error;
+    }
+}
+
+
+
+TEST(ClosedForms, steady_coefficient_of_softening_and_healing)
+{
+  // kappa (exp(a (mu - mu_k)) - 1) V = xi (exp(b (mu_s - mu)) - 1), met
+  // exactly by backward Euler even in one huge step.
+  const auto   law = make_law({{"Effects", "softening, healing"},
+                               {"healing/Rate", "1e-4"},
+                               {"healing/Steepness", "100"}});
+  const double V   = 0.02;
+  const double mu =
+    slide(*law, 5.8, V, 1e6, 2, law->initial_state()).coefficient;
+  EXPECT_NEAR(0.045 * std::expm1(mu - 0.098) * V /
+                (1e-4 * std::expm1(100. * (0.115 - mu))),
+              1.,
+              1e-5);
+}
+
+
+
+TEST(ClosedForms, coefficients_read_at_a_speed)
+{
+  const auto law = make_law({{"Effects", "subloading, overstress, softening"},
+                             {"Speed of the coefficients", "1 mm/min"}});
+  EXPECT_NEAR(law->static_coefficient(), 0.0899, 5e-5);
+  // Typed in as printed, the kinetic level at the same speed is what was read.
+  const ContactState end = slide(
+    *law, 5.8, 1. * millimetre_per_minute, 400., 2000, law->initial_state());
+  EXPECT_NEAR(end.traction[0] / 5.8, 0.098, 1e-7);
+  EXPECT_NEAR(end.coefficient, 0.0766, 5e-5);
+}
+
+
+
+TEST(ClosedForms, power_law_overstress)
+{
+  const auto   law = make_law({{"Effects", "perzyna"}});
+  const double V   = 0.3;
+  EXPECT_NEAR(std::pow(law->steady_ratio(V) - 1., 4.) / 100., V, 1e-12);
+  const ContactState end = slide(*law, 5.8, V, 1., 50, law->initial_state());
+  EXPECT_NEAR(end.loading_ratio, law->steady_ratio(V), 1e-10);
+}
