@@ -1,0 +1,36 @@
+#ifndef slipstep_experiment_point_driver_h
+#define slipstep_experiment_point_driver_h
+
+#include <slipstep/experiment/history.h>
+#include <slipstep/experiment/run_options.h>
+#include <slipstep/experiment/step_control.h>
+#include <slipstep/experiment/summary.h>
+#include <slipstep/friction/law.h>
+
+#include <functional>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Declares section "Loading" and "Time stepping".
+  void declare_loading_parameters(Parameters &parameters);
+
+  /// The programme of a case.
+  /// @throws InputError, also when no step of it ever presses
+  Programme parse_programme(const Parameters &parameters);
+
+  /// Drive one contact point of 1 mm^2 through a programme: slip and normal
+  /// traction are those of the programme.
+  /// @param observe called with the row of every step made
+  /// @return number of steps that were repeated smaller
+  unsigned int
+  drive_point(const FrictionLaw                             &law,
+              const Programme                               &programme,
+              StepControl                                    control,
+              const std::function<void(const HistoryRow &)> &observe);
+
+  /// `slipstep point`: the case on one contact point, with all its files.
+  Summary run_point(const Parameters &parameters, const RunOptions &options);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,94 @@
+#ifndef slipstep_experiment_step_control_h
+#define slipstep_experiment_step_control_h
+
+#include <slipstep/experiment/programme.h>
+#include <slipstep/friction/law.h>
+
+#include <string>
+
+namespace SlipStep
+{
+  /// Chooses the time steps of a programme from the error that the friction law
+  /// estimates, for a contact point and for the block alike.
+  ///
+  /// The estimate of a backward Euler step grows with the square of the step,
+  /// so the next step is step * sqrt(tolerance / error), within limits. Steps
+  /// end exactly at the borders of the programme's segments; after a border the
+  /// step starts anew, small enough for the elastic part of the contact. Steps
+  /// are taken from a fixed series of numbers (ten per decade), so that
+  /// round-off cannot change them.
+  class StepControl
+  {
+  public:
+    static void declare_parameters(Parameters &parameters);
+
+    StepControl(const Parameters  &parameters,
+                const Programme   &programme,
+                const FrictionLaw &law);
+
+    bool is_finished() const;
+
+    /// Time at the beginning of the step [s].
+    double time() const
+    {
+      return begin;
+    }
+
+    /// Time at the end of the step to be tried [s].
+    double end_of_step() const
+    {
+      return end;
+    }
+
+    double step_size() const
+    {
+      return end - begin;
+    }
+
+    /// Whether the step is the first of a segment of the programme, where
+    /// extrapolating from the last step makes no sense.
+    bool is_first_of_segment() const
+    {
+      return first_of_segment;
+    }
+
+    /// Judge a step by its error, relative to the friction force: go on to the
+    /// next and return true, or ask for the same again, smaller, and return
+    /// false.
+    bool accept(const double relative_error);
+
+    /// The step could not be made: try a smaller one.
+    /// @throws RunError with @p reason if it is too small already
+    void cut(const std::string &reason);
+
+    unsigned int n_accepted() const
+    {
+      return accepted;
+    }
+
+    unsigned int n_rejected() const
+    {
+      return rejected;
+    }
+
+  private:
+    void start_segment();
+    void plan(const double wanted_step);
+
+    const Programme    programme;
+    const double       tolerance;
+    const double       first_slip;
+    const unsigned int least_steps;
+    const double       elastic_slip_per_pressure;
+
+    std::size_t  segment          = 0;
+    double       begin            = 0.;
+    double       end              = 0.;
+    double       full_step        = 0.; ///< wanted, before clipping to borders
+    bool         first_of_segment = true;
+    unsigned int accepted         = 0;
+    unsigned int rejected         = 0;
+  };
+} // namespace SlipStep
+
+#endif

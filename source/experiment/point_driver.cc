@@ -1,0 +1,119 @@
+#include <slipstep/experiment/point_driver.h>
+
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/progress.h>
+
+#include <cmath>
+
+namespace SlipStep
+{
+  using dealii::Tensor;
+
+
+
+  void declare_loading_parameters(Parameters &parameters)
+  {
+    parameters.declare(
+      "Loading/Programme",
+      "press 5.8 MPa in 1 s; hold 10 s; slide for 10 mm",
+      dealii::Patterns::Anything(),
+      "What happens, one statement after the other, separated by ';': 'press "
+      "<pressure> in <time>', 'hold <time>', 'slide [<speed>] for <length or "
+      "time> [at <angle>]', 'follow <file of a measured test>'. A negative "
+      "speed reverses. Units are part of every number.");
+    parameters.declare("Loading/Speed",
+                       "1 mm/min",
+                       Quantity(Dimension::speed, 0., 1e30, true, true),
+                       "Speed of every 'slide' that states none; the key to "
+                       "sweep when one case runs at several speeds. More than "
+                       "0, with its unit.");
+    StepControl::declare_parameters(parameters);
+  }
+
+
+
+  Programme parse_programme(const Parameters &parameters)
+  {
+    try
+      {
+        return Programme(parameters.text("Loading/Programme"),
+                         parameters.number("Loading/Speed"),
+                         parameters.resolve("."));
+      }
+    catch (const InputError &error)
+      {
+        throw InputError(parameters.entry("Loading/Programme").origin + ": " +
+                         error.what());
+      }
+  }
+
+
+
+  namespace
+  {
+    Spread single(const double value)
+    {
+      return {value, value, value};
+    }
+  } // namespace
+
+
+
+  unsigned int
+  drive_point(const FrictionLaw                             &law,
+              const Programme                               &programme,
+              StepControl                                    control,
+              const std::function<void(const HistoryRow &)> &observe)
+  {
+    ContactPoint point(law);
+    double       work = 0.;
+    while (!control.is_finished())
+      {
+        const Loading      from = programme.at(control.time());
+        const Loading      to   = programme.at(control.end_of_step());
+        const Tensor<1, 2> slip = to.displacement - from.displacement;
+
+        const ContactResponse response =
+          point.update(law, slip, to.pressure, control.step_size());
+        const ContactState &state = point.trial();
+        const double        step  = control.step_size();
+        const double        relative_error =
+          state.strength > 0. ? response.error / state.strength : 0.;
+        if (!control.accept(relative_error))
+          continue;
+
+        // The normal stiffness is linear, so its work is what it stores.
+        const double stored_before =
+          std::pow(point.committed().normal_traction, 2) /
+          (2. * law.normal_stiffness());
+        const double stored_normal =
+          std::pow(state.normal_traction, 2) / (2. * law.normal_stiffness());
+        work += stored_normal - stored_before +
+                0.5 * (point.committed().traction + state.traction) * slip;
+        point.commit();
+
+        const bool is_closed = to.pressure > 0.;
+        HistoryRow row;
+        row.time            = control.time();
+        row.displacement    = to.displacement[0];
+        row.displacement_y  = to.displacement[1];
+        row.pressure        = to.pressure;
+        row.friction        = is_closed ? state.traction[0] / to.pressure : 0.;
+        row.friction_y      = is_closed ? state.traction[1] / to.pressure : 0.;
+        row.normal_load     = to.pressure;
+        row.tangential_load = state.traction[0];
+        row.loading_ratio   = single(state.loading_ratio);
+        row.normal_ratio    = single(state.normal_ratio);
+        row.coefficient     = single(state.coefficient);
+        row.slip_fraction   = response.slips ? 1. : 0.;
+        row.dissipated_energy = state.dissipation;
+        row.stored_energy     = stored_normal + state.traction.norm_square() /
+                                              (2. * law.tangential_stiffness());
+        row.external_work     = work;
+        row.step_size         = step;
+        row.newton_iterations = 1;
+        observe(row);
+      }
+    return control.n_rejected();
+  }
+} // namespace SlipStep

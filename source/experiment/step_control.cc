@@ -1,0 +1,151 @@
+#include <slipstep/experiment/step_control.h>
+
+#include <slipstep/utilities/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // The largest number of the series not above the wanted one.
+    double round_down(const double wanted)
+    {
+      const double position = std::floor(10. * std::log10(wanted) + 1e-6);
+      return std::pow(10., position / 10.);
+    }
+  } // namespace
+
+
+
+  void StepControl::declare_parameters(Parameters &parameters)
+  {
+    parameters.declare(
+      "Time stepping/Tolerance",
+      "2e-6",
+      Quantity(Dimension::number, 1e-14, 0.1),
+      "Error of the friction force that one step may make, relative to the "
+      "force at full slip, as estimated by the friction law. Between 1e-14 and "
+      "0.1, no unit.");
+    parameters.declare(
+      "Time stepping/Least steps per segment",
+      "10",
+      dealii::Patterns::Integer(1, 1000000),
+      "Number of steps that each statement of the programme gets at least. 1 "
+      "or more.");
+    parameters.declare(
+      "Time stepping/First slip",
+      "0.1",
+      Quantity(Dimension::number, 1e-6, 1e6),
+      "Slip in the first step of a slide, relative to the elastic slip at which "
+      "the static friction is reached. Between 1e-6 and 1e6, no unit.");
+  }
+
+
+
+  StepControl::StepControl(const Parameters  &parameters,
+                           const Programme   &programme,
+                           const FrictionLaw &law)
+    : programme(programme)
+    , tolerance(parameters.number("Time stepping/Tolerance"))
+    , first_slip(parameters.number("Time stepping/First slip"))
+    , least_steps(parameters.integer("Time stepping/Least steps per segment"))
+    , elastic_slip_per_pressure(law.static_coefficient() /
+                                law.tangential_stiffness())
+  {
+    start_segment();
+  }
+
+
+
+  bool StepControl::is_finished() const
+  {
+    return segment == programme.segments().size();
+  }
+
+
+
+  void StepControl::start_segment()
+  {
+    first_of_segment = true;
+    if (is_finished())
+      return;
+    const Segment &now      = programme.segments()[segment];
+    const double   speed    = now.end.velocity.norm();
+    const double   pressure = std::max(now.start.pressure, now.end.pressure);
+    double         wanted   = now.end_time - now.start_time;
+    if (speed > 0. && pressure > 0.)
+      wanted =
+        std::min(wanted,
+                 first_slip * elastic_slip_per_pressure * pressure / speed);
+    plan(wanted);
+  }
+
+
+
+  void StepControl::plan(const double wanted_step)
+  {
+    const Segment &now      = programme.segments()[segment];
+    const double   duration = now.end_time - now.start_time;
+    full_step =
+      round_down(std::min(wanted_step, duration / least_steps * (1. + 1e-9)));
+
+    // The last two steps of a segment share what is left, so that no tiny one
+    // remains.
+    const double left = now.end_time - begin;
+    if (left <= full_step * (1. + 1e-9))
+      end = now.end_time;
+    else if (left < 2. * full_step)
+      end = begin + left / 2.;
+    else
+      end = begin + full_step;
+  }
+
+
+
+  bool StepControl::accept(const double relative_error)
+  {
+    const double step = step_size();
+    const double ideal =
+      0.9 * std::sqrt(tolerance / std::max(relative_error, 1e-30));
+    if (relative_error > 1.5 * tolerance)
+      {
+        ++rejected;
+        plan(step * std::max(0.2, std::min(ideal, 0.7)));
+        return false;
+      }
+
+    ++accepted;
+    begin = end;
+    if (begin >= programme.segments()[segment].end_time)
+      {
+        ++segment;
+        start_segment();
+      }
+    else
+      {
+        first_of_segment = false;
+        plan(std::max(step, full_step) * std::min(ideal, 2.));
+      }
+    return true;
+  }
+
+
+
+  void StepControl::cut(const std::string &reason)
+  {
+    const Segment &now = programme.segments()[segment];
+    ++rejected;
+    if (step_size() < 1e-12 * std::max(now.end_time, 1e-6))
+      {
+        std::ostringstream message;
+        message << "At t = " << std::setprecision(6) << begin
+                << " s no time step is small enough: " << reason;
+        throw RunError(message.str());
+      }
+    plan(step_size() / 4.);
+  }
+} // namespace SlipStep
