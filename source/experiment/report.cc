@@ -151,7 +151,7 @@ namespace SlipStep
           if (with_labels)
             line.push_back(row.label);
           line.insert(line.end(),
-                      {(is_reverse(slide) ? "−" : "") +
+                      {(is_reverse(slide) ? "-" : "") +
                          short_text(60. * slide.speed),
                        fixed_text(slide.peak, 4),
                        fixed_text(slide.kinetic, 4)});
@@ -328,6 +328,7 @@ figure { margin: 0 0 1.5em; break-inside: avoid; }
 figcaption { color: #555; font-size: .85em; }
 svg { width: 100%; height: auto; display: block; }
 .map svg path, .map svg polygon { shape-rendering: crispEdges; }
+summary { cursor: pointer; color: #0072B2; margin: 1em 0; }
 pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
   font-size: .85em; }
 @media print { body { margin: 0; max-width: none; font-size: 11pt; }
@@ -355,16 +356,26 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
       return html;
     }
 
+    std::string figure_element(const Picture &picture)
+    {
+      return "<h2>" + html_text(picture.title) + "</h2>\n<figure" +
+             (picture.is_map ? " class='map'" : "") + ">\n" + picture.svg +
+             "<figcaption>" + html_text(picture.caption) +
+             "</figcaption></figure>\n";
+    }
+
+    /// All pictures; those of further runs are folded away.
     std::string figures(const std::vector<Picture> &pictures)
     {
-      std::string html;
+      std::string shown, folded;
       for (const Picture &picture : pictures)
         if (!picture.svg.empty())
-          html += "<h2>" + html_text(picture.title) + "</h2>\n<figure" +
-                  (picture.is_map ? " class='map'" : "") + ">\n" + picture.svg +
-                  "<figcaption>" + html_text(picture.caption) +
-                  "</figcaption></figure>\n";
-      return html;
+          (picture.is_secondary ? folded : shown) += figure_element(picture);
+      if (!folded.empty())
+        shown += "<details><summary>The contact face of the other runs"
+                 "</summary>\n" +
+                 folded + "</details>\n";
+      return shown;
     }
 
     /// How to get these results again.

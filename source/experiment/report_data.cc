@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iostream>
 #include <limits>
+#include <map>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -35,6 +38,33 @@ namespace SlipStep
                     const double                     speed)
     {
       return formula.value(dealii::Point<1>(speed * mm_min));
+    }
+    /// Give @p formula its text. @return what is wrong with it, or ""
+    std::string fault_of(dealii::FunctionParser<1> &formula,
+                         const std::string         &text)
+    {
+      // deal.II prints what the parser says instead of throwing it.
+      std::ostringstream said;
+      std::streambuf    *terminal = std::cerr.rdbuf(said.rdbuf());
+      std::string        fault;
+      try
+        {
+          formula.initialize("V", text, std::map<std::string, double>());
+          // Parsing happens at the first evaluation.
+          if (!std::isfinite(evaluate(formula, 1. / mm_min)))
+            fault = "not a finite number at V = 1";
+        }
+      catch (const std::exception &)
+        {
+          const std::string message = said.str();
+          const auto        begin   = message.find('<');
+          const auto        end     = message.find('>', begin);
+          fault                     = end == std::string::npos ?
+                                        "cannot be read" :
+                                        message.substr(begin + 1, end - begin - 1);
+        }
+      std::cerr.rdbuf(terminal);
+      return fault;
     }
   } // namespace
 
@@ -88,20 +118,12 @@ namespace SlipStep
     const std::string text = parameters.text(key);
     if (text.empty())
       return;
-    formula        = std::make_shared<dealii::FunctionParser<1>>();
-    bool is_number = false;
-    try
-      {
-        // Parsing happens at the first evaluation.
-        formula->initialize("V", text, std::map<std::string, double>());
-        is_number = std::isfinite(evaluate(*formula, 1. / mm_min));
-      }
-    catch (const std::exception &)
-      {}
-    if (!is_number)
+    formula                 = std::make_shared<dealii::FunctionParser<1>>();
+    const std::string fault = fault_of(*formula, text);
+    if (!fault.empty())
       parameters.reject(key,
-                        "not a formula of the speed V in mm/min that can be "
-                        "evaluated at V = 1, e.g. 0.0042*log(V) + 0.1");
+                        fault + "; expected is a formula of the speed V in "
+                                "mm/min, e.g. 0.0042*log(V) + 0.1");
   }
 
 
@@ -167,9 +189,12 @@ namespace SlipStep
   {
     std::string comparison(const double lowest, const double highest)
     {
-      if (lowest == highest)
-        return fixed_text(std::abs(lowest), 1) + " % " +
-               (lowest < 0. ? "below " : "above ");
+      const std::string low = fixed_text(lowest, 1);
+      if (low == fixed_text(highest, 1))
+        return std::abs(lowest) < 0.05 ?
+                 "equal to " :
+                 fixed_text(std::abs(lowest), 1) + " % " +
+                   (lowest < 0. ? "below " : "above ");
       return "within " +
              fixed_text(std::max(std::abs(lowest), std::abs(highest)), 1) +
              " % of ";

@@ -1,5 +1,8 @@
 #include <slipstep/experiment/report_figures.h>
 
+#include <slipstep/experiment/report_drawing.h>
+#include <slipstep/experiment/report_faces.h>
+
 #include <slipstep/utilities/figure.h>
 
 #include <algorithm>
@@ -12,29 +15,6 @@ namespace SlipStep
   namespace
   {
     constexpr double mm_min = 60.; // mm/s in mm/min
-
-    using Rows = std::vector<std::vector<double>>;
-
-    /// Interval that grows over what it is shown.
-    struct Range
-    {
-      double lower = std::numeric_limits<double>::infinity();
-      double upper = -std::numeric_limits<double>::infinity();
-
-      void add(const double value)
-      {
-        if (std::isfinite(value))
-          {
-            lower = std::min(lower, value);
-            upper = std::max(upper, value);
-          }
-      }
-
-      double width() const
-      {
-        return upper - lower;
-      }
-    };
 
     /// Colours of Okabe and Ito, distinct for colour-blind readers; dashes keep
     /// the curves apart in print. (Their yellow is lost on white.)
@@ -160,13 +140,17 @@ namespace SlipStep
       return order;
     }
 
-    std::string legend(const RunResults &run)
+    /// Room for the legend, the same in all pictures. (Left to itself, gnuplot
+    /// takes more than browsers need.)
+    std::string legend_margin(const std::vector<RunResults> &runs,
+                              const Reference               &reference)
     {
-      if (!run.label.empty())
-        return run.label;
-      return run.summary.slides.empty() ?
-               run.summary.command :
-               speed_text(run.summary.slides[0].speed);
+      std::size_t longest = reference.exists() ? reference.name().size() : 0;
+      for (const RunResults &run : runs)
+        longest = std::max(longest, legend(run).size());
+      const double room = std::min(70. + 7.8 * longest, 0.4 * picture_width);
+      return "set rmargin at screen " + short_text(1. - room / picture_width) +
+             "\n";
     }
 
     /// Which run slides at this speed; runs.size() if none does.
@@ -200,25 +184,6 @@ namespace SlipStep
                    speeds.end());
       return speeds;
     }
-
-    const char *const axes_style =
-      "set border 3 lw 1 lc rgb '#444444'\n"
-      "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
-      "set grid lc rgb '#dddddd' lw 0.7 dt solid\n"
-      "set key outside right top Left reverse samplen 2.5 spacing 1.25\n";
-
-    Picture finish(Figure                   &figure,
-                   const std::string        &title,
-                   const std::string        &caption,
-                   std::vector<std::string> &warnings)
-    {
-      const std::string warning = figure.write();
-      if (!warning.empty())
-        warnings.push_back(warning);
-      return {title, caption, figure.inline_svg(), false};
-    }
-
-
 
     /// Short strokes right of the curves where the reference expects them.
     std::string reference_marks(Figure                        &figure,
@@ -254,8 +219,11 @@ namespace SlipStep
                              const Reference               &reference,
                              std::vector<std::string>      &warnings)
     {
-      Figure figure(
-        folder, "friction", "Friction against displacement", 860, 430);
+      Figure      figure(folder,
+                    "friction",
+                    "Friction against displacement",
+                    picture_width,
+                    430);
       Range       x, y;
       std::string plots;
       for (const std::size_t i : from_top_to_bottom(runs))
@@ -281,10 +249,11 @@ namespace SlipStep
                                reference,
                                x.upper + 0.015 * x.width(),
                                x.upper + 0.06 * x.width());
-      figure.script() << axes_style
+      figure.script() << axes_style << legend_margin(runs, reference)
                       << "set xlabel 'Displacement of the drive  [mm]'\n"
                          "set ylabel 'Friction  (tangential / normal load)'\n"
-                      << "set xrange [" << x.lower << ":"
+                      // The first rise shall not hide on the axis.
+                      << "set xrange [" << x.lower - 0.01 * x.width() << ":"
                       << x.upper + 0.06 * x.width() << "]\n";
       if (y.lower >= -1e-3)
         figure.script() << "set yrange [0:*]\n";
@@ -321,6 +290,7 @@ namespace SlipStep
 
     void add_zoom_picture(const std::filesystem::path   &folder,
                           const std::vector<RunResults> &runs,
+                          const Reference               &reference,
                           std::vector<Picture>          &pictures,
                           std::vector<std::string>      &warnings)
     {
@@ -330,7 +300,7 @@ namespace SlipStep
       Figure      figure(folder,
                     "friction_start",
                     "Friction at the start of the slide",
-                    860,
+                    picture_width,
                     380);
       std::string plots, peaks;
       for (const std::size_t i : from_top_to_bottom(runs))
@@ -361,7 +331,7 @@ namespace SlipStep
                    " with points pt 7 ps 0.7 " + without_dash(line_style(i)) +
                    " notitle";
         }
-      figure.script() << axes_style
+      figure.script() << axes_style << legend_margin(runs, reference)
                       << "set xlabel 'Displacement since the start of the "
                          "slide  [mm]'\n"
                          "set ylabel 'Friction  (tangential / normal load)'\n"
@@ -413,9 +383,9 @@ namespace SlipStep
       Figure figure(folder,
                     "ratio_over_speed",
                     "Dynamic loading ratio against speed",
-                    860,
+                    picture_width,
                     380);
-      figure.script() << axes_style
+      figure.script() << axes_style << legend_margin(runs, reference)
                       << "set logscale x\nset format x '%g'\n"
                          "set xlabel 'Sliding speed  [mm/min]'\n"
                          "set ylabel 'Dynamic loading ratio  r  [–]'\n"
@@ -449,184 +419,6 @@ namespace SlipStep
                                   "value.",
                                 warnings));
     }
-
-
-
-    /// How to show a field over the contact face.
-    struct Field
-    {
-      std::string column;
-      std::string label;
-      double      offset = 0.;
-      double      factor = 1.;
-      Range       range;
-    };
-
-    /// A nearly uniform field is shown as the deviation from its mean: its own
-    /// digits would not fit a colour bar.
-    Field field_of(const CsvTable    &face,
-                   const std::string &column,
-                   const std::string &name,
-                   const std::string &unit)
-    {
-      Field field{column, name + "  [" + unit + "]", 0., 1., {}};
-      Range range;
-      for (const double value : face[column])
-        range.add(value);
-      const double size =
-        std::max(std::abs(range.lower), std::abs(range.upper));
-      if (range.width() < 0.02 * size)
-        {
-          double mean = 0.;
-          for (const double value : face[column])
-            mean += value / face.size();
-          field.offset = mean;
-          field.factor = 1e3;
-          field.label  = name + " − " + short_text(mean, 5) + " " + unit +
-                        "  [" + (unit == "mm" ? "µm" : "kPa") + "]";
-        }
-      for (const double value : face[column])
-        field.range.add(field.factor * (value - field.offset));
-
-      // Round-off shall not look like a pattern.
-      const double least = std::max(field.factor * 1e-6 * size, 1e-12);
-      if (field.range.width() < least)
-        field.range = {field.range.lower - 0.5 * least,
-                       field.range.upper + 0.5 * least};
-      return field;
-    }
-
-    Picture face_map(const std::filesystem::path &folder,
-                     const RunResults            &run,
-                     const std::size_t            number,
-                     const std::array<Field, 2>  &fields,
-                     std::vector<std::string>    &warnings)
-    {
-      const CsvTable &face = *run.contact_face;
-      Rows            rows;
-      Range           x, y;
-      for (std::size_t i = 0; i < face.size(); ++i)
-        {
-          const double px = face["x_mm"][i], py = face["y_mm"][i];
-          const double hx = 0.5 * face["cell_size_x_mm"][i];
-          const double hy = 0.5 * face["cell_size_y_mm"][i];
-          rows.push_back({px, py, hx, hy});
-          for (const Field &field : fields)
-            rows.back().push_back(field.factor *
-                                  (face[field.column][i] - field.offset));
-          for (const double sign : {-1., 1.})
-            {
-              x.add(px + sign * hx);
-              y.add(py + sign * hy);
-            }
-        }
-
-      // Two maps side by side, in the proportions of the face.
-      const double map_width = 280.;
-      const double map_height =
-        std::max(60., std::min(400., map_width * y.width() / x.width()));
-      Figure            figure(folder,
-                    "contact_face_" + std::to_string(number),
-                    "Contact face, " + legend(run),
-                    860,
-                    static_cast<unsigned int>(map_height + 120.));
-      const std::string data = figure.add_data("contact face of " + legend(run),
-                                               {"x_mm",
-                                                "y_mm",
-                                                "half_size_x_mm",
-                                                "half_size_y_mm",
-                                                fields[0].label,
-                                                fields[1].label},
-                                               rows);
-      const double      top  = 1. - 40. / (map_height + 120.);
-      const double      bottom = 60. / (map_height + 120.);
-      figure.script()
-        << "set palette defined (0 '#440154', 1 '#414487', 2 '#2a788e', "
-           "3 '#22a884', 4 '#7ad151', 5 '#fde725')\n"
-           "set border 15 lw 1 lc rgb '#444444'\nunset key\n"
-           "set tics out nomirror scale 0.6\nset size ratio -1\n"
-           "set xlabel 'x  [mm]'\nset ylabel 'y  [mm]'\n"
-           "set multiplot\n"
-        << "set xrange [" << x.lower << ":" << x.upper << "]\nset yrange ["
-        << y.lower << ":" << y.upper << "]\n";
-      for (unsigned int k = 0; k < 2; ++k)
-        figure.script() << "set lmargin at screen " << 0.075 + 0.5 * k
-                        << "\nset rmargin at screen " << 0.4 + 0.5 * k
-                        << "\nset tmargin at screen " << top
-                        << "\nset bmargin at screen " << bottom
-                        << "\nset cbrange [" << fields[k].range.lower << ":"
-                        << fields[k].range.upper << "]\nset title "
-                        << gnuplot_text(fields[k].label) << "\nplot " << data
-                        << " using 1:2:3:4:" << 5 + k
-                        << " with boxxyerror lc palette fs solid 1 noborder\n";
-      figure.script() << "unset multiplot\n";
-      Picture picture = finish(figure,
-                               "Contact face, " + legend(run),
-                               "State at the end of the run.",
-                               warnings);
-      picture.is_map  = true;
-      return picture;
-    }
-
-    /// In two dimensions the face is a line.
-    Picture face_lines(const std::filesystem::path &folder,
-                       const RunResults            &run,
-                       const std::size_t            number,
-                       const std::array<Field, 2>  &fields,
-                       std::vector<std::string>    &warnings)
-    {
-      const CsvTable &face = *run.contact_face;
-      Rows            rows;
-      for (std::size_t i = 0; i < face.size(); ++i)
-        {
-          rows.push_back({face["x_mm"][i]});
-          for (const Field &field : fields)
-            rows.back().push_back(field.factor *
-                                  (face[field.column][i] - field.offset));
-        }
-      std::sort(rows.begin(), rows.end());
-
-      Figure            figure(folder,
-                    "contact_face_" + std::to_string(number),
-                    "Contact face, " + legend(run),
-                    860,
-                    320);
-      const std::string data =
-        figure.add_data("contact face of " + legend(run),
-                        {"x_mm", fields[0].label, fields[1].label},
-                        rows);
-      figure.script() << axes_style
-                      << "unset key\nset multiplot layout 1,2\n"
-                         "set xlabel 'x  [mm]'\n";
-      for (unsigned int k = 0; k < 2; ++k)
-        figure.script() << "set ylabel " << gnuplot_text(fields[k].label)
-                        << "\nset yrange [" << fields[k].range.lower << ":"
-                        << fields[k].range.upper
-                        << "]\nset offsets 0, 0, graph 0.05, graph 0.05\nplot "
-                        << data << " using 1:" << 2 + k
-                        << " with linespoints lw 2 pt 7 ps 0.4 lc rgb "
-                        << "'#0072B2'\n";
-      figure.script() << "unset multiplot\n";
-      return finish(figure,
-                    "Contact face, " + legend(run),
-                    "State at the end of the run.",
-                    warnings);
-    }
-
-    Picture face_picture(const std::filesystem::path &folder,
-                         const RunResults            &run,
-                         const std::size_t            number,
-                         std::vector<std::string>    &warnings)
-    {
-      const CsvTable            &face   = *run.contact_face;
-      const std::array<Field, 2> fields = {
-        field_of(face, "pressure_MPa", "Pressure", "MPa"),
-        field_of(face, "slip_mm", "Slip", "mm")};
-      const auto &sizes   = face["cell_size_y_mm"];
-      const bool  is_line = *std::max_element(sizes.begin(), sizes.end()) <= 0.;
-      return is_line ? face_lines(folder, run, number, fields, warnings) :
-                       face_map(folder, run, number, fields, warnings);
-    }
   } // namespace
 
 
@@ -640,14 +432,22 @@ namespace SlipStep
     if (runs.empty())
       return pictures;
     pictures.push_back(friction_picture(folder, runs, reference, warnings));
-    add_zoom_picture(folder, runs, pictures, warnings);
+    add_zoom_picture(folder, runs, reference, pictures, warnings);
     add_speed_picture(folder, runs, reference, pictures, warnings);
 
-    // More than a handful of faces would bury the rest of the report.
-    const std::size_t n_faces = 6;
-    for (std::size_t i = 0; i < std::min(runs.size(), n_faces); ++i)
-      if (runs[i].contact_face && runs[i].contact_face->size() > 0)
+    // A cell costs some 300 bytes: the page shall stay quick to open.
+    const std::size_t most_cells = 10000;
+    std::size_t       n_cells    = 0;
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      {
+        const std::size_t size =
+          runs[i].contact_face ? runs[i].contact_face->size() : 0;
+        if (size == 0 || (n_cells > 0 && n_cells + size > most_cells))
+          continue;
         pictures.push_back(face_picture(folder, runs[i], i + 1, warnings));
+        pictures.back().is_secondary = n_cells > 0;
+        n_cells += size;
+      }
     return pictures;
   }
 } // namespace SlipStep

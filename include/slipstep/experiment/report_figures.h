@@ -13,6 +13,8 @@ namespace SlipStep
     std::string svg; ///< "" if gnuplot did not draw it
     /// Maps of cells are drawn without smoothing, else seams show.
     bool is_map = false;
+    /// Repeats for another run what has been shown.
+    bool is_secondary = false;
   };
 
   /// Draw the pictures of the report into @p folder, each with its data and

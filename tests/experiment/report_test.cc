@@ -1,0 +1,234 @@
+#include <slipstep/experiment/history.h>
+#include <slipstep/experiment/report.h>
+#include <slipstep/experiment/summary.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace SlipStep;
+
+namespace
+{
+  std::filesystem::path scratch_folder()
+  {
+    return std::filesystem::path(testing::TempDir()) / "slipstep_report";
+  }
+
+  Parameters parameters_with(
+    const std::vector<std::pair<std::string, std::string>> &values)
+  {
+    Parameters parameters;
+    declare_report_parameters(parameters);
+    for (const auto &[key, value] : values)
+      parameters.set("Report/" + key, value, "test");
+    return parameters;
+  }
+
+  Parameters parameters_of_the_paper()
+  {
+    return parameters_with(
+      {{"Title", "Flat <surface> test"},
+       {"Reference kinetic coefficient", "0.00420*log(V) + 0.100"},
+       {"Reference name", "eq. 4"},
+       {"Reference quasi-static coefficient", "0.078"},
+       {"Reference speeds", "1, 10, 50, 200"}});
+  }
+
+  /// A run whose friction peaks at 0.5 mm and ends 1 % above eq. 4.
+  ReportedRun make_run(const double speed, const std::string &label)
+  {
+    const auto folder = scratch_folder() / label;
+    std::filesystem::create_directories(folder);
+
+    SlideSummary slide;
+    slide.speed             = speed / 60.;
+    slide.length            = 20.;
+    slide.kinetic           = 1.01 * (0.0042 * std::log(speed) + 0.1);
+    slide.peak              = slide.kinetic / 0.9;
+    slide.peak_displacement = 0.5;
+    slide.dynamic_ratio     = slide.kinetic / 0.078;
+    slide.coefficient       = 0.078;
+
+    HistoryWriter writer(folder / "history.csv", label);
+    for (int i = 0; i <= 200; ++i)
+      {
+        HistoryRow row;
+        row.time         = i;
+        row.displacement = 0.1 * i;
+        row.friction =
+          i < 5 ? slide.peak * i / 5. :
+                  slide.peak + (slide.kinetic - slide.peak) * (i - 5) / 195.;
+        writer.write(row);
+      }
+
+    Summary summary;
+    summary.case_name      = "flat";
+    summary.label          = label;
+    summary.command        = "run";
+    summary.slides         = {slide};
+    summary.status         = "finished";
+    summary.final_friction = slide.kinetic;
+    write_summary(folder / "summary.json", summary);
+    return {label, folder};
+  }
+
+  void write_face(const ReportedRun &run)
+  {
+    std::ofstream out(run.folder / "contact_face.csv");
+    out << "x_mm,y_mm,cell_size_x_mm,cell_size_y_mm,area_mm2,pressure_MPa,"
+           "traction_x_MPa,traction_y_MPa,slip_mm,r,r_s,mu\n";
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 3; ++j)
+        out << i + 0.5 << "," << j + 0.5 << ",1,1,1," << 5.8 + 0.1 * i
+            << ",0,0," << 20 - 0.001 * j << ",1,1,0.078\n";
+  }
+
+  std::string content(const std::filesystem::path &file)
+  {
+    std::ifstream     in(file);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+
+  bool contains(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+} // namespace
+
+
+
+TEST(Report, TheTableComparesWithTheReference)
+{
+  const std::string table =
+    result_table(parameters_of_the_paper(),
+                 {make_run(1., "1 mm/min"), make_run(50., "50 mm/min")});
+  EXPECT_EQ(table,
+            "  speed [mm/min]     peak   kinetic    eq. 4   difference [%]\n"
+            "  -----------------------------------------------------------\n"
+            "  1                0.1122    0.1010   0.1000            +1.00\n"
+            "  50               0.1307    0.1176   0.1164            +1.00\n");
+}
+
+
+
+TEST(Report, WithoutAReferenceTheTableHasNoSuchColumns)
+{
+  const std::string table =
+    result_table(parameters_with({}), {make_run(1., "rough")});
+  EXPECT_TRUE(contains(table, "rough")) << table;
+  EXPECT_FALSE(contains(table, "difference")) << table;
+}
+
+
+
+TEST(Report, FailedAndMissingRunsAreNamed)
+{
+  const ReportedRun run     = make_run(1., "tipped");
+  Summary           summary = read_summary(run.folder / "summary.json");
+  summary.status            = "failed";
+  summary.reason            = "the block tips over";
+  write_summary(run.folder / "summary.json", summary);
+
+  const std::vector<ReportedRun> runs = {run, {"absent", "no/such/folder"}};
+  const std::string table             = result_table(parameters_with({}), runs);
+  EXPECT_TRUE(contains(table, "tipped: failed: the block tips over")) << table;
+  EXPECT_TRUE(contains(table, "'absent'")) << table;
+
+  const auto warnings =
+    write_report(scratch_folder(), parameters_with({}), runs);
+  ASSERT_GE(warnings.size(), 1u);
+  EXPECT_TRUE(contains(warnings[0], "'absent'"));
+  EXPECT_TRUE(
+    contains(content(scratch_folder() / "report.html"), "the block tips over"));
+}
+
+
+
+TEST(Report, ThePageIsCompleteInItself)
+{
+  std::filesystem::remove_all(scratch_folder());
+  const std::vector<ReportedRun> runs = {make_run(1., "1 mm/min"),
+                                         make_run(200., "200 mm/min")};
+  write_face(runs[0]);
+  write_face(runs[1]);
+  const auto warnings =
+    write_report(scratch_folder(), parameters_of_the_paper(), runs);
+  for (const std::string name : {"friction",
+                                 "friction_start",
+                                 "ratio_over_speed",
+                                 "contact_face_1",
+                                 "contact_face_2"})
+    for (const std::string end : {".dat", ".gp"})
+      EXPECT_TRUE(
+        std::filesystem::exists(scratch_folder() / "report" / (name + end)))
+        << name + end;
+
+  const std::string page = content(scratch_folder() / "report.html");
+  EXPECT_TRUE(contains(page, "Flat &lt;surface&gt; test"));
+  EXPECT_TRUE(contains(page,
+                       "Kinetic friction rises from 0.1010 at 1 mm/min to "
+                       "0.1235 at 200 mm/min, 1.0 % above eq. 4; it is "
+                       "10.0 % lower than its peak."));
+  EXPECT_TRUE(contains(page, "slipstep run"));
+  // Nothing is fetched from elsewhere.
+  EXPECT_FALSE(contains(page, "src="));
+  EXPECT_FALSE(contains(page, "<link"));
+  EXPECT_FALSE(contains(page, "@import"));
+
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_TRUE(warnings.empty()) << warnings[0];
+  for (const std::string name : {"friction",
+                                 "friction_start",
+                                 "ratio_over_speed",
+                                 "contact_face_1",
+                                 "contact_face_2"})
+    EXPECT_TRUE(contains(page, "id=\"" + name + "-")) << name;
+}
+
+
+
+TEST(Report, NoRunAtAllGivesAPageThatSaysSo)
+{
+  std::filesystem::create_directories(scratch_folder());
+  write_report(scratch_folder(), parameters_of_the_paper(), {});
+  EXPECT_TRUE(contains(content(scratch_folder() / "report.html"),
+                       "No slide has been reached"));
+}
+
+
+
+TEST(Report, WrongReferencesAreRefused)
+{
+  EXPECT_NO_THROW(check_report_parameters(parameters_with({})));
+  EXPECT_NO_THROW(check_report_parameters(parameters_of_the_paper()));
+  EXPECT_NO_THROW(check_report_parameters(
+    parameters_with({{"Reference speeds", "1 mm/min, 0.5 mm/s"}})));
+  for (const std::string formula :
+       {"0.1 +", "0.1*W", "log(V", "1/0", "log(V-2)"})
+    EXPECT_THROW(check_report_parameters(parameters_with(
+                   {{"Reference kinetic coefficient", formula}})),
+                 InputError)
+      << formula;
+  try
+    {
+      check_report_parameters(
+        parameters_with({{"Reference kinetic coefficient", "0.1*W"}}));
+    }
+  catch (const InputError &error)
+    {
+      EXPECT_TRUE(contains(error.what(), "\"W\"")) << error.what();
+    }
+  for (const std::string speeds : {"fast", "1, 0", "-3", "1 MPa/mm"})
+    EXPECT_THROW(check_report_parameters(
+                   parameters_with({{"Reference speeds", speeds}})),
+                 InputError)
+      << speeds;
+}
