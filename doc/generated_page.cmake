@@ -1,0 +1,10 @@
+# Runs "PROGRAM COMMAND --format md" and makes its output the Doxygen page with
+# the id COMMAND: own title, and formulas in Doxygen's notation.
+execute_process(COMMAND "${PROGRAM}" "${COMMAND}" --format md
+                OUTPUT_VARIABLE text RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "${PROGRAM} ${COMMAND} --format md failed")
+endif()
+string(REGEX REPLACE "^# [^\n]*\n" "" text "${text}")
+string(REGEX REPLACE "\\$([^$\n]+)\\$" "@f$\\1@f$" text "${text}")
+file(WRITE "${PAGE}" "# ${TITLE} {#${COMMAND}}\n\n[TOC]\n\n${text}")
