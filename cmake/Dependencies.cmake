@@ -1,6 +1,6 @@
 # The libraries of the program, gathered in the target slipstep_dependencies.
 # Their headers are system headers: warnings in them are not ours.
-set(slipstep_deal_II_remedy
+string(CONCAT slipstep_deal_II_remedy
     "On Debian 12: apt-get install libdeal.ii-dev. A deal.II of your own needs "
     "-DDEAL_II_WITH_MPI=ON -DDEAL_II_WITH_P4EST=ON -DDEAL_II_WITH_TRILINOS=ON; "
     "name its folder with -Ddeal.II_DIR=<folder>.")
@@ -11,13 +11,13 @@ if(NOT deal.II_FOUND)
     set(slipstep_found " (found only ${deal.II_CONSIDERED_VERSIONS})")
   endif()
   message(FATAL_ERROR "slipstep needs deal.II 9.4.1 or newer${slipstep_found}. "
-                      ${slipstep_deal_II_remedy})
+                      "${slipstep_deal_II_remedy}")
 endif()
 foreach(feature IN ITEMS MPI P4EST TRILINOS)
   if(NOT DEAL_II_WITH_${feature})
     message(FATAL_ERROR "The deal.II in ${DEAL_II_PATH} was built without "
                         "${feature}, which slipstep needs. "
-                        ${slipstep_deal_II_remedy})
+                        "${slipstep_deal_II_remedy}")
   endif()
 endforeach()
 
