@@ -148,9 +148,11 @@ namespace SlipStep
       std::size_t longest = reference.exists() ? reference.name().size() : 0;
       for (const RunResults &run : runs)
         longest = std::max(longest, legend(run).size());
-      const double room = std::min(70. + 7.8 * longest, 0.4 * picture_width);
-      return "set rmargin at screen " + short_text(1. - room / picture_width) +
-             "\n";
+      const double edge =
+        1. - std::min(70. + 7.8 * longest, 0.4 * picture_width) / picture_width;
+      return "set rmargin at screen " + short_text(edge) +
+             "\nset key at screen " + short_text(edge + 0.02) +
+             ", graph 1 left top\n";
     }
 
     /// Which run slides at this speed; runs.size() if none does.
