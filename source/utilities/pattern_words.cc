@@ -123,11 +123,15 @@ namespace SlipStep
             else if (match[1] != "0")
               count = " of at least " + match[1].str();
           }
+        const PatternBase &base = list->get_base_pattern();
         return "a list" + count + " (separated by " +
                (separator == "," ? "commas" :
                 separator == ";" ? "semicolons" :
                                    "\"" + separator + "\"") +
-               "), each " + allowed_in_words(list->get_base_pattern());
+               ")" +
+               (dynamic_cast<const P::Anything *>(&base) ?
+                  "" :
+                  ", each " + allowed_in_words(base));
       }
     return pattern.description(PatternBase::Text);
   }

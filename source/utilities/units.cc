@@ -264,9 +264,10 @@ namespace SlipStep
                               base_unit(dimension) + " if no unit is given") +
              ")";
 
-    std::string       range;
-    const bool        has_minimum = std::isfinite(minimum);
-    const bool        has_maximum = std::isfinite(maximum);
+    std::string range;
+    // A bound that nobody can reach is not worth a word.
+    const bool        has_minimum = minimum > -1e30;
+    const bool        has_maximum = maximum < 1e30;
     const std::string base =
       dimension == Dimension::number ? "" : " " + base_unit(dimension);
     if (has_minimum)

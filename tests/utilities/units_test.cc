@@ -82,6 +82,9 @@ TEST(Units, QuantityKeepsItsBounds)
   EXPECT_FALSE(ratio.match("10.1"));
   EXPECT_EQ(ratio.description(), "a number greater than 1 and at most 10");
 
+  EXPECT_EQ(Quantity(Dimension::length, 0., 1e30, true).description(),
+            "a length (in mm if no unit is given) greater than 0 mm");
+
   // Bounds of angles are in degrees, also where radians would be rounded.
   const Quantity angle(Dimension::angle, -90., 90.);
   EXPECT_TRUE(angle.match("90 deg"));

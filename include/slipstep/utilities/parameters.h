@@ -133,8 +133,7 @@ namespace SlipStep
 
     /// Where a value was given, as messages begin: "file:line: key" or
     /// "--set key".
-    std::string
-    origin(const std::string &path) const;
+    std::string origin(const std::string &path) const;
 
     /// Report a wrong value: throws InputError
     /// "file:line: key = value: why" (or "--set key = value: why").
