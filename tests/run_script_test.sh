@@ -3,7 +3,7 @@
 # installed on machines of several kinds, played by fake programs in PATH.
 #   tests/run_script_test.sh <path of run>
 set -u
-run=$1
+run=$(realpath "$1") || exit 1
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 failures=0
