@@ -1,7 +1,7 @@
 #include <slipstep/experiment/point_driver.h>
 
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/progress.h>
+#include <slipstep/experiment/run_recorder.h>
 
 #include <cmath>
 
@@ -42,7 +42,7 @@ namespace SlipStep
       }
     catch (const InputError &error)
       {
-        throw InputError(parameters.entry("Loading/Programme").origin + ": " +
+        throw InputError(parameters.origin("Loading/Programme") + ": " +
                          error.what());
       }
   }
@@ -115,5 +115,29 @@ namespace SlipStep
         observe(row);
       }
     return control.n_rejected();
+  }
+
+
+
+  Summary run_point(const Parameters &parameters, const RunOptions &options)
+  {
+    const FrictionLaw law(parameters);
+    const Programme   programme = parse_programme(parameters);
+    RunRecorder       recorder(parameters, options, "point", law, programme);
+    try
+      {
+        const StepControl control(parameters, programme, law);
+        recorder.summary.rejected_steps =
+          drive_point(law, programme, control, [&](const HistoryRow &row) {
+            recorder.record(row);
+            ++recorder.summary.newton_iterations;
+          });
+        recorder.finish();
+      }
+    catch (const RunError &error)
+      {
+        recorder.finish(error.what());
+      }
+    return recorder.summary;
   }
 } // namespace SlipStep

@@ -31,7 +31,7 @@ namespace SlipStep
       "force at full slip, as estimated by the friction law. Between 1e-14 and "
       "0.1, no unit.");
     parameters.declare(
-      "Time stepping/Least steps per segment",
+      "Time stepping/Least steps per statement",
       "10",
       dealii::Patterns::Integer(1, 1000000),
       "Number of steps that each statement of the programme gets at least. 1 "
@@ -52,7 +52,7 @@ namespace SlipStep
     : programme(programme)
     , tolerance(parameters.number("Time stepping/Tolerance"))
     , first_slip(parameters.number("Time stepping/First slip"))
-    , least_steps(parameters.integer("Time stepping/Least steps per segment"))
+    , least_steps(parameters.integer("Time stepping/Least steps per statement"))
     , elastic_slip_per_pressure(law.static_coefficient() /
                                 law.tangential_stiffness())
   {
@@ -68,15 +68,34 @@ namespace SlipStep
 
 
 
+  bool StepControl::is_first_of_statement() const
+  {
+    return first_of_segment && (is_finished() || segment == 0 ||
+                                programme.segments()[segment - 1].statement !=
+                                  programme.segments()[segment].statement);
+  }
+
+
+
+  // A replayed test has a segment per sample: there the step goes on as it was.
   void StepControl::start_segment()
   {
     first_of_segment = true;
     if (is_finished())
       return;
+    if (!is_first_of_statement())
+      return plan(full_step);
+
     const Segment &now      = programme.segments()[segment];
     const double   speed    = now.end.velocity.norm();
     const double   pressure = std::max(now.start.pressure, now.end.pressure);
-    double         wanted   = now.end_time - now.start_time;
+    double         end_of_statement = now.end_time;
+    for (const Segment &other : programme.segments())
+      if (other.statement == now.statement)
+        end_of_statement = other.end_time;
+    largest_step = (end_of_statement - now.start_time) / least_steps;
+
+    double wanted = largest_step;
     if (speed > 0. && pressure > 0.)
       wanted =
         std::min(wanted,
@@ -88,16 +107,13 @@ namespace SlipStep
 
   void StepControl::plan(const double wanted_step)
   {
-    const Segment &now      = programme.segments()[segment];
-    const double   duration = now.end_time - now.start_time;
-    full_step =
-      round_down(std::min(wanted_step, duration / least_steps * (1. + 1e-9)));
+    full_step = round_down(std::min(wanted_step, largest_step * (1. + 1e-9)));
 
     // The last two steps of a segment share what is left, so that no tiny one
     // remains.
-    const double left = now.end_time - begin;
+    const double left = programme.segments()[segment].end_time - begin;
     if (left <= full_step * (1. + 1e-9))
-      end = now.end_time;
+      end = programme.segments()[segment].end_time;
     else if (left < 2. * full_step)
       end = begin + left / 2.;
     else

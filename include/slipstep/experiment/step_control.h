@@ -52,6 +52,9 @@ namespace SlipStep
       return first_of_segment;
     }
 
+    /// Whether the step is the first of a statement of the programme.
+    bool is_first_of_statement() const;
+
     /// Judge a step by its error, relative to the friction force: go on to the
     /// next and return true, or ask for the same again, smaller, and return
     /// false.
@@ -84,6 +87,7 @@ namespace SlipStep
     std::size_t  segment          = 0;
     double       begin            = 0.;
     double       end              = 0.;
+    double       largest_step     = 0.;
     double       full_step        = 0.; ///< wanted, before clipping to borders
     bool         first_of_segment = true;
     unsigned int accepted         = 0;

@@ -1,0 +1,62 @@
+#ifndef slipstep_experiment_run_recorder_h
+#define slipstep_experiment_run_recorder_h
+
+#include <slipstep/experiment/history.h>
+#include <slipstep/experiment/programme.h>
+#include <slipstep/experiment/run_options.h>
+#include <slipstep/experiment/summary.h>
+#include <slipstep/friction/law.h>
+#include <slipstep/utilities/progress.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Wall and processor time and memory of this process so far.
+  struct ResourceUsage
+  {
+    double wall_time   = 0.; ///< [s], of the recorder
+    double cpu_time    = 0.; ///< [s]
+    double peak_memory = 0.; ///< [MB]
+
+    static ResourceUsage now();
+  };
+
+  /// Keeps the files of one run: used_parameters.prm from the beginning,
+  /// history.csv row by row, summary.json at the beginning and at the end; and
+  /// shows the progress.
+  class RunRecorder
+  {
+  public:
+    /// @param is_writer false on all ranks but one: then nothing is written or
+    ///   shown
+    RunRecorder(const Parameters  &parameters,
+                const RunOptions  &options,
+                const std::string &command,
+                const FrictionLaw &law,
+                const Programme   &programme,
+                const bool         is_writer = true);
+
+    /// A step was made.
+    void record(const HistoryRow &row);
+
+    /// The run is over, with a reason if it failed. Completes the summary.
+    void finish(const std::string &reason = "");
+
+    /// To be filled with what only the driver knows.
+    Summary summary;
+
+  private:
+    const RunOptions        options;
+    const Programme         programme;
+    const bool              is_writer;
+    const ResourceUsage     start;
+    HistoryWriter           writer;
+    std::vector<HistoryRow> history;
+    Progress                progress;
+  };
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,163 @@
+#ifndef slipstep_solid_block_h
+#define slipstep_solid_block_h
+
+#include <deal.II/distributed/tria.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/fe/fe_system.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <slipstep/experiment/history.h>
+#include <slipstep/experiment/programme.h>
+#include <slipstep/experiment/step_control.h>
+#include <slipstep/experiment/summary.h>
+#include <slipstep/solid/block_output.h>
+#include <slipstep/solid/block_parameters.h>
+#include <slipstep/solid/contact_face.h>
+#include <slipstep/solid/tangent_system.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace SlipStep
+{
+  // @sect3{The class Block}
+
+  // The class declaration is the table of contents of this program. A block is
+  // made from what the case file says; run() goes through the programme step by
+  // step. The functions come in the order in which they are called: mesh,
+  // unknowns, constraints and loads are set up once, then every time step is a
+  // Newton iteration.
+  //
+  // The unknown is the displacement relative to a frame which moves with the
+  // drive. In this frame the driven face stands still and the plane slides
+  // underneath: nothing grows with the length of the slide, so 300 mm of
+  // sliding cost no digits of an elastic displacement of 100 nm, and the last
+  // displacement is a good first guess for the next.
+
+  /// An elastic block pressed on a rigid plane and slid; see the page "The
+  /// commented program".
+  template <int dim>
+  class Block
+  {
+  public:
+    Block(const BlockParameters &parameters,
+          const FrictionLaw     &law,
+          const Programme       &programme,
+          const StepControl     &control,
+          const MPI_Comm        &communicator);
+
+    /// Go through the programme.
+    /// @param output where fields are written, or nullptr for none
+    /// @param observe called on all ranks with the row of every accepted step
+    /// @throws RunError with the reason if the programme cannot be finished
+    void run(BlockOutput<dim>                              *output,
+             const std::function<void(const HistoryRow &)> &observe);
+
+    /// Cells, unknowns and iterations so far.
+    void fill(Summary &summary) const;
+
+    const ContactFace<dim> &contact_face() const
+    {
+      return contact;
+    }
+
+    /// Norms of the unbalanced forces in the Newton iterations of the last step
+    /// tried, relative to the scale of the convergence test.
+    const std::vector<double> &newton_residuals() const
+    {
+      return residual_norms;
+    }
+
+    /// Largest difference met between the contact forces and the sum of loads
+    /// and support reactions, relative to the normal load.
+    double force_imbalance() const
+    {
+      return largest_imbalance;
+    }
+
+  private:
+    // Setting up.
+    void make_grid();
+    void setup_unknowns();
+    void prescribe_displacements(
+      const dealii::Tensor<1, 2>        &frame,
+      dealii::AffineConstraints<double> &constraints) const;
+    void make_flat_faces(dealii::AffineConstraints<double> &constraints) const;
+    void find_groups_of_unknowns();
+    void assemble_loads();
+    void choose_solver();
+
+    // One time step.
+    void        predict();
+    bool        solve_step();
+    double      compute_residual();
+    double      line_search(const Vector &update, const double old_norm);
+    void        accept_step(HistoryRow &row);
+    std::string reason_of_failure() const;
+
+    // What an accepted step did to the energy and to the balance of forces.
+    void                   add_external_work();
+    dealii::Tensor<1, dim> sum_by_component(const Vector &forces) const;
+    double                 elastic_energy();
+    void                   check_contact(const ContactTotals &totals);
+
+    // Constant through the run.
+    const BlockParameters parameters;
+    const Programme       programme;
+    const MPI_Comm        communicator;
+
+    // Mesh and unknowns.
+    dealii::parallel::distributed::Triangulation<dim> triangulation;
+    const dealii::FESystem<dim>                       fe;
+    dealii::DoFHandler<dim>                           dof_handler;
+    dealii::IndexSet                                  relevant_dofs;
+    dealii::AffineConstraints<double>                 homogeneous_constraints;
+
+    // Unknowns which follow the drive, by axis of the contact plane.
+    std::array<std::vector<dealii::types::global_dof_index>, 2> driven_dofs;
+    // Locally owned unknowns by displacement component.
+    std::array<std::vector<dealii::types::global_dof_index>, dim>
+      dofs_of_component;
+
+    // Contact and linear algebra.
+    ContactFace<dim>                    contact;
+    std::unique_ptr<TangentSystem<dim>> system;
+
+    // Loads: a constant part and that of a programme pressure of 1 MPa, not
+    // constrained.
+    Vector constant_load;
+    Vector unit_pressure_load;
+
+    // State: displacements at the end and the beginning of the step, and one
+    // step before that.
+    StepControl control;
+    Vector      solution;
+    Vector      old_solution;
+    Vector      older_solution;
+    double      old_step = 0.;
+    Loading     old_loading, loading;
+
+    // Newton's method.
+    Vector               unbalanced; // internal - external forces, all supports
+    Vector               forces;     // scratch
+    dealii::Tensor<1, 2> drive_force, old_drive_force;
+    Vector               right_hand_side;
+    double               force_scale = 0.;
+    std::vector<double>  residual_norms;
+    unsigned int         n_newton = 0, n_linear = 0;
+    unsigned long long   n_newton_total = 0, n_linear_total = 0;
+    std::string          failure;
+
+    // Bookkeeping.
+    double external_work       = 0.;
+    double largest_imbalance   = 0.;
+    double largest_normal_load = 0.;
+    double contact_share       = 1.;
+  };
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,63 @@
+#ifndef slipstep_solid_block_output_h
+#define slipstep_solid_block_output_h
+
+#include <deal.II/base/data_out_base.h>
+
+#include <slipstep/solid/contact_face.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Writes the fields of a block for ParaView and for the report.
+  ///
+  /// `fields.pvd` collects the volume (displacement in space, relative to where
+  /// the drive is, stress), `contact.pvd` the contact face (pressure, traction,
+  /// slip, r, r_s, mu, state). `contact_face.csv` has one row per contact cell
+  /// at the last time, averages over the cell.
+  template <int dim>
+  class BlockOutput
+  {
+  public:
+    BlockOutput(const BlockParameters       &parameters,
+                const std::filesystem::path &folder,
+                const MPI_Comm              &communicator);
+
+    /// Write the volume and the face if the case file wants them now.
+    /// @param frame displacement of the frame [mm]
+    void write_if_due(const dealii::DoFHandler<dim> &dof_handler,
+                      const Vector                  &displacement,
+                      const dealii::Tensor<1, 2>    &frame,
+                      const ContactFace<dim>        &contact,
+                      const double                   time,
+                      const bool                     is_end_of_statement,
+                      const bool                     is_end);
+
+    /// Write contact_face.csv (all ranks take part).
+    void write_contact_table(const ContactFace<dim> &contact) const;
+
+  private:
+    void write_volume(const dealii::DoFHandler<dim> &dof_handler,
+                      const Vector                  &displacement,
+                      const dealii::Tensor<1, 2>    &frame,
+                      const double                   time);
+    void write_contact(const ContactFace<dim> &contact, const double time);
+    void write_collection(const std::string                           &name,
+                          std::vector<std::pair<double, std::string>> &entries,
+                          const double                                 time,
+                          const std::string &file) const;
+
+    const BlockParameters       parameters;
+    const std::filesystem::path folder;
+    const MPI_Comm              communicator;
+    const unsigned int          rank;
+    unsigned int                n_written = 0;
+
+    std::vector<std::pair<double, std::string>> volume_files, contact_files;
+  };
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,96 @@
+#ifndef slipstep_solid_block_parameters_h
+#define slipstep_solid_block_parameters_h
+
+#include <deal.II/base/tensor.h>
+
+#include <slipstep/experiment/programme.h>
+#include <slipstep/utilities/parameters.h>
+
+#include <array>
+#include <string>
+
+namespace SlipStep
+{
+  /// What happens on one of the faces of the box. Axes are 0, 1, 2 for x, y, z;
+  /// entries beyond the dimension are not used.
+  struct FaceConditions
+  {
+    bool is_contact = false;
+    /// Both displacements in the contact plane follow the programme.
+    bool is_driven = false;
+    /// All points of the face have the same normal displacement.
+    bool is_flat = false;
+    /// Pressure of the programme acts here.
+    bool has_programme_pressure = false;
+    /// Constant traction [MPa], pressure included.
+    dealii::Tensor<1, 3> traction;
+    /// Components that are prescribed in space, and their values [mm].
+    std::array<bool, 3>  is_prescribed = {{false, false, false}};
+    dealii::Tensor<1, 3> displacement;
+  };
+
+  /// How the linear systems are solved.
+  enum class SolverType
+  {
+    automatic, ///< direct for small blocks, else amg
+    direct,
+    amg
+  };
+
+  /// When volume and contact-face fields are written.
+  enum class FieldOutput
+  {
+    none,
+    end,
+    statements ///< at the end of every statement of the programme
+  };
+
+  /// The block: a box with lower corner at the origin.
+  struct BlockParameters
+  {
+    unsigned int                dimension = 3;
+    std::array<double, 3>       size;          ///< [mm]
+    std::array<unsigned int, 3> subdivisions;  ///< cells per direction
+    unsigned int                degree = 1;    ///< of the elements
+    double                      young_modulus; ///< [MPa]
+    double                      poisson_ratio;
+    /// In deal.II's order: left, right, front, back, bottom, top in 3-D; left,
+    /// right, bottom, top in 2-D.
+    std::array<FaceConditions, 6> faces;
+    unsigned int                  contact_face = 0;
+    SolverType                    solver       = SolverType::automatic;
+    double                        newton_tolerance;
+    unsigned int                  newton_iterations;
+    FieldOutput                   fields = FieldOutput::statements;
+
+    static void declare_parameters(Parameters &parameters);
+
+    /// @param programme to check that faces follow what it does
+    /// @throws InputError
+    BlockParameters(const Parameters &parameters, const Programme &programme);
+
+    /// Axis normal to the contact plane.
+    unsigned int normal_axis() const
+    {
+      return contact_face / 2;
+    }
+
+    /// +1 if the block touches the plane with its upper end of normal_axis().
+    double outward_sign() const
+    {
+      return contact_face % 2 == 0 ? -1. : 1.;
+    }
+
+    /// Axis of the contact plane: 0 is the direction of `slide ... at 0 deg`,
+    /// 1 that of 90 deg (3-D only).
+    unsigned int tangential_axis(const unsigned int i) const
+    {
+      return i < normal_axis() ? i : i + 1;
+    }
+
+    /// Area of the contact face [mm^2], in 2-D per mm of thickness.
+    double nominal_contact_area() const;
+  };
+} // namespace SlipStep
+
+#endif

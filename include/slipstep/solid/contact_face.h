@@ -1,0 +1,115 @@
+#ifndef slipstep_solid_contact_face_h
+#define slipstep_solid_contact_face_h
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/fe/fe_values.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <slipstep/experiment/history.h>
+#include <slipstep/friction/law.h>
+#include <slipstep/solid/block_parameters.h>
+
+#include <vector>
+
+namespace SlipStep
+{
+  using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /// Resultants and statistics of the contact face, summed over all ranks.
+  struct ContactTotals
+  {
+    double               normal_load = 0.; ///< [N]
+    dealii::Tensor<1, 2> tangential_load;  ///< [N]
+    double               limit_load = 0.;  ///< integral of tau_y [N]
+    double               error      = 0.;  ///< estimated, of the load [N]
+    double               area       = 0.;  ///< in contact [mm^2]
+    double               slip_area  = 0.;  ///< [mm^2]
+    double               dissipated = 0.;  ///< [N mm]
+    double               stored     = 0.;  ///< in the contact stiffness [N mm]
+    Spread               loading_ratio, normal_ratio, coefficient;
+  };
+
+  /// The face of the block that touches the rigid plane: a contact point with
+  /// its history at every quadrature point.
+  ///
+  /// The plane lies where the face is in the undeformed block. A point pushed
+  /// into it by g gives the normal traction f_n = alpha_n g; its slip is its
+  /// displacement along the plane plus that of the frame that moves with the
+  /// drive.
+  template <int dim>
+  class ContactFace
+  {
+  public:
+    /// Contact at one quadrature point: the force on the plane, as seen from
+    /// the weak form.
+    struct QuadraturePoint
+    {
+      ContactPoint           point;
+      dealii::Point<dim>     position;   ///< undeformed [mm]
+      double                 JxW = 0.;   ///< [mm^2]
+      dealii::Tensor<1, dim> force;      ///< per area [MPa]
+      dealii::Tensor<2, dim> tangent;    ///< d force / d displacement [MPa/mm]
+      double                 error = 0.; ///< of the tangential traction [MPa]
+      bool                   slips = false;
+    };
+
+    struct CellFace
+    {
+      typename dealii::DoFHandler<dim>::active_cell_iterator cell;
+      unsigned int                                           face;
+      std::vector<QuadraturePoint>                           points;
+    };
+
+    ContactFace(const BlockParameters &parameters, const FrictionLaw &law);
+
+    /// Put fresh contact points on the locally owned part of the face.
+    void reinit(const dealii::DoFHandler<dim> &dof_handler);
+
+    /// Evaluate the law everywhere, from the committed states.
+    /// @param displacement at the end of the step, ghosted [mm]
+    /// @param old_displacement at its beginning, ghosted [mm]
+    /// @param frame_increment motion of the frame in the step [mm]
+    /// @param time_step [s]
+    void update(const Vector               &displacement,
+                const Vector               &old_displacement,
+                const dealii::Tensor<1, 2> &frame_increment,
+                const double                time_step);
+
+    void commit();
+
+    /// Add the contact forces, tested with all shape functions, to a vector
+    /// which is then to be compressed. Constraints are not applied.
+    void add_forces(Vector &forces) const;
+
+    /// Of the last update.
+    ContactTotals totals(const MPI_Comm &communicator) const;
+
+    const std::vector<CellFace> &cell_faces() const
+    {
+      return faces;
+    }
+
+    const dealii::Quadrature<dim - 1> &quadrature() const
+    {
+      return face_quadrature;
+    }
+
+    /// Call a worker for every cell face with FEFaceValues of shape functions
+    /// and weights; the displacement components are one vector.
+    dealii::FEFaceValues<dim>
+    make_fe_values(const dealii::FiniteElement<dim> &fe) const;
+
+  private:
+    const BlockParameters          parameters;
+    const FrictionLaw             &law;
+    const dealii::QGauss<dim - 1>  face_quadrature;
+    const dealii::DoFHandler<dim> *dof_handler = nullptr;
+    std::vector<CellFace>          faces;
+  };
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,54 @@
+#ifndef slipstep_solid_tangent_system_h
+#define slipstep_solid_tangent_system_h
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <slipstep/solid/contact_face.h>
+
+#include <memory>
+
+namespace SlipStep
+{
+  /// The linear algebra of a Newton step: all that the time stepping needs to
+  /// know of matrices and preconditioners.
+  ///
+  /// The bulk is linear elastic, so its stiffness K never changes on a mesh;
+  /// the tangent of the contact face is added to it anew in every Newton step
+  /// and makes the system unsymmetric.
+  template <int dim>
+  class TangentSystem
+  {
+  public:
+    virtual ~TangentSystem() = default;
+
+    /// Add K u to a vector which is then to be compressed. Constraints are not
+    /// applied, so that the sum shows the reactions of the supports.
+    /// @param displacement ghosted [mm]
+    virtual void add_elastic_forces(const Vector &displacement,
+                                    Vector       &forces) const = 0;
+
+    /// Take over the tangents at the points of the contact face.
+    virtual void linearise(const ContactFace<dim> &contact) = 0;
+
+    /// Solve (K + contact tangent) x = b, with homogeneous constraints, until
+    /// the residual norm is below @p tolerance.
+    /// @return number of iterations
+    /// @throws RunError if that is not reached
+    virtual unsigned int
+    solve(Vector &x, const Vector &b, const double tolerance) = 0;
+  };
+
+  /// Assembled matrices of Trilinos and GMRES.
+  /// @param type direct or amg
+  /// @param constraints homogeneous
+  template <int dim>
+  std::unique_ptr<TangentSystem<dim>>
+  make_assembled_system(const SolverType                         type,
+                        const BlockParameters                   &parameters,
+                        const dealii::DoFHandler<dim>           &dof_handler,
+                        const dealii::AffineConstraints<double> &constraints,
+                        const dealii::IndexSet                  &relevant_dofs,
+                        const MPI_Comm                          &communicator);
+} // namespace SlipStep
+
+#endif

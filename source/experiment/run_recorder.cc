@@ -1,0 +1,98 @@
+#include <slipstep/experiment/run_recorder.h>
+
+#include <slipstep/utilities/exceptions.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace SlipStep
+{
+  ResourceUsage ResourceUsage::now()
+  {
+    ResourceUsage usage;
+    usage.wall_time = std::chrono::duration<double>(
+                        std::chrono::steady_clock::now().time_since_epoch())
+                        .count();
+    rusage process;
+    getrusage(RUSAGE_SELF, &process);
+    for (const timeval &time : {process.ru_utime, process.ru_stime})
+      usage.cpu_time += time.tv_sec + 1e-6 * time.tv_usec;
+    usage.peak_memory = process.ru_maxrss / 1024.;
+    return usage;
+  }
+
+
+
+  RunRecorder::RunRecorder(const Parameters  &parameters,
+                           const RunOptions  &options,
+                           const std::string &command,
+                           const FrictionLaw &law,
+                           const Programme   &programme,
+                           const bool         is_writer)
+    : options(options)
+    , programme(programme)
+    , is_writer(is_writer)
+    , start(ResourceUsage::now())
+    , progress(options.quiet || !is_writer, options.label)
+  {
+    summary.case_name = parameters.case_file().stem().string();
+    summary.label     = options.label;
+    summary.command   = command;
+    summary.effects   = law.effects();
+    if (!is_writer)
+      return;
+    std::ofstream out(options.output / "used_parameters.prm");
+    parameters.print(out, Parameters::Format::prm, law.inactive_sections());
+    if (!out.flush())
+      throw RunError("cannot write " +
+                     (options.output / "used_parameters.prm").string());
+    write_summary(options.output / "summary.json", summary);
+    writer =
+      HistoryWriter(options.output / "history.csv",
+                    summary.case_name +
+                      (options.label.empty() ? "" : ", " + options.label));
+  }
+
+
+
+  void RunRecorder::record(const HistoryRow &row)
+  {
+    history.push_back(row);
+    if (!is_writer)
+      return;
+    writer.write(row);
+    std::ostringstream text;
+    text << "step " << history.size() << ", "
+         << std::round(1e3 * row.displacement) / 1e3 << " mm";
+    // A slide is most of the work; time alone would say the same.
+    progress.update(row.time / programme.end_time(), text.str());
+  }
+
+
+
+  void RunRecorder::finish(const std::string &reason)
+  {
+    const ResourceUsage end = ResourceUsage::now();
+    summary.wall_time       = end.wall_time - start.wall_time;
+    // A driver on many ranks has filled in their sums.
+    if (summary.cpu_time == 0.)
+      summary.cpu_time = end.cpu_time - start.cpu_time;
+    if (summary.peak_memory == 0.)
+      summary.peak_memory = end.peak_memory;
+    summary.steps  = history.size();
+    summary.status = reason.empty() ? "finished" : "failed";
+    summary.reason = reason;
+    summarise_history(history, programme, summary);
+    if (!is_writer)
+      return;
+    if (reason.empty())
+      progress.finish();
+    write_summary(options.output / "summary.json", summary);
+  }
+} // namespace SlipStep

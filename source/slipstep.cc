@@ -1,0 +1,623 @@
+// The command line: reads and checks cases, hands them to the drivers, turns
+// exceptions into one message and an exit code.
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/report.h>
+#include <slipstep/experiment/run_options.h>
+#include <slipstep/experiment/sweep.h>
+#include <slipstep/friction/law.h>
+#include <slipstep/solid/case.h>
+#include <slipstep/solid/run_block.h>
+#include <slipstep/utilities/command_line.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/parameters.h>
+#include <slipstep/utilities/progress.h>
+
+#include <sys/prctl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <new>
+#include <sstream>
+#include <thread>
+
+namespace SlipStep
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    enum ExitCode
+    {
+      done        = 0,
+      run_failed  = 1,
+      input_wrong = 2
+    };
+
+
+
+    // ------------------------------------------------------------- messages
+
+    // Which of the processes of mpirun this is, known without MPI_Init.
+    unsigned int launched_rank()
+    {
+      for (const char *name :
+           {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"})
+        if (const char *rank = std::getenv(name))
+          return is_under_mpirun() ? std::atoi(rank) : 0;
+      return 0;
+    }
+
+
+
+    void warn(const std::vector<std::string> &warnings)
+    {
+      for (const std::string &warning : warnings)
+        std::cerr << "warning: " << warning << std::endl;
+    }
+
+
+
+    // The first lines with something in them: deal.II's messages are pages.
+    std::string essential_lines(const std::string &text,
+                                const unsigned int n_lines)
+    {
+      std::istringstream in(text);
+      std::string        line, result;
+      for (unsigned int n = 0; n < n_lines && std::getline(in, line);)
+        {
+          line = dealii::Utilities::trim(line);
+          if (line.empty())
+            continue;
+          result += (n == 0 ? "" : " ") + line;
+          ++n;
+        }
+      return result;
+    }
+
+
+
+    struct Outcome
+    {
+      int         exit_code = done;
+      std::string message;
+    };
+
+
+
+    Outcome guarded(const std::function<int()> &work)
+    {
+      try
+        {
+          return {work(), ""};
+        }
+      catch (const InputError &error)
+        {
+          return {input_wrong, error.what()};
+        }
+      catch (const RunError &error)
+        {
+          return {run_failed, error.what()};
+        }
+      catch (const dealii::ExceptionBase &error)
+        {
+          std::ostringstream info;
+          error.print_info(info);
+          return {run_failed,
+                  std::string("the run failed in deal.II: ") +
+                    error.get_exc_name() + ": " +
+                    essential_lines(info.str(), 2)};
+        }
+      catch (const std::bad_alloc &)
+        {
+          return {run_failed, "the run failed: out of memory"};
+        }
+      catch (const std::exception &error)
+        {
+          return {run_failed,
+                  "the run failed: " + essential_lines(error.what(), 2)};
+        }
+      catch (...)
+        {
+          return {run_failed, "the run failed for an unknown reason"};
+        }
+    }
+
+
+
+    // ------------------------------------------------------------------ MPI
+
+    // Bring the outcomes of all ranks together. If a rank failed alone, the
+    // others wait for it somewhere in the middle of the run: after a while it
+    // takes them down, with its message printed before.
+    Outcome agreed(Outcome outcome)
+    {
+      if (!dealii::Utilities::MPI::job_supports_mpi())
+        return outcome;
+      const MPI_Comm     comm = MPI_COMM_WORLD;
+      const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
+      MPI_Request        all_are_here;
+      MPI_Ibarrier(comm, &all_are_here);
+      int  is_complete = 0;
+      auto start       = std::chrono::steady_clock::now();
+      while (MPI_Test(&all_are_here, &is_complete, MPI_STATUS_IGNORE),
+             is_complete == 0)
+        {
+          std::this_thread::sleep_for(std::chrono::milliseconds(10));
+          if (outcome.exit_code != done &&
+              std::chrono::steady_clock::now() - start >
+                std::chrono::seconds(10))
+            {
+              std::cerr << outcome.message << std::endl;
+              MPI_Abort(comm, outcome.exit_code);
+            }
+        }
+
+      // One rank speaks for all.
+      const int worst = dealii::Utilities::MPI::max(outcome.exit_code, comm);
+      const unsigned int speaker =
+        dealii::Utilities::MPI::min(outcome.exit_code == worst ? rank : ~0u,
+                                    comm);
+      if (rank != speaker)
+        outcome.message.clear();
+      outcome.exit_code = worst;
+      return outcome;
+    }
+
+
+
+    Outcome guarded_with_mpi(const std::function<int()> &work)
+    {
+      // MPI implementations want no arguments nowadays.
+      int                                      argc = 0;
+      char                                   **argv = nullptr;
+      dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+      // MPI and p4est must not end the program in their own words.
+      dealii::deal_II_exceptions::disable_abort_on_exception();
+      const Outcome outcome = agreed(guarded(work));
+      if (!outcome.message.empty())
+        std::cerr << outcome.message << std::endl;
+      return {outcome.exit_code, ""};
+    }
+
+
+
+    // ---------------------------------------------------------------- cases
+
+    Parameters declared_parameters()
+    {
+      Parameters parameters;
+      declare_all_parameters(parameters);
+      return parameters;
+    }
+
+
+
+    void apply_settings(const CommandLine &line, Parameters &parameters)
+    {
+      for (const auto &setting : line.settings)
+        parameters.set(setting.first, setting.second, "--set");
+    }
+
+
+
+    // A case with its complete parameter sets: one per variant, or one.
+    struct Case
+    {
+      Parameters              parameters;
+      std::vector<Variant>    variants;
+      std::vector<Parameters> complete;
+      /// With --variant: the one to run, which is then no sweep.
+      Variant selected;
+
+      bool is_sweep() const
+      {
+        return !variants.empty();
+      }
+    };
+
+
+
+    Variant find_variant(const std::vector<Variant> &variants,
+                         const std::string          &name,
+                         const fs::path             &file)
+    {
+      std::vector<std::string> labels;
+      for (const Variant &variant : variants)
+        {
+          if (variant.label == name || variant.folder == name)
+            return variant;
+          labels.push_back(variant.label);
+        }
+      throw InputError("--variant " + name + ": " + file.string() +
+                       " has no such variant" + did_you_mean(name, labels));
+    }
+
+
+
+    Case read_case(const fs::path &file, const CommandLine &line)
+    {
+      Parameters as_written = declared_parameters();
+      as_written.read(file);
+
+      Case result;
+      result.parameters = as_written;
+      apply_settings(line, result.parameters);
+      result.variants = result.parameters.variants();
+      if (!line.variant.empty())
+        {
+          result.selected   = find_variant(result.variants, line.variant, file);
+          result.parameters = as_written.with_variant(result.selected);
+          apply_settings(line, result.parameters);
+          result.variants.clear();
+        }
+
+      // Options go before variants, which go before the file.
+      for (const Variant &variant : result.variants)
+        {
+          result.complete.push_back(as_written.with_variant(variant));
+          apply_settings(line, result.complete.back());
+        }
+      if (!result.is_sweep())
+        result.complete.push_back(result.parameters);
+      return result;
+    }
+
+
+
+    void check_all(const Case &the_case)
+    {
+      output_folder(the_case.parameters);
+      for (unsigned int i = 0; i < the_case.complete.size(); ++i)
+        try
+          {
+            check_case(the_case.complete[i]);
+          }
+        catch (const InputError &error)
+          {
+            if (!the_case.is_sweep())
+              throw;
+            // A marked column follows in the second line.
+            std::string message = error.what();
+            message.insert(std::min(message.find('\n'), message.size()),
+                           " (variant \"" + the_case.variants[i].label + "\")");
+            throw InputError(message);
+          }
+    }
+
+
+
+    // ----------------------------------------------------------- run, point
+
+    class Runner
+    {
+    public:
+      explicit Runner(const CommandLine &line);
+
+      Outcome run();
+
+    private:
+      int run_in_process();
+
+      int run_children();
+
+      void run_one(const unsigned int number);
+
+      void write_case_parameters() const;
+
+      void report();
+
+      RunOptions options(const unsigned int number) const;
+
+      const CommandLine line;
+      const bool        is_first_rank;
+      Case              the_case;
+      fs::path          output;
+    };
+
+
+
+    // Whatever can be wrong is found here, before anything is written.
+    Runner::Runner(const CommandLine &line)
+      : line(line)
+      , is_first_rank(launched_rank() == 0)
+      , the_case(read_case(line.files.front(), line))
+    {
+      check_all(the_case);
+      output = line.output.empty() ? output_folder(the_case.parameters) :
+                                     fs::path(line.output).lexically_normal();
+      if (!the_case.selected.folder.empty())
+        output /= the_case.selected.folder;
+      if (line.is_child)
+        return;
+      const std::string origin =
+        line.output.empty() ? "Output/Directory" : "--output";
+      check_output_folder(output, origin);
+      for (const Variant &variant : the_case.variants)
+        check_output_folder(output / variant.folder, origin);
+    }
+
+
+
+    RunOptions Runner::options(const unsigned int number) const
+    {
+      RunOptions result;
+      result.quiet  = line.quiet || !is_first_rank;
+      result.output = output;
+      result.label  = the_case.selected.label;
+      if (the_case.is_sweep())
+        {
+          result.label = the_case.variants[number].label;
+          result.output /= the_case.variants[number].folder;
+        }
+      return result;
+    }
+
+
+
+    Outcome Runner::run()
+    {
+      if (the_case.variants.size() > 1 && !is_under_mpirun())
+        return guarded([this]() { return run_children(); });
+      const auto work = [this]() { return run_in_process(); };
+      if (line.command == "run")
+        return guarded_with_mpi(work);
+      // A single point is no work for several processes.
+      return is_first_rank ? guarded(work) : Outcome();
+    }
+
+
+
+    void Runner::run_one(const unsigned int number)
+    {
+      const RunOptions run_options = options(number);
+      create_output_folder(run_options.output);
+      if (is_first_rank)
+        remove_earlier_results(run_options.output);
+      const Summary summary =
+        line.command == "run" ?
+          run_block(the_case.complete[number], run_options) :
+          run_point(the_case.complete[number], run_options);
+      if (is_first_rank)
+        warn(summary.warnings);
+      if (summary.status == "failed")
+        throw RunError(summary.reason);
+    }
+
+
+
+    int Runner::run_in_process()
+    {
+      if (the_case.is_sweep() && is_first_rank && !line.is_child)
+        write_case_parameters();
+      Outcome worst;
+      for (unsigned int i = 0; i < the_case.complete.size(); ++i)
+        {
+          Outcome outcome = guarded([&]() {
+            run_one(i);
+            return done;
+          });
+          if (the_case.complete.size() > 1)
+            {
+              // The ranks must go on to the next variant together.
+              outcome = agreed(outcome);
+              if (!outcome.message.empty())
+                std::cerr << the_case.variants[i].label << ": "
+                          << outcome.message << std::endl;
+              outcome.message.clear();
+            }
+          if (outcome.exit_code > worst.exit_code)
+            worst = outcome;
+        }
+      if (is_first_rank && !line.is_child)
+        {
+          // After a failure the reason counts, not a report that cannot be.
+          const Outcome reported = guarded([this]() {
+            report();
+            return done;
+          });
+          if (worst.exit_code == done)
+            worst = reported;
+        }
+      // Passed on as an exception, because its message is still to be printed.
+      if (!worst.message.empty() && worst.exit_code == input_wrong)
+        throw InputError(worst.message);
+      if (!worst.message.empty())
+        throw RunError(worst.message);
+      return worst.exit_code;
+    }
+
+
+
+    int Runner::run_children()
+    {
+      create_output_folder(output);
+      write_case_parameters();
+      std::vector<SweepJob> jobs;
+      for (const Variant &variant : the_case.variants)
+        {
+          SweepJob job;
+          job.label     = variant.label;
+          job.arguments = {fs::read_symlink("/proc/self/exe").string(),
+                           line.command,
+                           line.files.front().string(),
+                           "--child",
+                           "--variant=" + variant.folder,
+                           "--output=" + output.string()};
+          for (const std::string &setting : line.settings_as_typed)
+            job.arguments.push_back("--set=" + setting);
+          if (line.quiet)
+            job.arguments.push_back("--quiet");
+          jobs.push_back(job);
+          remove_earlier_results(output / variant.folder);
+        }
+      const std::vector<int> exit_codes =
+        run_side_by_side(jobs,
+                         the_case.parameters.case_file().stem().string(),
+                         line.quiet);
+      report();
+      return *std::max_element(exit_codes.begin(), exit_codes.end());
+    }
+
+
+
+    // The sweep as a whole, re-runnable. Sections of effects that are off in
+    // every variant are left out: values for them would be an error.
+    void Runner::write_case_parameters() const
+    {
+      create_output_folder(output);
+      std::set<std::string> unused =
+        FrictionLaw(the_case.complete.front()).inactive_sections();
+      for (const Parameters &parameters : the_case.complete)
+        {
+          const std::set<std::string> inactive =
+            FrictionLaw(parameters).inactive_sections();
+          std::set<std::string> both;
+          std::set_intersection(unused.begin(),
+                                unused.end(),
+                                inactive.begin(),
+                                inactive.end(),
+                                std::inserter(both, both.begin()));
+          unused = both;
+        }
+      std::ofstream out(output / "used_parameters.prm");
+      the_case.parameters.print(out, Parameters::Format::prm, unused);
+      if (!out.flush())
+        throw RunError((output / "used_parameters.prm").string() +
+                       ": cannot be written");
+    }
+
+
+
+    // A failed run is reported as far as it came.
+    void Runner::report()
+    {
+      std::vector<ReportedRun> runs;
+      for (unsigned int i = 0; i < the_case.complete.size(); ++i)
+        {
+          const RunOptions  run_options = options(i);
+          const std::string label =
+            run_options.label.empty() ?
+              the_case.parameters.case_file().stem().string() :
+              run_options.label;
+          if (fs::exists(run_options.output / "history.csv") &&
+              fs::exists(run_options.output / "summary.json"))
+            runs.push_back({label, run_options.output});
+        }
+      if (runs.empty())
+        return;
+      warn(write_report(output, the_case.parameters, runs));
+      if (!line.quiet)
+        std::cout << result_table(the_case.parameters, runs)
+                  << "Report: " << (output / "report.html").string()
+                  << std::endl;
+    }
+
+
+
+    // ------------------------------------------------------- other commands
+
+    Outcome check_cases(const CommandLine &line)
+    {
+      Outcome worst;
+      for (const fs::path &file : line.files)
+        {
+          const Outcome outcome = guarded([&]() {
+            const Case the_case = read_case(file, line);
+            check_all(the_case);
+            if (!line.quiet)
+              std::cout << file.string() << ": OK"
+                        << (the_case.is_sweep() ?
+                              ", " + std::to_string(the_case.variants.size()) +
+                                " variants" :
+                              "")
+                        << std::endl;
+            return done;
+          });
+          if (!outcome.message.empty())
+            std::cerr << outcome.message << std::endl;
+          worst.exit_code = std::max(worst.exit_code, outcome.exit_code);
+        }
+      return worst;
+    }
+
+
+
+    int print_parameters(const CommandLine &line)
+    {
+      Parameters parameters = declared_parameters();
+      apply_settings(line, parameters);
+      parameters.print(std::cout,
+                       line.format == "json" ? Parameters::Format::json :
+                       line.format == "md"   ? Parameters::Format::markdown :
+                                               Parameters::Format::prm);
+      return done;
+    }
+
+
+
+    Outcome dispatch(const int argc, char **argv)
+    {
+      CommandLine   line;
+      const Outcome parsed = guarded([&]() {
+        line = parse_command_line(argc, argv);
+        return done;
+      });
+      if (parsed.exit_code != done)
+        return parsed;
+
+      if (line.is_child)
+        {
+          // Children end with their parent, however it ends.
+          prctl(PR_SET_PDEATHSIG, SIGTERM);
+          Progress::report_often();
+        }
+      if (line.version)
+        std::cout << version_text() << std::endl;
+      else if (line.help)
+        print_help(std::cout, line.command);
+      else if (line.command == "check")
+        return check_cases(line);
+      else if (line.command == "effects")
+        return guarded([&]() {
+          print_effects(std::cout, line.format == "md");
+          return done;
+        });
+      else if (line.command == "parameters")
+        return guarded([&]() { return print_parameters(line); });
+      else
+        {
+          std::unique_ptr<Runner> runner;
+          const Outcome           set_up = guarded([&]() {
+            runner = std::make_unique<Runner>(line);
+            return done;
+          });
+          return set_up.exit_code == done ? runner->run() : set_up;
+        }
+      return {};
+    }
+  } // namespace
+} // namespace SlipStep
+
+
+
+int main(int argc, char **argv)
+{
+  dealii::deal_II_exceptions::disable_abort_on_exception();
+  dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
+  const SlipStep::Outcome outcome = SlipStep::dispatch(argc, argv);
+  // Under mpirun every rank finds the same errors in the input.
+  if (!outcome.message.empty() && SlipStep::launched_rank() == 0)
+    std::cerr << outcome.message << std::endl;
+  return outcome.exit_code;
+}

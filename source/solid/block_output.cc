@@ -1,0 +1,325 @@
+#include <slipstep/solid/block_output.h>
+
+#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/fe/fe_dgq.h>
+#include <deal.II/fe/fe_tools.h>
+
+#include <deal.II/numerics/data_component_interpretation.h>
+#include <deal.II/numerics/data_out.h>
+#include <deal.II/numerics/data_postprocessor.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace SlipStep
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Cauchy stress from the gradient of the displacement.
+    template <int dim>
+    class StressPostprocessor : public DataPostprocessorTensor<dim>
+    {
+    public:
+      explicit StressPostprocessor(const BlockParameters &parameters)
+        : DataPostprocessorTensor<dim>("stress_MPa", update_gradients)
+        , mu(parameters.young_modulus / (2. * (1. + parameters.poisson_ratio)))
+        , lambda(2. * mu * parameters.poisson_ratio /
+                 (1. - 2. * parameters.poisson_ratio))
+      {}
+
+      virtual void evaluate_vector_field(
+        const DataPostprocessorInputs::Vector<dim> &input,
+        std::vector<dealii::Vector<double>>        &stresses) const override
+      {
+        for (unsigned int q = 0; q < stresses.size(); ++q)
+          {
+            const auto &gradient = input.solution_gradients[q];
+            double      trace    = 0.;
+            for (unsigned int d = 0; d < dim; ++d)
+              trace += gradient[d][d];
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                stresses[q](Tensor<2, dim>::component_to_unrolled_index(
+                  TableIndices<2>(i, j))) =
+                  mu * (gradient[i][j] + gradient[j][i]) +
+                  (i == j ? lambda * trace : 0.);
+          }
+      }
+
+    private:
+      const double mu, lambda;
+    };
+
+
+
+    // Where the point is in space: adds the motion of the frame.
+    template <int dim>
+    class DisplacementPostprocessor : public DataPostprocessorVector<dim>
+    {
+    public:
+      explicit DisplacementPostprocessor(const Tensor<1, dim> &frame)
+        : DataPostprocessorVector<dim>("displacement_mm", update_values)
+        , frame(frame)
+      {}
+
+      virtual void evaluate_vector_field(
+        const DataPostprocessorInputs::Vector<dim> &input,
+        std::vector<dealii::Vector<double>>        &values) const override
+      {
+        for (unsigned int q = 0; q < values.size(); ++q)
+          for (unsigned int d = 0; d < dim; ++d)
+            values[q](d) = input.solution_values[q](d) + frame[d];
+      }
+
+    private:
+      const Tensor<1, dim> frame;
+    };
+
+
+
+    // Names and values of what is shown on the contact face.
+    const std::vector<std::string> contact_names = {"pressure_MPa",
+                                                    "traction_x_MPa",
+                                                    "traction_y_MPa",
+                                                    "slip_mm",
+                                                    "r",
+                                                    "r_s",
+                                                    "mu",
+                                                    "slips"};
+
+    template <int dim>
+    std::array<double, 8>
+    contact_values(const typename ContactFace<dim>::QuadraturePoint &point)
+    {
+      const ContactState &state = point.point.committed();
+      return {{state.normal_traction,
+               state.traction[0],
+               state.traction[1],
+               state.slip_path,
+               state.loading_ratio,
+               state.normal_ratio,
+               state.coefficient,
+               point.slips ? 1. : 0.}};
+    }
+
+
+
+    // Surface patches of the contact face, for all formats of deal.II. Values
+    // at the corners come from the quadrature points by projection.
+    template <int dim>
+    class ContactPatches : public DataOutInterface<dim - 1, dim>
+    {
+    public:
+      explicit ContactPatches(const ContactFace<dim> &contact)
+      {
+        const FE_DGQ<dim - 1> corners(1);
+        const unsigned int    n_points  = contact.quadrature().size();
+        const unsigned int    n_corners = corners.dofs_per_cell;
+        FullMatrix<double>    to_corners(n_corners, n_points);
+        FETools::compute_projection_from_quadrature_points_matrix(
+          corners, contact.quadrature(), contact.quadrature(), to_corners);
+
+        for (const auto &cell_face : contact.cell_faces())
+          {
+            DataOutBase::Patch<dim - 1, dim> patch;
+            patch.n_subdivisions = 1;
+            patch.patch_index    = patches.size();
+            patch.data.reinit(contact_names.size(), n_corners);
+            const auto face = cell_face.cell->face(cell_face.face);
+            for (unsigned int v = 0; v < n_corners; ++v)
+              {
+                patch.vertices[v] = face->vertex(v);
+                for (unsigned int q = 0; q < n_points; ++q)
+                  {
+                    const auto values =
+                      contact_values<dim>(cell_face.points[q]);
+                    for (unsigned int i = 0; i < values.size(); ++i)
+                      patch.data(i, v) += to_corners(v, q) * values[i];
+                  }
+              }
+            patches.push_back(patch);
+          }
+      }
+
+      virtual const std::vector<DataOutBase::Patch<dim - 1, dim>> &
+      get_patches() const override
+      {
+        return patches;
+      }
+
+      virtual std::vector<std::string> get_dataset_names() const override
+      {
+        return contact_names;
+      }
+
+    private:
+      std::vector<DataOutBase::Patch<dim - 1, dim>> patches;
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  BlockOutput<dim>::BlockOutput(const BlockParameters       &parameters,
+                                const std::filesystem::path &folder,
+                                const MPI_Comm              &communicator)
+    : parameters(parameters)
+    , folder(folder)
+    , communicator(communicator)
+    , rank(Utilities::MPI::this_mpi_process(communicator))
+  {}
+
+
+
+  template <int dim>
+  void BlockOutput<dim>::write_if_due(const DoFHandler<dim>  &dof_handler,
+                                      const Vector           &displacement,
+                                      const Tensor<1, 2>     &frame,
+                                      const ContactFace<dim> &contact,
+                                      const double            time,
+                                      const bool is_end_of_statement,
+                                      const bool is_end)
+  {
+    if (parameters.fields == FieldOutput::none ||
+        !(is_end || (parameters.fields == FieldOutput::statements &&
+                     is_end_of_statement)))
+      return;
+    write_volume(dof_handler, displacement, frame, time);
+    write_contact(contact, time);
+    ++n_written;
+  }
+
+
+
+  template <int dim>
+  void BlockOutput<dim>::write_volume(const DoFHandler<dim> &dof_handler,
+                                      const Vector          &displacement,
+                                      const Tensor<1, 2>    &frame,
+                                      const double           time)
+  {
+    Tensor<1, dim> motion;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      motion[parameters.tangential_axis(i)] = frame[i];
+    const StressPostprocessor<dim>       stress(parameters);
+    const DisplacementPostprocessor<dim> in_space(motion);
+
+    DataOut<dim> data_out;
+    data_out.attach_dof_handler(dof_handler);
+    data_out.add_data_vector(displacement, in_space);
+    data_out.add_data_vector(
+      displacement,
+      std::vector<std::string>(dim, "deformation_mm"),
+      DataOut<dim>::type_dof_data,
+      std::vector<DataComponentInterpretation::DataComponentInterpretation>(
+        dim, DataComponentInterpretation::component_is_part_of_vector));
+    data_out.add_data_vector(displacement, stress);
+    data_out.build_patches(parameters.degree);
+    write_collection("fields",
+                     volume_files,
+                     time,
+                     data_out.write_vtu_with_pvtu_record(folder.string() + "/",
+                                                         "fields",
+                                                         n_written,
+                                                         communicator,
+                                                         4));
+  }
+
+
+
+  template <int dim>
+  void BlockOutput<dim>::write_contact(const ContactFace<dim> &contact,
+                                       const double            time)
+  {
+    const ContactPatches<dim> patches(contact);
+    write_collection("contact",
+                     contact_files,
+                     time,
+                     patches.write_vtu_with_pvtu_record(folder.string() + "/",
+                                                        "contact",
+                                                        n_written,
+                                                        communicator,
+                                                        4));
+  }
+
+
+
+  template <int dim>
+  void BlockOutput<dim>::write_collection(
+    const std::string                           &name,
+    std::vector<std::pair<double, std::string>> &entries,
+    const double                                 time,
+    const std::string                           &file) const
+  {
+    entries.emplace_back(time, file);
+    if (rank != 0)
+      return;
+    std::ofstream out(folder / (name + ".pvd"));
+    DataOutBase::write_pvd_record(out, entries);
+    if (!out.flush())
+      throw RunError("cannot write " + (folder / (name + ".pvd")).string());
+  }
+
+
+
+  template <int dim>
+  void
+  BlockOutput<dim>::write_contact_table(const ContactFace<dim> &contact) const
+  {
+    // Position, sizes and area of a cell, then its averages.
+    using Row = std::array<double, 12>;
+    std::vector<Row> rows;
+    for (const auto &cell_face : contact.cell_faces())
+      {
+        Row  row{};
+        auto face = cell_face.cell->face(cell_face.face);
+        for (unsigned int i = 0; i < dim - 1; ++i)
+          {
+            const unsigned int axis = parameters.tangential_axis(i);
+            row[i]                  = face->center()[axis];
+            row[2 + i] = std::abs(face->vertex(face->n_vertices() - 1)[axis] -
+                                  face->vertex(0)[axis]);
+          }
+        for (const auto &point : cell_face.points)
+          row[4] += point.JxW;
+        for (const auto &point : cell_face.points)
+          {
+            const auto values = contact_values<dim>(point);
+            for (unsigned int i = 0; i < 7; ++i)
+              row[5 + i] += values[i] * point.JxW / row[4];
+          }
+        rows.push_back(row);
+      }
+
+    auto all = Utilities::MPI::gather(communicator, rows, 0);
+    if (rank != 0)
+      return;
+    std::vector<Row> sorted;
+    for (const auto &part : all)
+      sorted.insert(sorted.end(), part.begin(), part.end());
+    std::sort(sorted.begin(), sorted.end(), [](const Row &a, const Row &b) {
+      return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
+    });
+
+    std::ofstream out(folder / "contact_face.csv");
+    out << "x_mm,y_mm,cell_size_x_mm,cell_size_y_mm,area_mm2,pressure_MPa,"
+           "traction_x_MPa,traction_y_MPa,slip_mm,r,r_s,mu\n";
+    for (const Row &row : sorted)
+      for (unsigned int i = 0; i < row.size(); ++i)
+        out << exact_text(row[i]) << (i + 1 < row.size() ? ',' : '\n');
+    if (!out.flush())
+      throw RunError("cannot write " + (folder / "contact_face.csv").string());
+  }
+
+
+
+  template class BlockOutput<2>;
+  template class BlockOutput<3>;
+} // namespace SlipStep

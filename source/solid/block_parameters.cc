@@ -1,0 +1,361 @@
+#include <slipstep/solid/block_parameters.h>
+
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <sstream>
+
+namespace SlipStep
+{
+  using dealii::Tensor;
+
+  namespace
+  {
+    std::vector<std::string> face_names(const unsigned int dim)
+    {
+      return dim == 3 ?
+               std::vector<std::string>{
+                 "left", "right", "front", "back", "bottom", "top"} :
+               std::vector<std::string>{"left", "right", "bottom", "top"};
+    }
+
+
+
+    // Reads the conditions of one face, e.g. "pressure programme; drive; flat".
+    class FaceReader
+    {
+    public:
+      FaceReader(const Parameters  &parameters,
+                 const std::string &path,
+                 const unsigned int dim,
+                 const unsigned int face)
+        : parameters(parameters)
+        , path(path)
+        , dim(dim)
+        , normal_axis(face / 2)
+        , outward_sign(face % 2 == 0 ? -1. : 1.)
+      {}
+
+      FaceConditions read()
+      {
+        for (const std::string &condition :
+             dealii::Utilities::split_string_list(parameters.text(path), ';'))
+          if (!condition.empty())
+            read_condition(condition);
+        check_consistency();
+        return face;
+      }
+
+    private:
+      const Parameters  &parameters;
+      const std::string  path;
+      const unsigned int dim;
+      const unsigned int normal_axis;
+      const double       outward_sign;
+      FaceConditions     face;
+      bool               is_free      = false;
+      unsigned int       n_conditions = 0;
+
+      void read_condition(const std::string &condition)
+      {
+        ++n_conditions;
+        std::istringstream words(condition);
+        std::string        verb, rest;
+        words >> verb;
+        std::getline(words >> std::ws, rest);
+        if (verb == "contact" || verb == "free" || verb == "drive" ||
+            verb == "flat")
+          {
+            if (!rest.empty())
+              parameters.reject(path,
+                                "'" + verb + "' takes nothing, but '" + rest +
+                                  "' follows it");
+            (verb == "contact" ? face.is_contact :
+             verb == "free"    ? is_free :
+             verb == "drive"   ? face.is_driven :
+                                 face.is_flat) = true;
+          }
+        else if (verb == "pressure")
+          read_pressure(rest);
+        else if (verb == "traction")
+          read_traction(rest);
+        else if (verb == "displacement")
+          read_displacement(rest);
+        else
+          {
+            const std::string near = nearest_name(verb,
+                                                  {"contact",
+                                                   "free",
+                                                   "drive",
+                                                   "flat",
+                                                   "pressure",
+                                                   "traction",
+                                                   "displacement"});
+            parameters.reject(
+              path,
+              "'" + verb + "' is no condition of a face; " +
+                (near.empty() ?
+                   "there are contact, free, drive, flat, pressure, traction, "
+                   "displacement" :
+                   "did you mean '" + near + "'?"));
+          }
+      }
+
+      double quantity(const std::string &text, const Dimension dimension) const
+      {
+        try
+          {
+            return parse_quantity(text, dimension, true);
+          }
+        catch (const InputError &error)
+          {
+            parameters.reject(path, error.what());
+          }
+      }
+
+      void read_pressure(const std::string &text)
+      {
+        if (text == "programme")
+          face.has_programme_pressure = true;
+        else
+          face.traction[normal_axis] -=
+            outward_sign * quantity(text, Dimension::stress);
+      }
+
+      // "traction 1 0 0 MPa": one number per direction, one unit.
+      void read_traction(const std::string &text)
+      {
+        std::istringstream       in(text);
+        std::vector<std::string> words;
+        for (std::string word; in >> word;)
+          words.push_back(word);
+        if (words.size() != dim + 1)
+          parameters.reject(path,
+                            "write 'traction' with " + std::to_string(dim) +
+                              " numbers and a unit, e.g. 'traction 1 0" +
+                              (dim == 3 ? " 0" : "") + " MPa'");
+        for (unsigned int d = 0; d < dim; ++d)
+          face.traction[d] +=
+            quantity(words[d] + " " + words[dim], Dimension::stress);
+      }
+
+      // "displacement x 0 mm"
+      void read_displacement(const std::string &text)
+      {
+        const std::string axes = dim == 3 ? "xyz" : "xy";
+        const auto axis = text.empty() ? std::string::npos : axes.find(text[0]);
+        if (axis == std::string::npos || text.size() < 3 || text[1] != ' ')
+          parameters.reject(path,
+                            "write 'displacement' with an axis (" + axes +
+                              ") and a length, e.g. 'displacement x 0 mm'");
+        if (face.is_prescribed[axis])
+          parameters.reject(path,
+                            std::string("the displacement along ") +
+                              axes[axis] + " is prescribed twice");
+        face.is_prescribed[axis] = true;
+        face.displacement[axis]  = quantity(text.substr(2), Dimension::length);
+      }
+
+      void check_consistency() const
+      {
+        if (is_free && n_conditions > 1)
+          parameters.reject(path,
+                            face.is_driven ?
+                              "a face cannot be both driven and free" :
+                              "'free' cannot stand beside other conditions");
+        if (face.is_contact && n_conditions > 1)
+          parameters.reject(path,
+                            "'contact' cannot stand beside other conditions");
+        if (face.is_flat && face.is_prescribed[normal_axis])
+          parameters.reject(path,
+                            "a face whose normal displacement is prescribed "
+                            "is flat already: remove 'flat'");
+      }
+    };
+  } // namespace
+
+
+
+  void BlockParameters::declare_parameters(Parameters &parameters)
+  {
+    using namespace dealii::Patterns;
+    parameters.declare("Block/Dimension",
+                       "3",
+                       Integer(2, 3),
+                       "2 for plane strain (forces per mm of thickness) or 3.");
+    parameters.declare("Block/Size",
+                       "10 mm, 10 mm, 10 mm",
+                       List(Quantity(Dimension::length, 0., 1e30, true), 2, 3),
+                       "Lengths of the box along x, y (and z). More than 0, in "
+                       "mm unless a unit is given.");
+    parameters.declare("Block/Subdivisions",
+                       "4, 4, 4",
+                       List(Integer(1, 100000), 2, 3),
+                       "Number of cells along x, y (and z). 1 or more each.");
+    parameters.declare(
+      "Block/Degree",
+      "1",
+      Integer(1, 4),
+      "Polynomial degree of the elements: 1 for Q1, 2 for Q2.");
+    parameters.declare("Block/Young modulus",
+                       "206 GPa",
+                       Quantity(Dimension::stress, 0., 1e30, true),
+                       "Young's modulus E of the block. More than 0, in MPa "
+                       "unless a unit is given.");
+    parameters.declare("Block/Poisson ratio",
+                       "0.3",
+                       Quantity(Dimension::number, -0.99, 0.4999),
+                       "Poisson's ratio nu of the block. Between -0.99 and "
+                       "0.4999, no unit.");
+    for (const std::string &name : face_names(3))
+      parameters.declare(
+        "Block/Faces/" + name,
+        name == "bottom" ? "contact" :
+        name == "top"    ? "pressure programme; drive" :
+                           "free",
+        Anything(),
+        "Conditions on the face at " +
+          std::string(name == "left"   ? "x = 0" :
+                      name == "right"  ? "the end of x" :
+                      name == "front"  ? "y = 0 (3-D only)" :
+                      name == "back"   ? "the end of y (3-D only)" :
+                      name == "bottom" ? "z = 0 (y = 0 in 2-D)" :
+                                         "the end of z (of y in 2-D)") +
+          ", separated by ';': 'free', 'contact' (with the rigid plane; one "
+          "face), 'drive' (displacements in the contact plane follow the "
+          "programme), 'pressure programme', 'pressure 5 MPa', 'traction 1 0 0 "
+          "MPa', 'displacement x 0 mm', 'flat' (same normal displacement "
+          "everywhere).");
+    parameters.declare("Block/Solver",
+                       "automatic",
+                       Selection("automatic|direct|amg"),
+                       "Preconditioner of GMRES: 'direct' factorises a recent "
+                       "tangent, 'amg' is algebraic multigrid with rigid-body "
+                       "modes; 'automatic' takes direct below 20000 unknowns.");
+    parameters.declare("Block/Newton tolerance",
+                       "1e-10",
+                       Quantity(Dimension::number, 1e-14, 1e-2),
+                       "Norm of the unbalanced forces at which Newton's method "
+                       "stops, relative to the contact forces. Between 1e-14 "
+                       "and 0.01, no unit.");
+    parameters.declare("Block/Newton iterations",
+                       "20",
+                       Integer(2, 1000),
+                       "Iterations after which the time step is cut. 2 or "
+                       "more.");
+    parameters.declare("Output/Fields",
+                       "statements",
+                       Selection("none|end|statements"),
+                       "When volume and contact-face fields are written for "
+                       "ParaView: never, at the end, or at the end of every "
+                       "statement of the programme.");
+  }
+
+
+
+  BlockParameters::BlockParameters(const Parameters &parameters,
+                                   const Programme  &programme)
+    : dimension(parameters.integer("Block/Dimension"))
+    , degree(parameters.integer("Block/Degree"))
+    , young_modulus(parameters.number("Block/Young modulus"))
+    , poisson_ratio(parameters.number("Block/Poisson ratio"))
+    , newton_tolerance(parameters.number("Block/Newton tolerance"))
+    , newton_iterations(parameters.integer("Block/Newton iterations"))
+  {
+    const auto lengths = parameters.list("Block/Size");
+    const auto cells   = parameters.list("Block/Subdivisions");
+    for (const auto &entry : {std::make_pair("Block/Size", lengths),
+                              std::make_pair("Block/Subdivisions", cells)})
+      if (entry.second.size() != dimension)
+        parameters.reject(entry.first,
+                          "needs " + std::to_string(dimension) +
+                            " numbers because Block/Dimension is " +
+                            std::to_string(dimension));
+    size.fill(1.);
+    subdivisions.fill(1);
+    for (unsigned int d = 0; d < dimension; ++d)
+      {
+        size[d]         = parse_quantity(lengths[d], Dimension::length);
+        subdivisions[d] = dealii::Utilities::string_to_int(cells[d]);
+      }
+
+    unsigned int n_contact = 0, n_driven = 0, n_pressed = 0;
+    const auto   names = face_names(dimension);
+    for (unsigned int f = 0; f < names.size(); ++f)
+      {
+        faces[f] =
+          FaceReader(parameters, "Block/Faces/" + names[f], dimension, f)
+            .read();
+        if (faces[f].is_contact)
+          {
+            contact_face = f;
+            ++n_contact;
+          }
+        n_driven += faces[f].is_driven;
+        n_pressed += faces[f].has_programme_pressure;
+      }
+    if (dimension == 2)
+      for (const std::string path : {"Block/Faces/front", "Block/Faces/back"})
+        if (parameters.is_set(path) && parameters.text(path) != "free")
+          parameters.reject(path, "a block in 2-D has no such face");
+
+    if (n_contact != 1)
+      parameters.reject("Block/Faces/bottom",
+                        n_contact == 0 ?
+                          "no face is in contact: give one face 'contact'" :
+                          "only one face can be in contact with the plane");
+    for (unsigned int f = 0; f < names.size(); ++f)
+      for (unsigned int d = 0; d < dimension; ++d)
+        if (faces[f].is_driven && faces[f].is_prescribed[d] &&
+            d != normal_axis())
+          parameters.reject("Block/Faces/" + names[f],
+                            "'drive' prescribes the displacements in the "
+                            "contact plane already");
+
+    bool slides = false;
+    for (const Segment &segment : programme.segments())
+      slides = slides || segment.end.velocity.norm() > 0.;
+    if (slides && n_driven == 0)
+      parameters.reject("Loading/Programme",
+                        "the programme slides, but no face of the block has "
+                        "'drive'");
+
+    bool is_pressed = n_pressed > 0 && programme.largest_pressure() > 0.;
+    for (const FaceConditions &face : faces)
+      is_pressed = is_pressed ||
+                   face.traction[normal_axis()] * outward_sign() > 0. ||
+                   (face.is_prescribed[normal_axis()] &&
+                    face.displacement[normal_axis()] * outward_sign() > 0.);
+    if (!is_pressed)
+      parameters.reject(
+        programme.largest_pressure() > 0. ? "Block/Faces/top" :
+                                            "Loading/Programme",
+        programme.largest_pressure() > 0. ?
+          "no contact pressure: the programme presses, but no face has "
+          "'pressure programme', nor does any other load press the block on "
+          "the plane" :
+          "no contact pressure: nothing presses the block on the plane; begin "
+          "with e.g. 'press 5.8 MPa in 1 s'");
+
+    const std::string solver_name = parameters.text("Block/Solver");
+    solver = (solver_name == "direct" ? SolverType::direct :
+              solver_name == "amg"    ? SolverType::amg :
+                                        SolverType::automatic);
+    const std::string fields_name = parameters.text("Output/Fields");
+    fields                        = (fields_name == "none" ? FieldOutput::none :
+                                     fields_name == "end"  ? FieldOutput::end :
+                                                            FieldOutput::statements);
+  }
+
+
+
+  double BlockParameters::nominal_contact_area() const
+  {
+    double area = 1.;
+    for (unsigned int i = 0; i + 1 < dimension; ++i)
+      area *= size[tangential_axis(i)];
+    return area;
+  }
+} // namespace SlipStep

@@ -1,0 +1,228 @@
+#include <slipstep/solid/contact_face.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/fe/fe_values_extractors.h>
+
+#include <algorithm>
+
+namespace SlipStep
+{
+  using namespace dealii;
+
+
+
+  template <int dim>
+  ContactFace<dim>::ContactFace(const BlockParameters &parameters,
+                                const FrictionLaw     &law)
+    : parameters(parameters)
+    , law(law)
+    , face_quadrature(parameters.degree + 1)
+  {}
+
+
+
+  template <int dim>
+  FEFaceValues<dim>
+  ContactFace<dim>::make_fe_values(const FiniteElement<dim> &fe) const
+  {
+    return FEFaceValues<dim>(fe,
+                             face_quadrature,
+                             update_values | update_JxW_values |
+                               update_quadrature_points);
+  }
+
+
+
+  template <int dim>
+  void ContactFace<dim>::reinit(const DoFHandler<dim> &dof_handler)
+  {
+    this->dof_handler = &dof_handler;
+    faces.clear();
+    FEFaceValues<dim> fe_values = make_fe_values(dof_handler.get_fe());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() &&
+              cell->face(f)->boundary_id() == parameters.contact_face)
+            {
+              fe_values.reinit(cell, f);
+              CellFace cell_face{cell, f, {}};
+              for (const unsigned int q : fe_values.quadrature_point_indices())
+                {
+                  QuadraturePoint point;
+                  point.point    = ContactPoint(law);
+                  point.position = fe_values.quadrature_point(q);
+                  point.JxW      = fe_values.JxW(q);
+                  cell_face.points.push_back(point);
+                }
+              faces.push_back(std::move(cell_face));
+            }
+  }
+
+
+
+  template <int dim>
+  void ContactFace<dim>::update(const Vector       &displacement,
+                                const Vector       &old_displacement,
+                                const Tensor<1, 2> &frame_increment,
+                                const double        time_step)
+  {
+    const FEValuesExtractors::Vector displacements(0);
+    FEFaceValues<dim> fe_values = make_fe_values(dof_handler->get_fe());
+    std::vector<Tensor<1, dim>> values(face_quadrature.size());
+    std::vector<Tensor<1, dim>> old_values(face_quadrature.size());
+
+    const unsigned int normal = parameters.normal_axis();
+    const double       sign   = parameters.outward_sign();
+    for (CellFace &cell_face : faces)
+      {
+        fe_values.reinit(cell_face.cell, cell_face.face);
+        fe_values[displacements].get_function_values(displacement, values);
+        fe_values[displacements].get_function_values(old_displacement,
+                                                     old_values);
+        for (unsigned int q = 0; q < values.size(); ++q)
+          {
+            QuadraturePoint &point       = cell_face.points[q];
+            const double     penetration = sign * values[q][normal];
+            const double     f_n         = law.normal_stiffness() * penetration;
+            Tensor<1, 2>     slip;
+            for (unsigned int i = 0; i < dim - 1; ++i)
+              slip[i] =
+                (values[q] - old_values[q])[parameters.tangential_axis(i)] +
+                frame_increment[i];
+
+            const ContactResponse response =
+              point.point.update(law, slip, f_n, time_step);
+            point.error   = response.error;
+            point.slips   = response.slips;
+            point.force   = Tensor<1, dim>();
+            point.tangent = Tensor<2, dim>();
+
+            // A point just touching counts as closed: otherwise the first load
+            // would meet no resistance.
+            if (penetration < 0.)
+              continue;
+            point.force[normal]           = sign * f_n;
+            point.tangent[normal][normal] = law.normal_stiffness();
+            for (unsigned int i = 0; i < dim - 1; ++i)
+              {
+                const unsigned int row = parameters.tangential_axis(i);
+                point.force[row]       = response.traction[i];
+                point.tangent[row][normal] =
+                  response.d_normal[i] * sign * law.normal_stiffness();
+                for (unsigned int j = 0; j < dim - 1; ++j)
+                  point.tangent[row][parameters.tangential_axis(j)] =
+                    response.d_slip[i][j];
+              }
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void ContactFace<dim>::commit()
+  {
+    for (CellFace &cell_face : faces)
+      for (QuadraturePoint &point : cell_face.points)
+        point.point.commit();
+  }
+
+
+
+  template <int dim>
+  void ContactFace<dim>::add_forces(Vector &forces) const
+  {
+    const FiniteElement<dim>            &fe        = dof_handler->get_fe();
+    FEFaceValues<dim>                    fe_values = make_fe_values(fe);
+    dealii::Vector<double>               local(fe.dofs_per_cell);
+    std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
+    for (const CellFace &cell_face : faces)
+      {
+        fe_values.reinit(cell_face.cell, cell_face.face);
+        local = 0.;
+        for (unsigned int q = 0; q < cell_face.points.size(); ++q)
+          for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
+            local(i) +=
+              fe_values.shape_value(i, q) *
+              cell_face.points[q].force[fe.system_to_component_index(i).first] *
+              fe_values.JxW(q);
+        cell_face.cell->get_dof_indices(dofs);
+        forces.add(dofs, local);
+      }
+  }
+
+
+
+  template <int dim>
+  ContactTotals ContactFace<dim>::totals(const MPI_Comm &communicator) const
+  {
+    ContactTotals          totals;
+    std::array<double, 12> sums{};
+    // Maxima of (r, r_s, mu) and of their negatives.
+    std::array<double, 6> maxima;
+    maxima.fill(std::numeric_limits<double>::lowest());
+    for (const CellFace &cell_face : faces)
+      for (const QuadraturePoint &point : cell_face.points)
+        {
+          const ContactState &state = point.point.trial();
+          sums[6] += point.JxW * state.dissipation;
+          if (state.normal_traction <= 0.)
+            continue;
+          const double load = point.JxW * state.normal_traction;
+          sums[0] += load;
+          sums[1] += point.JxW * state.traction[0];
+          sums[2] += point.JxW * state.traction[1];
+          sums[3] += point.JxW * state.strength;
+          sums[4] += point.JxW * point.error;
+          sums[5] += point.JxW;
+          sums[7] += point.slips ? point.JxW : 0.;
+          sums[8] +=
+            point.JxW *
+            (state.normal_traction * state.normal_traction /
+               law.normal_stiffness() +
+             state.traction.norm_square() / law.tangential_stiffness()) /
+            2.;
+          const std::array<double, 3> ratios = {
+            {state.loading_ratio, state.normal_ratio, state.coefficient}};
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              sums[9 + i] += load * ratios[i];
+              maxima[2 * i]     = std::max(maxima[2 * i], ratios[i]);
+              maxima[2 * i + 1] = std::max(maxima[2 * i + 1], -ratios[i]);
+            }
+        }
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        communicator,
+                        ArrayView<double>(sums.data(), sums.size()));
+    Utilities::MPI::max(ArrayView<const double>(maxima.data(), maxima.size()),
+                        communicator,
+                        ArrayView<double>(maxima.data(), maxima.size()));
+
+    totals.normal_load        = sums[0];
+    totals.tangential_load[0] = sums[1];
+    totals.tangential_load[1] = sums[2];
+    totals.limit_load         = sums[3];
+    totals.error              = sums[4];
+    totals.area               = sums[5];
+    totals.dissipated         = sums[6];
+    totals.slip_area          = sums[7];
+    totals.stored             = sums[8];
+    if (totals.normal_load > 0.)
+      {
+        std::array<Spread *, 3> spreads = {
+          {&totals.loading_ratio, &totals.normal_ratio, &totals.coefficient}};
+        for (unsigned int i = 0; i < 3; ++i)
+          *spreads[i] = {sums[9 + i] / totals.normal_load,
+                         -maxima[2 * i + 1],
+                         maxima[2 * i]};
+      }
+    return totals;
+  }
+
+
+
+  template class ContactFace<2>;
+  template class ContactFace<3>;
+} // namespace SlipStep

@@ -1,0 +1,75 @@
+#include <slipstep/solid/run_block.h>
+
+#include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/run_recorder.h>
+#include <slipstep/solid/block.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace SlipStep
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    void run_block_in(const BlockParameters &block_parameters,
+                      const Parameters      &parameters,
+                      const RunOptions      &options,
+                      const FrictionLaw     &law,
+                      const Programme       &programme,
+                      RunRecorder           &recorder)
+    {
+      const MPI_Comm   communicator = MPI_COMM_WORLD;
+      Block<dim>       block(block_parameters,
+                       law,
+                       programme,
+                       StepControl(parameters, programme, law),
+                       communicator);
+      BlockOutput<dim> output(block_parameters, options.output, communicator);
+      block.fill(recorder.summary);
+
+      std::string reason;
+      try
+        {
+          block.run(&output,
+                    [&](const HistoryRow &row) { recorder.record(row); });
+        }
+      catch (const RunError &error)
+        {
+          reason = error.what();
+        }
+      output.write_contact_table(block.contact_face());
+      block.fill(recorder.summary);
+      const ResourceUsage usage = ResourceUsage::now();
+      recorder.summary.cpu_time =
+        Utilities::MPI::sum(usage.cpu_time, communicator);
+      recorder.summary.peak_memory =
+        Utilities::MPI::sum(usage.peak_memory, communicator);
+      recorder.finish(reason);
+    }
+  } // namespace
+
+
+
+  Summary run_block(const Parameters &parameters, const RunOptions &options)
+  {
+    const FrictionLaw     law(parameters);
+    const Programme       programme = parse_programme(parameters);
+    const BlockParameters block_parameters(parameters, programme);
+    RunRecorder           recorder(parameters,
+                         options,
+                         "run",
+                         law,
+                         programme,
+                         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
+    if (block_parameters.dimension == 2)
+      run_block_in<2>(
+        block_parameters, parameters, options, law, programme, recorder);
+    else
+      run_block_in<3>(
+        block_parameters, parameters, options, law, programme, recorder);
+    return recorder.summary;
+  }
+} // namespace SlipStep
