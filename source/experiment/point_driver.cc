@@ -77,9 +77,7 @@ namespace SlipStep
           point.update(law, slip, to.pressure, control.step_size());
         const ContactState &state = point.trial();
         const double        step  = control.step_size();
-        const double        relative_error =
-          state.strength > 0. ? response.error / state.strength : 0.;
-        if (!control.accept(relative_error))
+        if (!control.accept(response.error, state.strength))
           continue;
 
         // The normal stiffness is linear, so its work is what it stores.

@@ -25,7 +25,7 @@ namespace SlipStep
   {
     parameters.declare(
       "Time stepping/Tolerance",
-      "2e-6",
+      "5e-5",
       Quantity(Dimension::number, 1e-14, 0.1),
       "Error of the friction force that one step may make, relative to the "
       "force at full slip, as estimated by the friction law. Between 1e-14 and "
@@ -55,6 +55,7 @@ namespace SlipStep
     , least_steps(parameters.integer("Time stepping/Least steps per statement"))
     , elastic_slip_per_pressure(law.static_coefficient() /
                                 law.tangential_stiffness())
+    , nominal_strength(law.static_coefficient() * programme.largest_pressure())
   {
     start_segment();
   }
@@ -122,8 +123,10 @@ namespace SlipStep
 
 
 
-  bool StepControl::accept(const double relative_error)
+  bool StepControl::accept(const double error, const double strength)
   {
+    const double relative_error =
+      error / std::max({strength, nominal_strength, 1e-300});
     const double step = step_size();
     const double ideal =
       0.9 * std::sqrt(tolerance / std::max(relative_error, 1e-30));

@@ -303,8 +303,8 @@ namespace SlipStep
 
         const ContactTotals totals    = contact.totals(communicator);
         const double        step_size = control.step_size();
-        if (!control.accept(
-              totals.limit_load > 0. ? totals.error / totals.limit_load : 0.))
+        const double        area      = std::max(totals.area, 1e-300);
+        if (!control.accept(totals.error / area, totals.limit_load / area))
           {
             solution = old_solution;
             continue;

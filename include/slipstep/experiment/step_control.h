@@ -55,10 +55,14 @@ namespace SlipStep
     /// Whether the step is the first of a statement of the programme.
     bool is_first_of_statement() const;
 
-    /// Judge a step by its error, relative to the friction force: go on to the
-    /// next and return true, or ask for the same again, smaller, and return
+    /// Judge a step by the estimated error of the friction traction: go on to
+    /// the next and return true, or ask for the same again, smaller, and return
     /// false.
-    bool accept(const double relative_error);
+    /// @param error mean over the contact [MPa]
+    /// @param strength mean tau_y [MPa]. The error counts relative to it, or to
+    ///   the static friction at the largest pressure of the programme if that
+    ///   is more: in the first touch there is no scale yet.
+    bool accept(const double error, const double strength);
 
     /// The step could not be made: try a smaller one.
     /// @throws RunError with @p reason if it is too small already
@@ -83,6 +87,7 @@ namespace SlipStep
     const double       first_slip;
     const unsigned int least_steps;
     const double       elastic_slip_per_pressure;
+    const double       nominal_strength;
 
     std::size_t  segment          = 0;
     double       begin            = 0.;
