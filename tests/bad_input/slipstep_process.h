@@ -7,9 +7,10 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "tests/temporary_folder.h"
 
 /// The real program, started in a folder of its own.
 class SlipstepProcess
@@ -32,23 +33,10 @@ public:
   };
 
   SlipstepProcess()
+    : root(temporary.path())
   {
-    std::string pattern =
-      (std::filesystem::temp_directory_path() / "slipstep_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr)
-      throw std::runtime_error("no temporary folder");
-    root = pattern;
     std::filesystem::create_directory(folder());
   }
-
-  ~SlipstepProcess()
-  {
-    std::error_code error;
-    std::filesystem::remove_all(root, error);
-  }
-
-  SlipstepProcess(const SlipstepProcess &)            = delete;
-  SlipstepProcess &operator=(const SlipstepProcess &) = delete;
 
   /// The working directory of the program.
   std::filesystem::path folder() const
@@ -107,7 +95,8 @@ private:
     return text.str();
   }
 
-  std::filesystem::path root;
+  const TemporaryFolder       temporary;
+  const std::filesystem::path root;
 };
 
 #endif

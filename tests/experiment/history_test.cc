@@ -6,13 +6,15 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/temporary_folder.h"
+
 using namespace SlipStep;
 
 namespace
 {
   std::filesystem::path scratch_file()
   {
-    return std::filesystem::path(testing::TempDir()) / "slipstep_history.csv";
+    return test_folder() / "history.csv";
   }
 
   /// A row in which every member has its own, not exactly printable value.

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/temporary_folder.h"
+
 using namespace SlipStep;
 
 namespace
@@ -14,8 +16,7 @@ namespace
 
   std::filesystem::path file_with(const std::string &content)
   {
-    const auto file =
-      std::filesystem::path(testing::TempDir()) / "slipstep_measured.csv";
+    const auto file = test_folder() / "slipstep_measured.csv";
     std::ofstream(file, std::ios::binary) << content;
     return file;
   }
@@ -121,8 +122,7 @@ TEST(MeasuredTest, AMissingFileIsNamed)
 
 TEST(MeasuredTest, AHistoryReadsAsATest)
 {
-  const auto file =
-    std::filesystem::path(testing::TempDir()) / "slipstep_as_test.csv";
+  const auto    file = test_folder() / "as_test.csv";
   HistoryWriter writer(file, "simulated");
   HistoryRow    row;
   row.pressure = 5.8;

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/temporary_folder.h"
+
 using namespace SlipStep;
 
 namespace
@@ -193,9 +195,7 @@ TEST(Programme, ASlideWithoutAnySpeedIsRefused)
 
 TEST(Programme, FollowReplaysATest)
 {
-  const auto folder =
-    std::filesystem::path(testing::TempDir()) / "slipstep_programme";
-  std::filesystem::create_directories(folder);
+  const auto folder = test_folder();
   std::ofstream(folder / "my test for one.csv")
     << "# name: replay\ntime_s,displacement_mm,pressure_MPa,friction\n"
        "100,7,5,0\n101,7,5,0\n103,9,6,0.1\n";

@@ -10,15 +10,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/temporary_folder.h"
+
 using namespace SlipStep;
 
 namespace
 {
-  std::filesystem::path scratch_folder()
-  {
-    return std::filesystem::path(testing::TempDir()) / "slipstep_report";
-  }
-
   Parameters parameters_with(
     const std::vector<std::pair<std::string, std::string>> &values)
   {
@@ -42,7 +39,7 @@ namespace
   /// A run whose friction peaks at 0.5 mm and ends 1 % above eq. 4.
   ReportedRun make_run(const double speed, const std::string &label)
   {
-    const auto folder = scratch_folder() / label;
+    const auto folder = test_folder() / label;
     std::filesystem::create_directories(folder);
 
     SlideSummary slide;
@@ -141,25 +138,23 @@ TEST(Report, FailedAndMissingRunsAreNamed)
   EXPECT_TRUE(contains(table, "tipped: failed: the block tips over")) << table;
   EXPECT_TRUE(contains(table, "'absent'")) << table;
 
-  const auto warnings =
-    write_report(scratch_folder(), parameters_with({}), runs);
+  const auto warnings = write_report(test_folder(), parameters_with({}), runs);
   ASSERT_GE(warnings.size(), 1u);
   EXPECT_TRUE(contains(warnings[0], "'absent'"));
   EXPECT_TRUE(
-    contains(content(scratch_folder() / "report.html"), "the block tips over"));
+    contains(content(test_folder() / "report.html"), "the block tips over"));
 }
 
 
 
 TEST(Report, ThePageIsCompleteInItself)
 {
-  std::filesystem::remove_all(scratch_folder());
   const std::vector<ReportedRun> runs = {make_run(1., "1 mm/min"),
                                          make_run(200., "200 mm/min")};
   write_face(runs[0]);
   write_face(runs[1]);
   const auto warnings =
-    write_report(scratch_folder(), parameters_of_the_paper(), runs);
+    write_report(test_folder(), parameters_of_the_paper(), runs);
   for (const std::string name : {"friction",
                                  "friction_start",
                                  "ratio_over_speed",
@@ -167,10 +162,10 @@ TEST(Report, ThePageIsCompleteInItself)
                                  "contact_face_2"})
     for (const std::string end : {".dat", ".gp"})
       EXPECT_TRUE(
-        std::filesystem::exists(scratch_folder() / "report" / (name + end)))
+        std::filesystem::exists(test_folder() / "report" / (name + end)))
         << name + end;
 
-  const std::string page = content(scratch_folder() / "report.html");
+  const std::string page = content(test_folder() / "report.html");
   EXPECT_TRUE(contains(page, "Flat &lt;surface&gt; test"));
   EXPECT_TRUE(contains(page,
                        "Kinetic friction rises from 0.1010 at 1 mm/min to "
@@ -197,9 +192,8 @@ TEST(Report, ThePageIsCompleteInItself)
 
 TEST(Report, NoRunAtAllGivesAPageThatSaysSo)
 {
-  std::filesystem::create_directories(scratch_folder());
-  write_report(scratch_folder(), parameters_of_the_paper(), {});
-  EXPECT_TRUE(contains(content(scratch_folder() / "report.html"),
+  write_report(test_folder(), parameters_of_the_paper(), {});
+  EXPECT_TRUE(contains(content(test_folder() / "report.html"),
                        "No slide has been reached"));
 }
 

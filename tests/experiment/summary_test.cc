@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/temporary_folder.h"
+
 using namespace SlipStep;
 
 namespace
@@ -16,7 +18,7 @@ namespace
 
   std::filesystem::path scratch_file()
   {
-    return std::filesystem::path(testing::TempDir()) / "slipstep_summary.json";
+    return test_folder() / "summary.json";
   }
 
   /// The programme sampled @p n times per segment, with a friction which rises
@@ -233,11 +235,11 @@ TEST(Summary, AnUnfinishedHistoryGivesTheSlidesItReached)
 
 TEST(Summary, AFollowedTestIsOneSlideAtItsSpeed)
 {
-  const auto folder = std::filesystem::path(testing::TempDir());
-  std::ofstream(folder / "slipstep_followed.csv")
+  const auto folder = test_folder();
+  std::ofstream(folder / "followed.csv")
     << "time_s,displacement_mm,pressure_MPa,friction\n"
        "0,0,1,0\n5,0,1,0\n6,-3,1,0\n7,-6,1,0\n20,-6,1,0\n";
-  const Programme programme("follow slipstep_followed.csv", 0., folder);
+  const Programme programme("follow followed.csv", 0., folder);
   Summary         summary;
   summarise_history(sampled(programme, 10), programme, summary);
   ASSERT_EQ(summary.slides.size(), 1u);

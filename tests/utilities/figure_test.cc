@@ -8,6 +8,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/temporary_folder.h"
+
 using namespace SlipStep;
 
 namespace
@@ -15,8 +17,7 @@ namespace
   /// A folder whose name would trip up a careless call of the shell.
   std::filesystem::path scratch_folder()
   {
-    const auto folder =
-      std::filesystem::path(testing::TempDir()) / "slipstep it's a figure";
+    const auto folder = test_folder() / "it's a figure";
     std::filesystem::create_directories(folder);
     return folder;
   }

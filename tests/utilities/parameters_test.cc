@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include "tests/temporary_folder.h"
 
 using namespace SlipStep;
 
@@ -53,20 +53,6 @@ namespace
   class ParametersTest : public testing::Test
   {
   protected:
-    void SetUp() override
-    {
-      const auto *info = testing::UnitTest::GetInstance()->current_test_info();
-      folder           = std::filesystem::temp_directory_path() /
-               ("slipstep_parameters_" + std::string(info->name()) + "_" +
-                std::to_string(getpid()));
-      std::filesystem::create_directories(folder);
-    }
-
-    void TearDown() override
-    {
-      std::filesystem::remove_all(folder);
-    }
-
     std::filesystem::path write(const std::string &name,
                                 const std::string &text) const
     {
@@ -99,7 +85,7 @@ namespace
       return "";
     }
 
-    std::filesystem::path folder;
+    const std::filesystem::path folder = test_folder();
   };
 
 
