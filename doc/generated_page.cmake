@@ -8,5 +8,5 @@ endif()
 string(REGEX REPLACE "^# [^\n]*\n" "" text "${text}")
 string(REGEX REPLACE "\\$([^$\n]+)\\$" "@f$\\1@f$" text "${text}")
 # Placeholders such as <speed> are no HTML.
-string(REGEX REPLACE "<([a-z][a-z ]*)>" "\\&lt;\\1\\&gt;" text "${text}")
+string(REGEX REPLACE "<([a-z][a-z ]*)>" "&lt;\\1&gt;" text "${text}")
 file(WRITE "${PAGE}" "# ${TITLE} {#${COMMAND}}\n\n[TOC]\n\n${text}")
