@@ -602,12 +602,26 @@ namespace SlipStep
   {
     largest_normal_load = std::max(largest_normal_load, totals.normal_load);
     contact_share       = totals.area / parameters.nominal_contact_area();
-    if (totals.normal_load <= 1e-9 * largest_normal_load)
+    if (totals.normal_load <= 1e-6 * largest_normal_load)
       {
         std::ostringstream message;
         message << "no contact pressure is left at t = " << control.time()
                 << " s: the block has come off the plane";
         throw RunError(message.str());
+      }
+
+    const double smallest_side =
+      *std::min_element(parameters.size.begin(), parameters.size.begin() + dim);
+    const double motion = solution.linfty_norm();
+    if (motion > 0.05 * smallest_side)
+      {
+        std::ostringstream message;
+        message << "points of the block have moved by " << motion
+                << " mm with respect to the drive, which is too much for small "
+                   "strains and rotations";
+        failure = message.str();
+        throw RunError("At t = " + std::to_string(control.time()) + " s " +
+                       reason_of_failure());
       }
   }
 

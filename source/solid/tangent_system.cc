@@ -211,16 +211,23 @@ namespace SlipStep
                                              const Vector &b,
                                              const double  tolerance)
     {
+      Vector     residual(b);
       const auto iterate = [&]() {
         SolverControl control(preconditioner_is_usable ?
                                 n_iterations_when_fresh + 10 :
                                 200,
                               tolerance);
-        SolverGMRES<Vector> solver(control,
-                                   SolverGMRES<Vector>::AdditionalData(50,
-                                                                       true));
+        SolverGMRES<Vector> solver(
+          control, typename SolverGMRES<Vector>::AdditionalData(50, true));
         x = 0.;
         solver.solve(matrix, x, b, *preconditioner);
+
+        // The factors of a singular tangent can deceive GMRES: ask the matrix.
+        matrix.vmult(residual, x);
+        residual.sadd(-1., 1., b);
+        const double norm = residual.l2_norm();
+        if (!(norm <= 10. * tolerance))
+          throw SolverControl::NoConvergence(control.last_step(), norm);
         return control.last_step();
       };
 

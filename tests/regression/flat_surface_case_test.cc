@@ -1,0 +1,58 @@
+// Numbers of the shipped case as they were when they were last looked at. They
+// may change only in a commit that says why.
+
+#include "../solid/block_test_tools.h"
+
+#include <gtest/gtest.h>
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  const std::string case_file = "flat_surface_test/flat_surface_test.prm";
+
+  struct Golden
+  {
+    std::string speed;
+    double      peak, kinetic;
+  };
+} // namespace
+
+
+
+TEST(FlatSurface, contact_point)
+{
+  for (const Golden &golden :
+       std::vector<Golden>{{"1 mm/min", 0.114968624, 0.098028930},
+                           {"200 mm/min", 0.139665382, 0.119080845}})
+    {
+      const Parameters parameters =
+        make_parameters({{"Loading/Speed", golden.speed}}, case_file);
+      const auto history = run_point_case(parameters);
+      Summary    summary;
+      summarise_history(history, parse_programme(parameters), summary);
+      EXPECT_NEAR(summary.slides[0].peak, golden.peak, 1e-7) << golden.speed;
+      EXPECT_NEAR(summary.slides[0].kinetic, golden.kinetic, 1e-7)
+        << golden.speed;
+    }
+}
+
+
+
+TEST(FlatSurface, block)
+{
+  for (const Golden &golden :
+       std::vector<Golden>{{"1 mm/min", 0.114970098, 0.098029100},
+                           {"200 mm/min", 0.139661317, 0.119080843}})
+    {
+      const auto result =
+        run_block_case<3>(make_parameters({{"Loading/Speed", golden.speed},
+                                           {"Block/Subdivisions", "3, 3, 3"}},
+                                          case_file));
+      EXPECT_NEAR(result.summary.slides[0].peak, golden.peak, 1e-7)
+        << golden.speed;
+      EXPECT_NEAR(result.summary.slides[0].kinetic, golden.kinetic, 1e-7)
+        << golden.speed;
+    }
+}

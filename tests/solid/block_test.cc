@@ -1,0 +1,336 @@
+// The block: patch test, supports, orientation, elements, solvers, failures.
+
+#include "block_test_tools.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  const Settings coulomb      = {{"Friction/Effects", ""},
+                                 {"Friction/Static coefficient", "0.1"}};
+  const Settings slippery     = {{"Friction/Effects", ""},
+                                 {"Friction/Static coefficient", "1e-9"}};
+  const Settings two_cells    = {{"Block/Subdivisions", "2, 2, 2"}};
+  const Settings coarse_steps = {{"Time stepping/Tolerance", "1e-3"}};
+  const Settings plane        = {{"Block/Dimension", "2"},
+                                 {"Block/Size", "10 mm, 10 mm"},
+                                 {"Block/Subdivisions", "3, 2"}};
+  const Settings press        = {{"Loading/Programme", "press 5.8 MPa in 1 s"}};
+  const Settings slide        = {
+           {"Loading/Programme", "press 5.8 MPa in 1 s; slide 1 mm/s for 0.05 mm"}};
+
+  // Free to widen, but not to move away.
+  const Settings guided = {{"Block/Faces/top", "pressure programme"},
+                           {"Block/Faces/left", "displacement x 0 mm"}};
+
+  double relative_difference(const BlockResult &a, const BlockResult &b)
+  {
+    double largest = 0.;
+    for (unsigned int i = 0; i < a.history.size(); ++i)
+      largest = std::max(
+        {largest,
+         std::abs(a.history[i].friction - b.history[i].friction),
+         std::abs(a.history[i].normal_load / b.history[i].normal_load - 1.)});
+    return largest;
+  }
+} // namespace
+
+
+
+// Without friction and free to widen, the state is uniaxial: the pressure is
+// that of the programme at every contact point, on any mesh of any degree.
+TEST(PatchTest, uniform_compression)
+{
+  for (const std::string degree : {"1", "2"})
+    {
+      const auto in_3d = run_block_case<3>(
+        make_parameters(slippery + press +
+                        Settings{{"Block/Size", "10 mm, 4 mm, 7 mm"},
+                                 {"Block/Subdivisions", "3, 1, 2"},
+                                 {"Block/Degree", degree}} +
+                        guided +
+                        Settings{{"Block/Faces/front", "displacement y 0 mm"}}),
+        MPI_COMM_SELF,
+        [](const Block<3> &block) {
+          for (const auto &face : block.contact_face().cell_faces())
+            for (const auto &point : face.points)
+              EXPECT_NEAR(point.point.committed().normal_traction, 5.8, 1e-6);
+        });
+      EXPECT_NEAR(in_3d.history.back().normal_load, 5.8 * 40., 1e-7);
+      // Energy: p^2 / (2 E) per volume and p^2 / (2 alpha_n) per area.
+      EXPECT_NEAR(in_3d.history.back().stored_energy,
+                  5.8 * 5.8 / 2. * (280. / 206e3 + 40. / 1e5),
+                  1e-8);
+
+      const auto in_2d =
+        run_block_case<2>(make_parameters(slippery + press + plane + guided +
+                                          Settings{{"Block/Degree", degree}}));
+      const double plane_modulus = 206e3 / (1. - 0.3 * 0.3);
+      EXPECT_NEAR(in_2d.history.back().stored_energy,
+                  5.8 * 5.8 / 2. * (100. / plane_modulus + 10. / 1e5),
+                  1e-8);
+    }
+}
+
+
+
+// Pressed by a prescribed displacement: block and contact are springs in
+// series.
+TEST(PatchTest, prescribed_displacement)
+{
+  const auto result = run_block_case<3>(make_parameters(
+    slippery + two_cells +
+    Settings{{"Loading/Programme", "hold 1 s"},
+             {"Block/Faces/top", "displacement z -0.001 mm; drive"},
+             {"Block/Poisson ratio", "0"}}));
+  EXPECT_EQ(result.failure, "");
+  EXPECT_NEAR(result.history.back().pressure,
+              0.001 / (10. / 206e3 + 1. / 1e5),
+              1e-7);
+}
+
+
+
+TEST(FullSlip, friction_is_the_coefficient_on_any_mesh)
+{
+  for (const std::string cells : {"1, 1, 1", "2, 3, 2"})
+    for (const std::string degree : {"1", "2"})
+      {
+        const auto result = run_block_case<3>(make_parameters(
+          coulomb + slide +
+          Settings{{"Block/Subdivisions", cells}, {"Block/Degree", degree}}));
+        EXPECT_EQ(result.failure, "");
+        EXPECT_NEAR(result.history.back().friction, 0.1, 1e-9);
+        EXPECT_NEAR(result.history.back().friction_y, 0., 1e-9);
+        EXPECT_DOUBLE_EQ(result.history.back().slip_fraction, 1.);
+        EXPECT_LT(result.force_imbalance, 1e-8);
+      }
+  const auto result =
+    run_block_case<2>(make_parameters(coulomb + slide + plane));
+  EXPECT_NEAR(result.history.back().friction, 0.1, 1e-9);
+}
+
+
+
+TEST(FullSlip, friction_opposes_motion_at_an_angle_and_after_reversal)
+{
+  const auto   result       = run_block_case<3>(make_parameters(
+    coulomb + two_cells +
+    Settings{{"Loading/Programme",
+                      "press 5.8 MPa in 1 s; slide 1 mm/s for 0.2 mm at 30 deg; slide "
+                              "-1 mm/s for 0.1 mm"}}));
+  unsigned int end_of_first = 0;
+  while (result.history[end_of_first].time < 1.2 - 1e-9)
+    ++end_of_first;
+  EXPECT_NEAR(result.history[end_of_first].friction,
+              0.1 * std::cos(dealii::numbers::PI / 6.),
+              1e-6);
+  EXPECT_NEAR(result.history[end_of_first].friction_y, 0.05, 1e-6);
+  EXPECT_NEAR(result.history.back().friction, -0.1, 1e-4);
+}
+
+
+
+TEST(FullSlip, pulled_at_an_end_face)
+{
+  const auto result = run_block_case<3>(
+    make_parameters(coulomb + slide + two_cells +
+                    Settings{{"Block/Faces/top", "pressure programme; flat"},
+                             {"Block/Faces/right", "drive"}}));
+  EXPECT_EQ(result.failure, "");
+  EXPECT_NEAR(result.history.back().friction, 0.1, 1e-9);
+  EXPECT_LT(result.force_imbalance, 1e-8);
+}
+
+
+
+// The same experiment with the plane on each of the six sides.
+TEST(Orientation, any_face_can_be_in_contact)
+{
+  const std::vector<std::pair<std::string, std::string>> opposite = {
+    {"bottom", "top"},
+    {"top", "bottom"},
+    {"left", "right"},
+    {"right", "left"},
+    {"front", "back"},
+    {"back", "front"}};
+  std::vector<BlockResult> results;
+  for (const auto &faces : opposite)
+    {
+      Settings settings = {{"Block/Faces/bottom", "free"},
+                           {"Block/Faces/top", "free"}};
+      settings.emplace_back("Block/Faces/" + faces.first, "contact");
+      settings.emplace_back("Block/Faces/" + faces.second,
+                            "pressure programme; drive");
+      results.push_back(run_block_case<3>(
+        make_parameters(slide + coarse_steps + two_cells + settings)));
+      ASSERT_EQ(results.back().failure, "");
+      ASSERT_EQ(results.back().history.size(), results[0].history.size());
+      EXPECT_LT(relative_difference(results.back(), results[0]), 1e-8)
+        << faces.first;
+    }
+}
+
+
+
+TEST(Solvers, direct_and_amg_agree)
+{
+  for (const std::string degree : {"1", "2"})
+    {
+      const Settings settings =
+        slide + coarse_steps +
+        Settings{{"Block/Degree", degree}, {"Block/Subdivisions", "4, 3, 3"}};
+      const auto direct = run_block_case<3>(
+        make_parameters(settings + Settings{{"Block/Solver", "direct"}}));
+      const auto amg = run_block_case<3>(
+        make_parameters(settings + Settings{{"Block/Solver", "amg"}}));
+      ASSERT_EQ(direct.history.size(), amg.history.size());
+      EXPECT_LT(relative_difference(direct, amg), 1e-9);
+    }
+  const auto direct = run_block_case<2>(
+    make_parameters(slide + plane + Settings{{"Block/Solver", "direct"}}));
+  const auto amg = run_block_case<2>(
+    make_parameters(slide + plane + Settings{{"Block/Solver", "amg"}}));
+  EXPECT_LT(relative_difference(direct, amg), 1e-9);
+}
+
+
+
+TEST(Newton, converges_quadratically)
+{
+  const auto   result   = run_block_case<3>(make_parameters(slide + two_cells));
+  unsigned int n_judged = 0;
+  for (const auto &norms : result.newton_residuals)
+    for (unsigned int i = 2; i < norms.size(); ++i)
+      // Judged where round-off (and the tolerance of the linear solver) is far
+      // away.
+      if (norms[i] > 1e-10 && norms[i - 1] < 1e-2)
+        {
+          const double order = std::log(norms[i] / norms[i - 1]) /
+                               std::log(norms[i - 1] / norms[i - 2]);
+          EXPECT_GT(order, 1.5);
+          ++n_judged;
+        }
+  EXPECT_GE(n_judged, 1u);
+  EXPECT_LE(result.summary.newton_iterations, 3. * result.summary.steps);
+}
+
+
+
+TEST(Energy, balance)
+{
+  // Backward Euler takes the force at the end of a step for the whole of it, so
+  // that with equal steps the error falls in proportion to the step.
+  const std::string programme =
+    "press 5.8 MPa in 1 s; slide 1 mm/s for 0.003 mm";
+  double last_error = 0.;
+  for (const std::string n_steps : {"50", "100", "200"})
+    {
+      const auto result = run_block_case<3>(make_parameters(
+        two_cells +
+        Settings{{"Loading/Programme", programme},
+                 {"Time stepping/Tolerance", "0.1"},
+                 {"Time stepping/First slip", "1e6"},
+                 {"Time stepping/Least steps per statement", n_steps}}));
+      EXPECT_EQ(result.failure, "");
+      if (last_error > 0.)
+        {
+          EXPECT_NEAR(last_error / result.summary.balance_error, 2., 0.3);
+        }
+      last_error = result.summary.balance_error;
+    }
+
+  // With the steps that the law asks for, through everything that can happen.
+  const auto result = run_block_case<3>(make_parameters(
+    two_cells +
+    Settings{{"Loading/Programme",
+              "press 5.8 MPa in 1 s; slide 1 mm/s for 2 mm; slide -1 mm/s "
+              "for 1 mm; press 8 MPa in 1 s; slide 1 mm/s for 1 mm"}}));
+  EXPECT_EQ(result.failure, "");
+  EXPECT_LT(result.summary.balance_error, 1e-3);
+}
+
+
+
+TEST(Frame, long_slides_cost_no_digits)
+{
+  // 600 mm forth and back, then a short slide, equals the short slide after a
+  // short way with the same history: here of a law that forgets.
+  const auto end = [](const std::string &programme) {
+    return run_block_case<3>(
+             make_parameters(two_cells +
+                             Settings{{"Friction/Effects", "subloading"},
+                                      {"Loading/Programme", programme}}))
+      .history.back();
+  };
+  const HistoryRow far = end(
+    "press 5.8 MPa in 1 s; slide 100 mm/s for 600 mm; slide -1 mm/s for 0.01 "
+    "mm");
+  const HistoryRow near = end(
+    "press 5.8 MPa in 1 s; slide 100 mm/s for 60 mm; slide -1 mm/s for 0.01 "
+    "mm");
+  EXPECT_NEAR(far.friction, near.friction, 1e-8);
+  EXPECT_NEAR(far.stored_energy / near.stored_energy, 1., 1e-8);
+}
+
+
+
+TEST(Flat, face_stays_flat)
+{
+  const auto tilt = [](const std::string &top) {
+    double lowest = 1e300, highest = -1e300;
+    run_block_case<3>(
+      make_parameters(slide + two_cells + Settings{{"Block/Faces/top", top}}),
+      MPI_COMM_SELF,
+      [&](const Block<3> &block) {
+        for (const auto &face : block.contact_face().cell_faces())
+          for (const auto &point : face.points)
+            {
+              const double p = point.point.committed().normal_traction;
+              lowest         = std::min(lowest, p);
+              highest        = std::max(highest, p);
+            }
+      });
+    return highest - lowest;
+  };
+  // A platen that cannot tilt takes up the moment of the friction force.
+  EXPECT_LT(tilt("pressure programme; drive; flat"),
+            0.5 * tilt("pressure programme; drive"));
+}
+
+
+
+TEST(Failure, tall_block_tips_over)
+{
+  const auto result = run_block_case<3>(make_parameters(Settings{
+    {"Block/Size", "4 mm, 10 mm, 40 mm"},
+    {"Block/Subdivisions", "2, 2, 4"},
+    {"Friction/Static coefficient", "0.3"},
+    {"Loading/Programme", "press 5.8 MPa in 1 s; slide 1 mm/s for 1 mm"}}));
+  EXPECT_NE(result.failure.find("tips over"), std::string::npos)
+    << result.failure;
+  // What was computed is kept.
+  EXPECT_GT(result.history.size(), 10u);
+  EXPECT_NEAR(result.history.back().pressure, 5.8, 1e-6);
+}
+
+
+
+TEST(Failure, pressure_lost)
+{
+  const auto result = run_block_case<3>(make_parameters(
+    two_cells +
+    Settings{
+      {"Loading/Programme",
+       "press 5.8 MPa in 1 s; slide 1 mm/s for 0.01 mm; press 0 MPa in 1 "
+       "s; slide 1 mm/s for 0.01 mm"}}));
+  EXPECT_NE(result.failure.find("no contact pressure is left"),
+            std::string::npos)
+    << result.failure;
+  EXPECT_GT(result.history.size(), 10u);
+}

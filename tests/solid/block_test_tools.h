@@ -1,0 +1,111 @@
+#ifndef tests_solid_block_test_tools_h
+#define tests_solid_block_test_tools_h
+
+#include <slipstep/experiment/point_driver.h>
+#include <slipstep/solid/block.h>
+#include <slipstep/solid/case.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace SlipStep::Testing
+{
+  using Settings = std::vector<std::pair<std::string, std::string>>;
+
+  /// The defaults of all parameters, or a case file, with settings on top.
+  inline Parameters make_parameters(const Settings    &settings,
+                                    const std::string &case_file = "")
+  {
+    Parameters parameters;
+    declare_all_parameters(parameters);
+    if (!case_file.empty())
+      parameters.read(std::string(SLIPSTEP_SOURCE_DIR) + "/prm/" + case_file);
+    for (const auto &setting : settings)
+      parameters.set(setting.first, setting.second, "test");
+    return parameters;
+  }
+
+  inline Settings operator+(Settings first, const Settings &second)
+  {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+  }
+
+  struct BlockResult
+  {
+    std::vector<HistoryRow>          history;
+    std::vector<std::vector<double>> newton_residuals; ///< of every step
+    Summary                          summary;
+    double                           force_imbalance = 0.;
+    std::string                      failure; ///< of a run that failed
+  };
+
+  /// Run a block without writing files.
+  /// @param inspect called with the block when it is over
+  template <int dim>
+  BlockResult
+  run_block_case(const Parameters &parameters,
+                 const MPI_Comm   &communicator = MPI_COMM_SELF,
+                 const std::function<void(const Block<dim> &)> &inspect = {})
+  {
+    const FrictionLaw     law(parameters);
+    const Programme       programme = parse_programme(parameters);
+    const BlockParameters block_parameters(parameters, programme);
+    Block<dim>            block(block_parameters,
+                     law,
+                     programme,
+                     StepControl(parameters, programme, law),
+                     communicator);
+    BlockResult           result;
+    try
+      {
+        block.run(nullptr, [&](const HistoryRow &row) {
+          result.history.push_back(row);
+          result.newton_residuals.push_back(block.newton_residuals());
+        });
+      }
+    catch (const RunError &error)
+      {
+        result.failure = error.what();
+      }
+    block.fill(result.summary);
+    summarise_history(result.history, programme, result.summary);
+    result.force_imbalance = block.force_imbalance();
+    if (inspect)
+      inspect(block);
+    return result;
+  }
+
+  inline std::vector<HistoryRow> run_point_case(const Parameters &parameters)
+  {
+    const FrictionLaw       law(parameters);
+    const Programme         programme = parse_programme(parameters);
+    std::vector<HistoryRow> history;
+    drive_point(law,
+                programme,
+                StepControl(parameters, programme, law),
+                [&](const HistoryRow &row) { history.push_back(row); });
+    return history;
+  }
+
+  /// Friction of a history at a time, by linear interpolation.
+  inline double friction_at(const std::vector<HistoryRow> &history,
+                            const double                   time)
+  {
+    auto after = std::lower_bound(history.begin(),
+                                  history.end(),
+                                  time,
+                                  [](const HistoryRow &row, const double t) {
+                                    return row.time < t;
+                                  });
+    if (after == history.begin() || after == history.end())
+      return after == history.end() ? history.back().friction : after->friction;
+    const auto   before = std::prev(after);
+    const double weight = (time - before->time) / (after->time - before->time);
+    return (1. - weight) * before->friction + weight * after->friction;
+  }
+} // namespace SlipStep::Testing
+
+#endif

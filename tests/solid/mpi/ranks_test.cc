@@ -1,0 +1,75 @@
+// A block distributed over all ranks against the same block on each rank alone.
+
+#include "../block_test_tools.h"
+
+#include <gtest/gtest.h>
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  template <int dim>
+  void compare(const Settings &settings)
+  {
+    // Coarse steps, because ranks may outnumber cores.
+    const Parameters parameters = make_parameters(
+      settings + Settings{{"Time stepping/Tolerance", "1e-3"},
+                          {"Time stepping/Least steps per statement", "3"}});
+    const auto together = run_block_case<dim>(parameters, MPI_COMM_WORLD);
+    const auto alone    = run_block_case<dim>(parameters, MPI_COMM_SELF);
+
+    EXPECT_EQ(together.failure, "");
+    ASSERT_EQ(together.history.size(), alone.history.size());
+    for (unsigned int i = 0; i < alone.history.size(); ++i)
+      {
+        const HistoryRow &a = together.history[i], &b = alone.history[i];
+        const double      force = b.normal_load;
+        ASSERT_EQ(a.time, b.time);
+        ASSERT_NEAR(a.normal_load, b.normal_load, 1e-9 * force);
+        ASSERT_NEAR(a.tangential_load, b.tangential_load, 1e-9 * force);
+        ASSERT_NEAR(a.friction_y, b.friction_y, 1e-9);
+        ASSERT_NEAR(a.dissipated_energy,
+                    b.dissipated_energy,
+                    1e-9 * b.external_work);
+        ASSERT_NEAR(a.coefficient.mean, b.coefficient.mean, 1e-9);
+        ASSERT_NEAR(a.loading_ratio.maximum, b.loading_ratio.maximum, 1e-8);
+      }
+  }
+
+  const std::string programme =
+    "press 5.8 MPa in 1 s; slide 1 mm/s for 0.1 mm at 20 deg; slide -1 mm/s for "
+    "0.05 mm; press 3 MPa in 1 s";
+} // namespace
+
+
+
+TEST(Ranks, agree_in_3d)
+{
+  for (const std::string solver : {"direct", "amg"})
+    compare<3>({{"Loading/Programme", programme},
+                {"Block/Subdivisions", "3, 2, 3"},
+                {"Block/Solver", solver}});
+}
+
+
+
+TEST(Ranks, agree_in_2d_with_quadratic_elements)
+{
+  compare<2>(
+    {{"Loading/Programme", "press 5.8 MPa in 1 s; slide 1 mm/s for 0.1 mm"},
+     {"Block/Dimension", "2"},
+     {"Block/Size", "10 mm, 5 mm"},
+     {"Block/Subdivisions", "4, 3"},
+     {"Block/Degree", "2"}});
+}
+
+
+
+TEST(Ranks, agree_with_a_flat_face)
+{
+  // All unknowns of the face hang on one, which most ranks do not own.
+  compare<3>({{"Loading/Programme", programme},
+              {"Block/Subdivisions", "3, 3, 2"},
+              {"Block/Faces/top", "pressure programme; drive; flat"}});
+}
