@@ -3,6 +3,7 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/parameter_reader.h>
+#include <slipstep/utilities/pattern_words.h>
 
 #include <algorithm>
 #include <cctype>
@@ -18,6 +19,26 @@ namespace SlipStep
                       const unsigned int           line)
     {
       return file.string() + ":" + std::to_string(line);
+    }
+
+
+
+    // Names of the file appear in JSON, HTML and pictures.
+    bool is_utf8(const std::string &text)
+    {
+      unsigned int n_following = 0;
+      for (const unsigned char c : text)
+        if (n_following > 0)
+          {
+            if ((c & 0xC0) != 0x80)
+              return false;
+            --n_following;
+          }
+        else if (c >= 0xF8 || (c & 0xC0) == 0x80)
+          return false;
+        else
+          n_following = c >= 0xF0 ? 3 : c >= 0xE0 ? 2 : c >= 0xC0 ? 1 : 0;
+      return n_following == 0;
     }
 
 
@@ -70,7 +91,8 @@ namespace SlipStep
                                                   "include"};
           const bool                     is_known =
             std::find(words.begin(), words.end(), word) != words.end();
-          throw InputError(where + ": \"" + text + "\" is not understood" +
+          throw InputError(where + ": \"" + excerpt(text) +
+                           "\" is not understood" +
                            (is_known ? "" : did_you_mean(word, words)) +
                            "\n  a line is one of: set KEY = VALUE, subsection "
                            "NAME, end, include FILE, # comment");
@@ -109,6 +131,10 @@ namespace SlipStep
         const std::size_t comment = line.find('#');
         const bool        is_only_comment =
           comment != std::string::npos && trim(line.substr(0, comment)).empty();
+        if (!is_utf8(line))
+          throw InputError(place(file, n_lines) +
+                           ": this line is not UTF-8 text; save the file in "
+                           "that encoding");
         line = trim(line.substr(0, comment));
         // A comment between continued lines does not end them.
         if (is_continued && is_only_comment)
@@ -407,9 +433,12 @@ namespace SlipStep
           open_files.end())
         throw InputError(where + ": " + file.string() +
                          " includes itself (a circle of includes)");
+      const std::string what = where + ": include " + statement.value + ": ";
       if (!std::filesystem::exists(file))
-        throw InputError(where + ": include " + statement.value +
-                         ": no such file (looked for " + file.string() + ")");
+        throw InputError(what + "no such file (looked for " + file.string() +
+                         ")");
+      if (!std::filesystem::is_regular_file(file))
+        throw InputError(what + "not a file");
 
       const std::size_t n_before = text.assignments.size();
       read_file(file);
@@ -487,7 +516,14 @@ namespace SlipStep
       if (state.sweep.has_sweep)
         text.variants = variants_of_sweep(state.sweep, state);
       else if (state.sweep.has_variants)
-        text.variants = state.sweep.variants;
+        {
+          // An empty section undoes the sweep of an included file.
+          if (state.sweep.variants.empty() && text.variants.empty())
+            throw InputError(state.file.string() +
+                             ": Variants is empty; it needs a subsection for "
+                             "each variant, named after it");
+          text.variants = state.sweep.variants;
+        }
     }
   } // namespace
 

@@ -116,7 +116,7 @@ namespace SlipStep
     if (!paths(path + "/").empty())
       throw InputError(place(origin) + path + " is a section, not a key");
     const std::string nearest = nearest_path(path, paths());
-    throw InputError(place(origin) + "unknown key " + path +
+    throw InputError(place(origin) + "unknown key " + excerpt(path) +
                      (nearest.empty() ?
                         "; \"slipstep parameters\" lists the known ones" :
                         "; did you mean " + nearest + "?"));
@@ -140,7 +140,10 @@ namespace SlipStep
             sections.push_back(section);
         }
     const std::string nearest = nearest_path(path, sections);
-    throw InputError(place(origin) + "unknown section " + path +
+    if (index_of_path.count(path) != 0)
+      throw InputError(place(origin) + path +
+                       " is a key, not a section; write \"set\"");
+    throw InputError(place(origin) + "unknown section " + excerpt(path) +
                      (nearest.empty() ?
                         "; \"slipstep parameters\" lists the known ones" :
                         "; did you mean " + nearest + "?"));
@@ -157,7 +160,8 @@ namespace SlipStep
                               why_not_allowed(*entry(path).pattern, value) :
                               "a value cannot contain # or a line break";
     if (!why.empty())
-      throw InputError(introduction(origin) + path + " = " + value + ": " +
+      throw InputError(introduction(origin) + path + " =" +
+                       (value.empty() ? "" : " ") + excerpt(value) + ": " +
                        why);
   }
 
@@ -288,8 +292,8 @@ namespace SlipStep
   {
     const Entry &found = entry(path);
     throw InputError(origin(path) + " =" + (found.value.empty() ? "" : " ") +
-                     found.value + (found.layer > 0 ? "" : " (the default)") +
-                     ": " + why);
+                     excerpt(found.value) +
+                     (found.layer > 0 ? "" : " (the default)") + ": " + why);
   }
 
 

@@ -148,12 +148,21 @@ namespace SlipStep
     if (const auto list = dynamic_cast<const P::List *>(&pattern))
       for (const std::string &element : elements(*list, text))
         if (!list->get_base_pattern().match(element))
-          return "\"" + element +
+          return "\"" + excerpt(element) +
                  "\": " + why_not_allowed(list->get_base_pattern(), element);
 
     const std::string allowed = "allowed is " + allowed_in_words(pattern);
+    if (text.empty())
+      return "the value is missing; " + allowed;
     if (const auto quantity = dynamic_cast<const Quantity *>(&pattern))
-      return quantity->why_not(text) + "; " + allowed;
+      {
+        const std::string why = quantity->why_not(text);
+        // The units are listed once.
+        const bool lists_units = why.find("(known: ") != std::string::npos;
+        return why + "; " +
+               (lists_units ? "allowed is " + quantity->description_of_range() :
+                              allowed);
+      }
 
     const std::vector<std::string> words = alternatives(pattern);
     if (words.empty())
@@ -166,7 +175,28 @@ namespace SlipStep
             unknown = word;
             break;
           }
-    return "\"" + unknown + "\" is not known" + did_you_mean(unknown, words) +
-           " " + allowed;
+    const std::string nearest = did_you_mean(unknown, words);
+    return "\"" + excerpt(unknown) + "\" is not known" + nearest +
+           (nearest.empty() ? "; allowed" : " Allowed") +
+           allowed.substr(std::string("allowed").size());
+  }
+
+
+
+  std::string excerpt(const std::string &text)
+  {
+    const std::size_t most = 60, half = most / 2 - 2;
+    if (text.size() <= most)
+      return text;
+    // Characters of several bytes are not cut in two.
+    const auto is_inside = [&](const std::size_t i) {
+      return (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80;
+    };
+    std::size_t begin = half, end = text.size() - half;
+    while (begin > 0 && is_inside(begin))
+      --begin;
+    while (end < text.size() && is_inside(end))
+      ++end;
+    return text.substr(0, begin) + " ... " + text.substr(end);
   }
 } // namespace SlipStep

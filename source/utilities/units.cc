@@ -148,7 +148,11 @@ namespace SlipStep
       if (begin != end && *begin == '+')
         ++begin;
       const auto parsed = std::from_chars(begin, end, value);
-      if (parsed.ec != std::errc() || !std::isfinite(value))
+      if (parsed.ec == std::errc::result_out_of_range)
+        return "the number is too large or too small for this program";
+      if (parsed.ec == std::errc() && !std::isfinite(value))
+        return "not a finite number";
+      if (parsed.ec != std::errc())
         return "not a number" + std::string(dimension == Dimension::number ?
                                               "" :
                                               " followed by a unit");
@@ -183,6 +187,11 @@ namespace SlipStep
                value * dealii::numbers::PI / 180. :
                value;
     }
+
+
+
+    // A bound that nobody can reach is not worth a word.
+    constexpr double reachable = 1e30;
 
 
 
@@ -240,6 +249,8 @@ namespace SlipStep
     const std::string why   = parse(text, dimension, unit_required, value);
     if (!why.empty())
       return why;
+    if (value > maximum && maximum >= reachable)
+      return "the number is too large";
     if (value < minimum || value > maximum ||
         (minimum_is_excluded && value == minimum))
       return "out of range";
@@ -263,11 +274,23 @@ namespace SlipStep
              (unit_required ? joined_unit_names(dimension) :
                               base_unit(dimension) + " if no unit is given") +
              ")";
+    return entry(dimension).name + unit + range();
+  }
 
-    std::string range;
-    // A bound that nobody can reach is not worth a word.
-    const bool        has_minimum = minimum > -1e30;
-    const bool        has_maximum = maximum < 1e30;
+
+
+  std::string Quantity::description_of_range() const
+  {
+    return entry(dimension).name + range();
+  }
+
+
+
+  std::string Quantity::range() const
+  {
+    std::string       range;
+    const bool        has_minimum = minimum > -reachable;
+    const bool        has_maximum = maximum < reachable;
     const std::string base =
       dimension == Dimension::number ? "" : " " + base_unit(dimension);
     if (has_minimum)
@@ -276,7 +299,7 @@ namespace SlipStep
     if (has_maximum)
       range += std::string(has_minimum ? " and" : " of") + " at most " +
                short_number(maximum) + base;
-    return entry(dimension).name + unit + range;
+    return range;
   }
 
 

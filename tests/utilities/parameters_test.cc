@@ -177,7 +177,7 @@ TEST_F(ParametersTest, WrongValuesSayWhatIsAllowed)
             "0.5");
   EXPECT_EQ(error_of("set Block/Form = wege\n"),
             "case.prm:1: Block/Form = wege: \"wege\" is not known; did you "
-            "mean wedge? allowed is one of: box, wedge");
+            "mean wedge? Allowed is one of: box, wedge");
   EXPECT_EQ(error_of("set Block/Curved = perhaps\n"),
             "case.prm:1: Block/Curved = perhaps: allowed is true or false");
   expect_contains(error_of("set Friction/Effects = subloading, heling\n"),
@@ -188,7 +188,8 @@ TEST_F(ParametersTest, WrongValuesSayWhatIsAllowed)
                   "nearest is mm/s");
   expect_contains(error_of("set Block/Size = 1, 2 kg\n"), "\"2 kg\": ");
   expect_contains(error_of("set Block/Size = 1\n"), "a list of 2 to 3");
-  expect_contains(error_of("set Block/Degree =\n"), "Block/Degree = : ");
+  expect_contains(error_of("set Block/Degree =\n"),
+                  "Block/Degree =: the value is missing");
 }
 
 
@@ -309,6 +310,8 @@ TEST_F(ParametersTest, VariantsNameTheirKeys)
   EXPECT_EQ(read("include sweep.prm\n").variants().size(), 2u);
   EXPECT_TRUE(
     read("include sweep.prm\nsubsection Variants\nend\n").variants().empty());
+  // Without one it does nothing.
+  expect_contains(error_of("subsection Variants\nend\n"), "Variants is empty");
 }
 
 

@@ -15,6 +15,10 @@ namespace SlipStep
   /// what is allowed, and the nearest allowed word. "" if it matches.
   std::string why_not_allowed(const dealii::Patterns::PatternBase &pattern,
                               const std::string                   &text);
+
+  /// What the user wrote, fit for one line of a message: the middle of a long
+  /// text is left out.
+  std::string excerpt(const std::string &text);
 } // namespace SlipStep
 
 #endif

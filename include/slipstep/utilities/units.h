@@ -61,6 +61,9 @@ namespace SlipStep
     virtual std::string
     description(const OutputStyle style = Machine) const override;
 
+    /// The same without the units: "a speed greater than 0 mm/s".
+    std::string description_of_range() const;
+
     virtual std::unique_ptr<dealii::Patterns::PatternBase>
     clone() const override;
 
@@ -72,6 +75,10 @@ namespace SlipStep
     const double    maximum;
     const bool      minimum_is_excluded;
     const bool      unit_required;
+
+  private:
+    /// The bounds in words: " greater than 0 mm/s".
+    std::string range() const;
   };
 } // namespace SlipStep
 
