@@ -1,6 +1,7 @@
 #include <slipstep/experiment/programme.h>
 
 #include <slipstep/experiment/measured_test.h>
+#include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/units.h>
@@ -17,6 +18,9 @@ namespace SlipStep
   namespace
   {
     const char *const blanks = " \t\r\n";
+
+    /// In mm, s and MPa: beyond it rounding spoils what the law adds up.
+    constexpr double largest_number = 1e15;
 
     /// A piece of the programme and where it begins.
     struct Piece
@@ -131,7 +135,8 @@ namespace SlipStep
       const double                default_speed;
       const std::filesystem::path directory;
 
-      unsigned int         n_statements = 0;
+      unsigned int         n_statements     = 0;
+      std::size_t          statement_column = 0;
       std::vector<Segment> segments;
       double               time = 0.;
       Loading              present;
@@ -151,6 +156,7 @@ namespace SlipStep
             continue;
 
           const Statement statement = read_statement(piece);
+          statement_column          = statement.verb.column;
           if (statement.verb.text == "press")
             press(statement);
           else if (statement.verb.text == "hold")
@@ -336,8 +342,13 @@ namespace SlipStep
       const char *begin = piece.text.data();
       const char *end   = begin + piece.text.size();
       const auto  stop  = std::from_chars(begin + (*begin == '+'), end, value);
-      if (stop.ec != std::errc())
+      if (stop.ec == std::errc::invalid_argument)
         fail(piece.column, "a number is missing before '" + piece.text + "'");
+      const std::size_t comma = piece.text.find(',');
+      if (comma != std::string::npos)
+        fail(piece.column + comma,
+             "there are no commas: statements are separated by ';', and "
+             "decimals begin with a point");
 
       const std::size_t number_end = stop.ptr - begin;
       const Piece       unit =
@@ -348,7 +359,7 @@ namespace SlipStep
 
       try
         {
-          return parse_quantity(piece.text, dimension, true);
+          value = parse_quantity(piece.text, dimension, true);
         }
       catch (const InputError &error)
         {
@@ -362,8 +373,15 @@ namespace SlipStep
             fail(parts[1].column,
                  "'" + parts[1].text +
                    "' is not expected here; use 'in', 'for', 'at' or ';'");
-          fail(unit.column, error.what());
+          fail(unit.text.empty() || stop.ec != std::errc() ||
+                   !std::isfinite(value) ?
+                 piece.column :
+                 unit.column,
+               error.what());
         }
+      if (std::abs(value) > largest_number)
+        fail(piece.column, "the number is too large");
+      return value;
     }
 
 
@@ -400,6 +418,15 @@ namespace SlipStep
                      const double                pressure,
                      const dealii::Tensor<1, 2> &displacement)
     {
+      // Times are sums of durations: one that is lost in them never passes.
+      if (!(duration <= largest_number))
+        fail(statement_column, "this lasts longer than 1e15 s");
+      if (duration < 1e-10 * time)
+        fail(statement_column,
+             "this lasts " + exact_text(duration) +
+               " s, too short to be told from the " + exact_text(time) +
+               " s before it");
+
       Segment segment;
       segment.start_time       = time;
       segment.end_time         = time + duration;
