@@ -48,14 +48,31 @@ namespace SlipStep
 
     // ------------------------------------------------------------- messages
 
-    // Which of the processes of mpirun this is, known without MPI_Init.
+    // What mpirun tells its processes: known without MPI_Init.
+    unsigned int told_by_mpirun(const std::vector<const char *> &names,
+                                const unsigned int               otherwise)
+    {
+      if (is_under_mpirun())
+        for (const char *name : names)
+          if (const char *number = std::getenv(name))
+            return std::atoi(number);
+      return otherwise;
+    }
+
+
+
     unsigned int launched_rank()
     {
-      for (const char *name :
-           {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"})
-        if (const char *rank = std::getenv(name))
-          return is_under_mpirun() ? std::atoi(rank) : 0;
-      return 0;
+      return told_by_mpirun(
+        {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"}, 0);
+    }
+
+
+
+    unsigned int n_launched()
+    {
+      return told_by_mpirun(
+        {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_NTASKS"}, 1);
     }
 
 
@@ -297,6 +314,30 @@ namespace SlipStep
 
 
 
+    fs::path chosen_output(const Case &the_case, const CommandLine &line)
+    {
+      const fs::path output = line.output.empty() ?
+                                output_folder(the_case.parameters) :
+                                fs::path(line.output).lexically_normal();
+      return the_case.selected.folder.empty() ?
+               output :
+               output / the_case.selected.folder;
+    }
+
+
+
+    void check_output(const Case &the_case, const CommandLine &line)
+    {
+      const fs::path    output = chosen_output(the_case, line);
+      const std::string origin =
+        line.output.empty() ? "Output/Directory" : "--output";
+      check_output_folder(output, origin);
+      for (const Variant &variant : the_case.variants)
+        check_output_folder(output / variant.folder, origin);
+    }
+
+
+
     // ----------------------------------------------------------- run, point
 
     class Runner
@@ -334,17 +375,12 @@ namespace SlipStep
       , the_case(read_case(line.files.front(), line))
     {
       check_all(the_case);
-      output = line.output.empty() ? output_folder(the_case.parameters) :
-                                     fs::path(line.output).lexically_normal();
-      if (!the_case.selected.folder.empty())
-        output /= the_case.selected.folder;
-      if (line.is_child)
-        return;
-      const std::string origin =
-        line.output.empty() ? "Output/Directory" : "--output";
-      check_output_folder(output, origin);
-      for (const Variant &variant : the_case.variants)
-        check_output_folder(output / variant.folder, origin);
+      if (line.command == "run")
+        for (const Parameters &parameters : the_case.complete)
+          check_memory(parameters, n_launched());
+      output = chosen_output(the_case, line);
+      if (!line.is_child)
+        check_output(the_case, line);
     }
 
 
@@ -535,6 +571,8 @@ namespace SlipStep
           const Outcome outcome = guarded([&]() {
             const Case the_case = read_case(file, line);
             check_all(the_case);
+            if (!line.output.empty())
+              check_output(the_case, line);
             if (!line.quiet)
               std::cout << file.string() << ": OK"
                         << (the_case.is_sweep() ?
@@ -615,7 +653,10 @@ int main(int argc, char **argv)
 {
   dealii::deal_II_exceptions::disable_abort_on_exception();
   dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
-  const SlipStep::Outcome outcome = SlipStep::dispatch(argc, argv);
+  SlipStep::Outcome outcome = SlipStep::dispatch(argc, argv);
+  if (!std::cout.flush() && outcome.exit_code == SlipStep::done)
+    outcome = {SlipStep::run_failed,
+               "the output cannot be written (is the disk full?)"};
   // Under mpirun every rank finds the same errors in the input.
   if (!outcome.message.empty() && SlipStep::launched_rank() == 0)
     std::cerr << outcome.message << std::endl;

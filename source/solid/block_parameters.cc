@@ -3,8 +3,11 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 
+#include <deal.II/base/types.h>
 #include <deal.II/base/utilities.h>
 
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace SlipStep
@@ -44,6 +47,10 @@ namespace SlipStep
              dealii::Utilities::split_string_list(parameters.text(path), ';'))
           if (!condition.empty())
             read_condition(condition);
+        if (n_conditions == 0)
+          parameters.reject(path,
+                            "the conditions are missing; write 'free' if there "
+                            "are none");
         check_consistency();
         return face;
       }
@@ -72,10 +79,11 @@ namespace SlipStep
               parameters.reject(path,
                                 "'" + verb + "' takes nothing, but '" + rest +
                                   "' follows it");
-            (verb == "contact" ? face.is_contact :
-             verb == "free"    ? is_free :
-             verb == "drive"   ? face.is_driven :
-                                 face.is_flat) = true;
+            set_once(verb == "contact" ? face.is_contact :
+                     verb == "free"    ? is_free :
+                     verb == "drive"   ? face.is_driven :
+                                         face.is_flat,
+                     verb);
           }
         else if (verb == "pressure")
           read_pressure(rest);
@@ -103,6 +111,13 @@ namespace SlipStep
           }
       }
 
+      void set_once(bool &condition, const std::string &name) const
+      {
+        if (condition)
+          parameters.reject(path, "'" + name + "' is given twice");
+        condition = true;
+      }
+
       double quantity(const std::string &text, const Dimension dimension) const
       {
         try
@@ -118,7 +133,7 @@ namespace SlipStep
       void read_pressure(const std::string &text)
       {
         if (text == "programme")
-          face.has_programme_pressure = true;
+          set_once(face.has_programme_pressure, "pressure programme");
         else
           face.traction[normal_axis] -=
             outward_sign * quantity(text, Dimension::stress);
@@ -280,6 +295,15 @@ namespace SlipStep
         size[d]         = parse_quantity(lengths[d], Dimension::length);
         subdivisions[d] = dealii::Utilities::string_to_int(cells[d]);
       }
+    if (n_unknowns() >
+        std::numeric_limits<dealii::types::global_dof_index>::max())
+      {
+        std::ostringstream message;
+        message << "these are " << n_unknowns()
+                << " unknowns, more than the program can number; take fewer "
+                   "cells";
+        parameters.reject("Block/Subdivisions", message.str());
+      }
 
     unsigned int n_contact = 0, n_driven = 0, n_pressed = 0;
     const auto   names = face_names(dimension);
@@ -290,6 +314,17 @@ namespace SlipStep
             .read();
         if (faces[f].is_contact)
           {
+            if (n_contact == 1)
+              {
+                // Blame the line in the file, not the default.
+                const std::string first  = "Block/Faces/" + names[contact_face];
+                const std::string second = "Block/Faces/" + names[f];
+                const bool        blame_first = !parameters.is_set(second);
+                parameters.reject(blame_first ? first : second,
+                                  "one face is in contact with the plane, but "
+                                  "so is " +
+                                    (blame_first ? second : first));
+              }
             contact_face = f;
             ++n_contact;
           }
@@ -301,11 +336,9 @@ namespace SlipStep
         if (parameters.is_set(path) && parameters.text(path) != "free")
           parameters.reject(path, "a block in 2-D has no such face");
 
-    if (n_contact != 1)
+    if (n_contact == 0)
       parameters.reject("Block/Faces/bottom",
-                        n_contact == 0 ?
-                          "no face is in contact: give one face 'contact'" :
-                          "only one face can be in contact with the plane");
+                        "no face is in contact: give one face 'contact'");
     for (unsigned int f = 0; f < names.size(); ++f)
       for (unsigned int d = 0; d < dimension; ++d)
         if (faces[f].is_driven && faces[f].is_prescribed[d] &&
@@ -322,7 +355,9 @@ namespace SlipStep
                         "the programme slides, but no face of the block has "
                         "'drive'");
 
-    bool is_pressed = n_pressed > 0 && programme.largest_pressure() > 0.;
+    // Without pressure the block would drift away.
+    const bool begins_pressed = programme.segments().front().end.pressure > 0.;
+    bool       is_pressed     = n_pressed > 0 && begins_pressed;
     for (const FaceConditions &face : faces)
       is_pressed = is_pressed ||
                    face.traction[normal_axis()] * outward_sign() > 0. ||
@@ -330,9 +365,8 @@ namespace SlipStep
                     face.displacement[normal_axis()] * outward_sign() > 0.);
     if (!is_pressed)
       parameters.reject(
-        programme.largest_pressure() > 0. ? "Block/Faces/top" :
-                                            "Loading/Programme",
-        programme.largest_pressure() > 0. ?
+        begins_pressed ? "Block/Faces/top" : "Loading/Programme",
+        begins_pressed ?
           "no contact pressure: the programme presses, but no face has "
           "'pressure programme', nor does any other load press the block on "
           "the plane" :
@@ -347,6 +381,28 @@ namespace SlipStep
     fields                        = (fields_name == "none" ? FieldOutput::none :
                                      fields_name == "end"  ? FieldOutput::end :
                                                             FieldOutput::statements);
+  }
+
+
+
+  double BlockParameters::n_unknowns() const
+  {
+    double n = dimension;
+    for (unsigned int d = 0; d < dimension; ++d)
+      n *= 1. + static_cast<double>(degree) * subdivisions[d];
+    return n;
+  }
+
+
+
+  double BlockParameters::least_memory() const
+  {
+    // An unknown is coupled with those of 2^dim cells; in the interior of cells
+    // of higher degree with fewer, hence the half.
+    const double couplings =
+      0.5 * dimension * std::pow(2. * degree + 1., dimension);
+    return n_unknowns() * couplings *
+           (sizeof(double) + sizeof(dealii::types::global_dof_index)) / 1e6;
   }
 
 

@@ -88,6 +88,13 @@ namespace SlipStep
       return i < normal_axis() ? i : i + 1;
     }
 
+    /// Number of unknown displacements; exact, but as a number that cannot
+    /// overflow.
+    double n_unknowns() const;
+
+    /// Memory [MB] that the stiffness matrix alone takes: less cannot do.
+    double least_memory() const;
+
     /// Area of the contact face [mm^2], in 2-D per mm of thickness.
     double nominal_contact_area() const;
   };

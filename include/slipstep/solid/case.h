@@ -13,6 +13,12 @@ namespace SlipStep
   /// computing.
   /// @throws InputError
   void check_case(const Parameters &parameters);
+
+  /// Refuse a block that this machine, or @p n_processes of its kind, cannot
+  /// hold in memory.
+  /// @throws InputError
+  void check_memory(const Parameters  &parameters,
+                    const unsigned int n_processes);
 } // namespace SlipStep
 
 #endif
