@@ -30,6 +30,9 @@ namespace SlipStep
       dealii::Utilities::replace_in_string(parameters.text("Output/Directory"),
                                            "{case}",
                                            parameters.case_file().stem());
+    if (name.find_first_of("{}") != std::string::npos)
+      parameters.reject("Output/Directory",
+                        "in braces there can only be {case}");
     if (name.empty())
       parameters.reject("Output/Directory", "the name of a folder is needed");
     return std::filesystem::path(name).lexically_normal();

@@ -7,6 +7,7 @@
 
 #include <boost/program_options.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace SlipStep
@@ -23,6 +24,7 @@ namespace SlipStep
       std::string              details;
       unsigned int             least_files;
       unsigned int             most_files;
+      std::vector<std::string> options; // besides --help and --version
       std::vector<std::string> formats; // the first is the default
     };
 
@@ -39,6 +41,7 @@ namespace SlipStep
          "several processes: mpirun -np N slipstep run CASE.prm\n",
          1,
          1,
+         {"set", "output", "variant", "quiet"},
          {}},
         {"point",
          "CASE.prm",
@@ -46,6 +49,7 @@ namespace SlipStep
          "Like run, but without block and mesh: a matter of seconds.\n",
          1,
          1,
+         {"set", "output", "variant", "quiet"},
          {}},
         {"check",
          "CASE.prm ...",
@@ -53,6 +57,7 @@ namespace SlipStep
          "Prints one line per case; writes no file.\n",
          1,
          any,
+         {"set", "output", "variant", "quiet"},
          {}},
         {"effects",
          "",
@@ -60,6 +65,7 @@ namespace SlipStep
          "With formula, parameters, units and source of each.\n",
          0,
          0,
+         {"format"},
          {"text", "md"}},
         {"parameters",
          "",
@@ -68,6 +74,7 @@ namespace SlipStep
          "tables (md).\n",
          0,
          0,
+         {"set", "format"},
          {"prm", "json", "md"}},
         {"help",
          "[COMMAND]",
@@ -75,6 +82,7 @@ namespace SlipStep
          "",
          0,
          1,
+         {},
          {}}};
       return list;
     }
@@ -99,14 +107,17 @@ namespace SlipStep
       std::string known;
       for (const std::string &other : command_names())
         known += (known.empty() ? "" : ", ") + other;
+      const bool is_case =
+        name.size() > 4 && name.compare(name.size() - 4, 4, ".prm") == 0;
       throw InputError("unknown command \"" + name + "\"" +
-                       did_you_mean(name, command_names()) +
+                       (is_case ? "; did you mean slipstep run " + name + "?" :
+                                  did_you_mean(name, command_names())) +
                        "\n  known commands: " + known);
     }
 
 
 
-    po::options_description visible_options()
+    po::options_description all_visible_options()
     {
       po::options_description options("options");
       // clang-format off
@@ -128,6 +139,23 @@ namespace SlipStep
 
 
 
+    // Those of one command, or all if its name is empty.
+    po::options_description visible_options(const std::string &command)
+    {
+      const po::options_description all = all_visible_options();
+      if (command.empty())
+        return all;
+      const std::vector<std::string> &own = find_command(command).options;
+      po::options_description         options("options");
+      for (const auto &option : all.options())
+        if (option->long_name() == "help" || option->long_name() == "version" ||
+            std::find(own.begin(), own.end(), option->long_name()) != own.end())
+          options.add(option);
+      return options;
+    }
+
+
+
     std::vector<std::string>
     option_names(const po::options_description &options)
     {
@@ -141,7 +169,7 @@ namespace SlipStep
 
     po::variables_map parse_options(const int argc, char **argv)
     {
-      const po::options_description visible = visible_options();
+      const po::options_description visible = all_visible_options();
       po::options_description       all;
       all.add(visible);
       all.add_options()("child", "")("words",
@@ -181,15 +209,15 @@ namespace SlipStep
     {
       const std::size_t sign = text.find('=');
       if (sign == std::string::npos || sign == 0)
-        throw InputError("--set " + text +
-                         ": write it as --set \"Section/Key = value\"");
+        throw InputError("--set \"" + text +
+                         "\": write it as --set \"Section/Key = value\"");
       return {dealii::Utilities::trim(text.substr(0, sign)),
               dealii::Utilities::trim(text.substr(sign + 1))};
     }
 
 
 
-    void check_usage(const CommandLine &line)
+    void check_usage(const CommandLine &line, const po::variables_map &values)
     {
       const Command &command = find_command(line.command);
       const auto     usage   = [&]() {
@@ -203,7 +231,17 @@ namespace SlipStep
         throw InputError("slipstep " + command.name + ": \"" +
                          line.files[command.most_files].string() +
                          "\" is one argument too many" + usage());
-      if (line.format.empty())
+      const po::options_description all = all_visible_options();
+      for (const auto &option : all.options())
+        {
+          const std::string name = option->long_name();
+          if (values.count(name) && name != "help" && name != "version" &&
+              std::find(command.options.begin(), command.options.end(), name) ==
+                command.options.end())
+            throw InputError("slipstep " + command.name + " has no option --" +
+                             name);
+        }
+      if (values.count("format") == 0)
         return;
       std::string known;
       for (const std::string &format : command.formats)
@@ -212,10 +250,8 @@ namespace SlipStep
             return;
           known += (known.empty() ? "" : ", ") + format;
         }
-      throw InputError("--format " + line.format + ": " +
-                       (known.empty() ?
-                          "slipstep " + command.name + " has no formats" :
-                          "allowed is one of: " + known));
+      throw InputError("--format " + line.format +
+                       ": allowed is one of: " + known);
     }
   } // namespace
 
@@ -240,10 +276,19 @@ namespace SlipStep
     line.version           = values.count("version") > 0;
     line.help              = values.count("help") > 0;
     line.settings_as_typed = list("set");
-    for (const std::string &setting : line.settings_as_typed)
-      line.settings.push_back(parse_setting(setting));
+    for (const std::string &typed : line.settings_as_typed)
+      {
+        const auto setting = parse_setting(typed);
+        for (const auto &other : line.settings)
+          if (other.first == setting.first)
+            throw InputError("--set " + setting.first + " is given twice: " +
+                             other.second + " and " + setting.second);
+        line.settings.push_back(setting);
+      }
     if (values.count("output") && line.output.empty())
       throw InputError("--output: the name of a folder is needed");
+    if (values.count("variant") && line.variant.empty())
+      throw InputError("--variant: the name of a variant is needed");
 
     const std::vector<std::string> words = list("words");
     if (!words.empty())
@@ -263,7 +308,7 @@ namespace SlipStep
       return line;
 
     line.files.assign(words.begin() + 1, words.end());
-    check_usage(line);
+    check_usage(line, values);
     return line;
   }
 
@@ -294,7 +339,7 @@ namespace SlipStep
             << command.details;
       }
     out << '\n'
-        << visible_options()
+        << visible_options(name)
         << "\nExit code: 0 done, 1 the run failed, 2 the input is wrong.\n";
   }
 

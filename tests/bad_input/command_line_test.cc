@@ -41,6 +41,13 @@ TEST(CommandLine, UnknownWordsComeWithTheNearest)
   expect_refusal(process.run({"run", "a.prm", "b.prm"}), {"b.prm", "usage"});
   expect_refusal(process.run({"parameters", "--format", "xml"}),
                  {"xml", "prm, json, md"});
+  expect_refusal(process.run({"parameters", "--format="}), {"--format"});
+  expect_refusal(process.run({"a.prm"}), {"mean slipstep run a.prm?"});
+  expect_refusal(process.run({"effects", "--set", "Block/Degree=2"}),
+                 {"effects has no option --set"});
+  expect_refusal(process.run({"run", "a.prm", "--output"}), {"--output"});
+  expect_refusal(process.run({"run", "a.prm", "--quiet", "--quiet"}),
+                 {"--quiet"});
   EXPECT_TRUE(process.wrote_nothing());
 }
 
@@ -78,8 +85,62 @@ TEST(CommandLine, SettingsAreChecked)
                  {"--set Friction/Normal stiffness = -1", "greater than 0"});
   expect_refusal(with("Friction/healing/Rate = 1"),
                  {"--set Friction/healing/Rate = 1", "'healing' is off"});
+  expect_refusal(with(""), {"--set \"\""});
+  expect_refusal(with("Block/Degree ="), {"value is missing"});
+  expect_refusal(with("Block = 1"), {"a section, not a key"});
+  expect_refusal(process.run({"point",
+                              "case.prm",
+                              "--set",
+                              "Block/Degree=1",
+                              "--set",
+                              "Block/Degree = 2"}),
+                 {"--set Block/Degree is given twice"});
+  expect_refusal(process.run({"point", "case.prm", "--variant", ""}),
+                 {"--variant"});
   expect_refusal(process.run({"point", "case.prm", "--variant", "fast"}),
                  {"--variant fast", "no such variant"});
+  EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
+}
+
+
+
+TEST(CaseFile, MustBeText)
+{
+  const SlipstepProcess process;
+  process.write("program.prm", std::string("\177ELF\0\0", 6));
+  expect_refusal(process.run({"check", "program.prm"}),
+                 {"program.prm:1: not a .prm file"});
+  process.write("latin.prm", "set Report/Title = Fl\344che\n");
+  expect_refusal(process.run({"check", "latin.prm"}),
+                 {"latin.prm:1: ", "UTF-8"});
+}
+
+
+
+TEST(CaseFile, MayComeFromAnyEditor)
+{
+  const SlipstepProcess process;
+  process.write("dos.prm",
+                "\xEF\xBB\xBFset Block/Degree = 1\r\n"
+                "subsection\tFriction\r\n"
+                "\tset\tStatic coefficient\t=\t0.2\t# tabs\r\n"
+                "end\r\nset Report/Title = Fl\303\244che");
+  process.write("empty.prm", "");
+  std::filesystem::create_directory(process.folder() / "a folder");
+  process.write("a folder/a case.prm", right);
+  EXPECT_EQ(
+    process.run({"check", "dos.prm", "empty.prm", "a folder/a case.prm"}).out,
+    "dos.prm: OK\nempty.prm: OK\na folder/a case.prm: OK\n");
+}
+
+
+
+TEST(CaseFile, ABlockMustFitIntoMemory)
+{
+  const SlipstepProcess process;
+  process.write("huge.prm", "set Block/Subdivisions = 1000, 1000, 1000\n");
+  expect_refusal(process.run({"run", "huge.prm"}),
+                 {"huge.prm:1: Block/Subdivisions", "GB of memory"});
   EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
 }
 
