@@ -105,9 +105,13 @@ namespace SlipStep
 
         (value > 0. ? upper : lower) = mu;
         const double next            = mu - value / slope;
-        if (std::abs(next - mu) <= 1e-15 * mu)
+        // Convergence is quadratic: the error left is the square of this.
+        const bool is_converged = std::abs(next - mu) <= 1e-9 * mu;
+        mu = (is_converged || (next > lower && next < upper) ?
+                next :
+                (lower + upper) / 2.);
+        if (is_converged)
           break;
-        mu = (next > lower && next < upper ? next : (lower + upper) / 2.);
       }
     local.coefficient = mu;
   }
