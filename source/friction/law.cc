@@ -58,12 +58,13 @@ namespace SlipStep
 
 
 
-  Rate FrictionLaw::coefficient_rate_per_slip(const double coefficient) const
+  Rate FrictionLaw::sum_of_rates(Rate (Effect::*rate_of)(const double) const,
+                                 const double coefficient) const
   {
     Rate sum;
     for (const auto &effect : active)
       {
-        const Rate rate = effect->coefficient_rate_per_slip(coefficient);
+        const Rate rate = (effect.get()->*rate_of)(coefficient);
         sum.value += rate.value;
         sum.derivative += rate.derivative;
       }
@@ -72,16 +73,16 @@ namespace SlipStep
 
 
 
+  Rate FrictionLaw::coefficient_rate_per_slip(const double coefficient) const
+  {
+    return sum_of_rates(&Effect::coefficient_rate_per_slip, coefficient);
+  }
+
+
+
   Rate FrictionLaw::coefficient_rate_per_time(const double coefficient) const
   {
-    Rate sum;
-    for (const auto &effect : active)
-      {
-        const Rate rate = effect->coefficient_rate_per_time(coefficient);
-        sum.value += rate.value;
-        sum.derivative += rate.derivative;
-      }
-    return sum;
+    return sum_of_rates(&Effect::coefficient_rate_per_time, coefficient);
   }
 
 
