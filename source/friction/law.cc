@@ -58,31 +58,40 @@ namespace SlipStep
 
 
 
-  Rate FrictionLaw::sum_of_rates(Rate (Effect::*rate_of)(const double) const,
-                                 const double coefficient) const
+  namespace
   {
-    Rate sum;
-    for (const auto &effect : active)
-      {
-        const Rate rate = (effect.get()->*rate_of)(coefficient);
-        sum.value += rate.value;
-        sum.derivative += rate.derivative;
-      }
-    return sum;
-  }
+    template <typename RateOf>
+    inline Rate
+    sum_of_rates(const std::vector<std::unique_ptr<Effect>> &effects,
+                 const RateOf                               &rate_of)
+    {
+      Rate sum;
+      for (const auto &effect : effects)
+        {
+          const Rate rate = rate_of(*effect);
+          sum.value += rate.value;
+          sum.derivative += rate.derivative;
+        }
+      return sum;
+    }
+  } // namespace
 
 
 
   Rate FrictionLaw::coefficient_rate_per_slip(const double coefficient) const
   {
-    return sum_of_rates(&Effect::coefficient_rate_per_slip, coefficient);
+    return sum_of_rates(active, [coefficient](const Effect &effect) {
+      return effect.coefficient_rate_per_slip(coefficient);
+    });
   }
 
 
 
   Rate FrictionLaw::coefficient_rate_per_time(const double coefficient) const
   {
-    return sum_of_rates(&Effect::coefficient_rate_per_time, coefficient);
+    return sum_of_rates(active, [coefficient](const Effect &effect) {
+      return effect.coefficient_rate_per_time(coefficient);
+    });
   }
 
 

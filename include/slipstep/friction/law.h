@@ -90,8 +90,6 @@ namespace SlipStep
     double          error_estimate(const LocalSystem &local) const;
     ContactResponse linearise(const LocalSystem &local) const;
 
-    Rate sum_of_rates(Rate (Effect::*rate_of)(const double) const,
-                      const double coefficient) const;
     Rate coefficient_rate_per_slip(const double coefficient) const;
     Rate coefficient_rate_per_time(const double coefficient) const;
 
