@@ -383,8 +383,10 @@ namespace SlipStep
           {
             std::ostringstream message;
             message << "Newton's method did not converge in " << n_newton
-                    << " iterations (unbalanced force " << norm / force_scale
-                    << " of the contact force)";
+                    << " iterations: the forces are out of balance by "
+                    << norm / force_scale
+                    << " of the contact force, allowed are "
+                    << parameters.newton_tolerance;
             failure = message.str();
             return false;
           }
@@ -600,8 +602,9 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::check_contact(const ContactTotals &totals)
   {
-    largest_normal_load = std::max(largest_normal_load, totals.normal_load);
-    contact_share       = totals.area / parameters.nominal_contact_area();
+    largest_normal_load    = std::max(largest_normal_load, totals.normal_load);
+    contact_share          = totals.area / parameters.nominal_contact_area();
+    smallest_contact_share = std::min(smallest_contact_share, contact_share);
     if (totals.normal_load <= 1e-6 * largest_normal_load)
       {
         std::ostringstream message;
@@ -654,6 +657,12 @@ namespace SlipStep
     summary.rejected_steps    = control.n_rejected();
     summary.newton_iterations = n_newton_total;
     summary.linear_iterations = n_linear_total;
+    if (smallest_contact_share < 0.99)
+      summary.warnings = {
+        "part of the contact face lifted off the plane: at worst " +
+        std::to_string(std::lround(100. * smallest_contact_share)) +
+        " % of it stayed in contact (friction turns a block that is high for "
+        "its length)"};
   }
 
 

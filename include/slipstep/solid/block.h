@@ -153,10 +153,11 @@ namespace SlipStep
     std::string          failure;
 
     // Bookkeeping.
-    double external_work       = 0.;
-    double largest_imbalance   = 0.;
-    double largest_normal_load = 0.;
-    double contact_share       = 1.;
+    double external_work          = 0.;
+    double largest_imbalance      = 0.;
+    double largest_normal_load    = 0.;
+    double contact_share          = 1.;
+    double smallest_contact_share = 1.;
   };
 } // namespace SlipStep
 
