@@ -16,6 +16,7 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/parameters.h>
+#include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
 
 #include <sys/prctl.h>
@@ -27,6 +28,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <new>
 #include <sstream>
 #include <thread>
@@ -47,35 +49,6 @@ namespace SlipStep
 
 
     // ------------------------------------------------------------- messages
-
-    // What mpirun tells its processes: known without MPI_Init.
-    unsigned int told_by_mpirun(const std::vector<const char *> &names,
-                                const unsigned int               otherwise)
-    {
-      if (is_under_mpirun())
-        for (const char *name : names)
-          if (const char *number = std::getenv(name))
-            return std::atoi(number);
-      return otherwise;
-    }
-
-
-
-    unsigned int launched_rank()
-    {
-      return told_by_mpirun(
-        {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"}, 0);
-    }
-
-
-
-    unsigned int n_launched()
-    {
-      return told_by_mpirun(
-        {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_NTASKS"}, 1);
-    }
-
-
 
     void warn(const std::vector<std::string> &warnings)
     {
@@ -125,6 +98,12 @@ namespace SlipStep
       catch (const RunError &error)
         {
           return {run_failed, error.what()};
+        }
+      catch (const dealii::StandardExceptions::ExcIO &)
+        {
+          return {
+            run_failed,
+            "a file of the results cannot be written (is the disk full?)"};
         }
       catch (const dealii::ExceptionBase &error)
         {
@@ -408,8 +387,7 @@ namespace SlipStep
       const auto work = [this]() { return run_in_process(); };
       if (line.command == "run")
         return guarded_with_mpi(work);
-      // A single point is no work for several processes.
-      return is_first_rank ? guarded(work) : Outcome();
+      return guarded(work);
     }
 
 
@@ -424,10 +402,10 @@ namespace SlipStep
         line.command == "run" ?
           run_block(the_case.complete[number], run_options) :
           run_point(the_case.complete[number], run_options);
-      if (is_first_rank)
-        warn(summary.warnings);
       if (summary.status == "failed")
         throw RunError(summary.reason);
+      if (is_first_rank)
+        warn(summary.warnings);
     }
 
 
@@ -437,7 +415,13 @@ namespace SlipStep
       if (the_case.is_sweep() && is_first_rank && !line.is_child)
         write_case_parameters();
       Outcome worst;
-      for (unsigned int i = 0; i < the_case.complete.size(); ++i)
+      // Ranks that stop in different steps would wait for each other.
+      std::unique_ptr<SignalGuard> guard;
+      if (n_launched() == 1)
+        guard = std::make_unique<SignalGuard>();
+      for (unsigned int i = 0;
+           i < the_case.complete.size() && SignalGuard::caught() == 0;
+           ++i)
         {
           Outcome outcome = guarded([&]() {
             run_one(i);
@@ -455,7 +439,7 @@ namespace SlipStep
           if (outcome.exit_code > worst.exit_code)
             worst = outcome;
         }
-      if (is_first_rank && !line.is_child)
+      if (is_first_rank && !line.is_child && SignalGuard::caught() == 0)
         {
           // After a failure the reason counts, not a report that cannot be.
           const Outcome reported = guarded([this]() {
@@ -507,30 +491,37 @@ namespace SlipStep
 
 
 
-    // The sweep as a whole, re-runnable. Sections of effects that are off in
-    // every variant are left out: values for them would be an error.
+    // The sweep as a whole, re-runnable. Values for an effect that is off would
+    // be an error: its section is left out if it is off in all variants, or in
+    // one that takes its effects from the case.
     void Runner::write_case_parameters() const
     {
       create_output_folder(output);
-      std::set<std::string> unused =
-        FrictionLaw(the_case.complete.front()).inactive_sections();
-      for (const Parameters &parameters : the_case.complete)
+      std::map<std::string, unsigned int> n_variants_without;
+      for (unsigned int i = 0; i < the_case.complete.size(); ++i)
         {
-          const std::set<std::string> inactive =
-            FrictionLaw(parameters).inactive_sections();
-          std::set<std::string> both;
-          std::set_intersection(unused.begin(),
-                                unused.end(),
-                                inactive.begin(),
-                                inactive.end(),
-                                std::inserter(both, both.begin()));
-          unused = both;
+          const auto &overrides = the_case.variants[i].overrides;
+          const bool  has_own_effects =
+            std::any_of(overrides.begin(),
+                        overrides.end(),
+                        [](const auto &own) {
+                          return own.path == "Friction/Effects";
+                        });
+          for (const std::string &section :
+               FrictionLaw(the_case.complete[i]).inactive_sections())
+            n_variants_without[section] +=
+              has_own_effects ? 1 : the_case.complete.size();
         }
+      std::set<std::string> unused;
+      for (const auto &entry : n_variants_without)
+        if (entry.second >= the_case.complete.size())
+          unused.insert(entry.first);
       std::ofstream out(output / "used_parameters.prm");
-      the_case.parameters.print(out, Parameters::Format::prm, unused);
+      relocated_case(the_case.parameters, output)
+        .print(out, Parameters::Format::prm, unused);
       if (!out.flush())
         throw RunError((output / "used_parameters.prm").string() +
-                       ": cannot be written");
+                       ": cannot be written (is the disk full?)");
     }
 
 
@@ -598,7 +589,9 @@ namespace SlipStep
       parameters.print(std::cout,
                        line.format == "json" ? Parameters::Format::json :
                        line.format == "md"   ? Parameters::Format::markdown :
-                                               Parameters::Format::prm);
+                                               Parameters::Format::prm,
+                       {},
+                       FrictionLaw(parameters).inactive_sections());
       return done;
     }
 
@@ -620,6 +613,10 @@ namespace SlipStep
           prctl(PR_SET_PDEATHSIG, SIGTERM);
           Progress::report_often();
         }
+      // No work for several processes.
+      if (launched_rank() > 0 &&
+          (line.version || line.help || line.command != "run"))
+        return {};
       if (line.version)
         std::cout << version_text() << std::endl;
       else if (line.help)
@@ -651,6 +648,8 @@ namespace SlipStep
 
 int main(int argc, char **argv)
 {
+  // A file that grows too large is a failed write, reported as such.
+  std::signal(SIGXFSZ, SIG_IGN);
   dealii::deal_II_exceptions::disable_abort_on_exception();
   dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
   SlipStep::Outcome outcome = SlipStep::dispatch(argc, argv);
@@ -660,5 +659,6 @@ int main(int argc, char **argv)
   // Under mpirun every rank finds the same errors in the input.
   if (!outcome.message.empty() && SlipStep::launched_rank() == 0)
     std::cerr << outcome.message << std::endl;
+  SlipStep::SignalGuard::obey();
   return outcome.exit_code;
 }

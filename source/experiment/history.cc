@@ -83,6 +83,8 @@ namespace SlipStep
     : out(file)
     , file(file)
   {
+    if (!out)
+      throw InputError(file.string() + ": this file cannot be written");
     out << "# name: " << name << "\n# source: simulated by slipstep\n";
     const char *separator = "";
     for (const Column &column : columns())
@@ -92,7 +94,9 @@ namespace SlipStep
       }
     out << '\n' << std::flush;
     if (!out)
-      throw InputError(file.string() + ": this file cannot be written");
+      throw RunError(file.string() +
+                     ": this file cannot be written (is the disk full?)");
+    size = out.tellp();
   }
 
 
@@ -110,8 +114,15 @@ namespace SlipStep
       }
     out << line << '\n' << std::flush;
     if (!out)
-      throw RunError(file.string() +
-                     ": a row cannot be written (is the disk full?)");
+      {
+        // What there is of this row would make the file unreadable.
+        out.close();
+        std::error_code error;
+        std::filesystem::resize_file(file, size, error);
+        throw RunError(file.string() +
+                       ": a row cannot be written (is the disk full?)");
+      }
+    size += line.size() + 1;
   }
 
 

@@ -49,6 +49,18 @@ namespace SlipStep
 
 
 
+  Parameters relocated_case(const Parameters            &parameters,
+                            const std::filesystem::path &folder)
+  {
+    Parameters result = parameters;
+    result.rewrite("Loading/Programme", [&](const std::string &text) {
+      return relocated_programme(text, parameters.resolve("."), folder);
+    });
+    return result;
+  }
+
+
+
   namespace
   {
     Spread single(const double value)

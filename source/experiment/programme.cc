@@ -520,4 +520,32 @@ namespace SlipStep
       largest = std::max(largest, segment.end.pressure);
     return largest;
   }
+
+
+
+  std::string relocated_programme(const std::string           &text,
+                                  const std::filesystem::path &from,
+                                  const std::filesystem::path &to)
+  {
+    const std::string verb = "follow";
+    std::string       result;
+    for (std::size_t begin = 0; begin < text.size();)
+      {
+        const auto  end   = std::min(text.find(';', begin), text.size());
+        const Piece piece = trim({text.substr(begin, end - begin), begin});
+        const std::string name =
+          piece.text.compare(0, verb.size(), verb) == 0 ?
+            trim({piece.text.substr(verb.size()), 0}).text :
+            "";
+        if (name.empty())
+          result += text.substr(begin, end - begin);
+        else
+          result += text.substr(begin, piece.column - begin) + verb + " " +
+                    std::filesystem::proximate(from / name, to).string();
+        if (end < text.size())
+          result += ';';
+        begin = end + 1;
+      }
+    return result;
+  }
 } // namespace SlipStep

@@ -1,6 +1,8 @@
 #include <slipstep/experiment/run_recorder.h>
 
+#include <slipstep/experiment/point_driver.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/process.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -9,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 
 namespace SlipStep
@@ -40,6 +43,7 @@ namespace SlipStep
     , is_writer(is_writer)
     , start(ResourceUsage::now())
     , progress(options.quiet || !is_writer, options.label)
+    , work(programme)
   {
     summary.case_name = parameters.case_file().stem().string();
     summary.label     = options.label;
@@ -48,10 +52,11 @@ namespace SlipStep
     if (!is_writer)
       return;
     std::ofstream out(options.output / "used_parameters.prm");
-    parameters.print(out, Parameters::Format::prm, law.inactive_sections());
+    relocated_case(parameters, options.output)
+      .print(out, Parameters::Format::prm, law.inactive_sections());
     if (!out.flush())
-      throw RunError("cannot write " +
-                     (options.output / "used_parameters.prm").string());
+      throw RunError((options.output / "used_parameters.prm").string() +
+                     ": cannot be written (is the disk full?)");
     write_summary(options.output / "summary.json", summary);
     writer =
       HistoryWriter(options.output / "history.csv",
@@ -64,14 +69,24 @@ namespace SlipStep
   void RunRecorder::record(const HistoryRow &row)
   {
     history.push_back(row);
-    if (!is_writer)
-      return;
+    if (is_writer)
+      write(row);
+    if (SignalGuard::caught() != 0)
+      throw RunError(SignalGuard::in_words());
+  }
+
+
+
+  void RunRecorder::write(const HistoryRow &row)
+  {
     writer.write(row);
     std::ostringstream text;
-    text << "step " << history.size() << ", "
-         << std::round(1e3 * row.displacement) / 1e3 << " mm";
-    // A slide is most of the work; time alone would say the same.
-    progress.update(row.time / programme.end_time(), text.str());
+    text << "step " << history.size() << ", " << std::setprecision(3);
+    if (std::abs(row.displacement) > 0. && std::abs(row.displacement) < 0.01)
+      text << 1e3 * row.displacement << " µm";
+    else
+      text << std::round(1e3 * row.displacement) / 1e3 << " mm";
+    progress.update(work.share_done(row.time), text.str());
   }
 
 

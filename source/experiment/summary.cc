@@ -141,8 +141,12 @@ namespace SlipStep
                                    json::error_handler_t::replace)
           << std::endl;
       if (!out)
-        throw RunError(temporary.string() +
-                       ": cannot be written (is the disk full?)");
+        {
+          std::error_code error;
+          std::filesystem::remove(temporary, error);
+          throw RunError(file.string() +
+                         ": cannot be written (is the disk full?)");
+        }
     }
     std::filesystem::rename(temporary, file);
   }

@@ -1,5 +1,6 @@
 #include <slipstep/experiment/sweep.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
 
 #include <fcntl.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -22,42 +24,6 @@ namespace SlipStep
 {
   namespace
   {
-    volatile std::sig_atomic_t caught_signal = 0;
-
-    void remember_signal(const int signal)
-    {
-      caught_signal = signal;
-    }
-
-
-
-    // While it lives, SIGINT and SIGTERM are remembered, not obeyed.
-    class SignalGuard
-    {
-    public:
-      SignalGuard()
-      {
-        caught_signal = 0;
-        struct sigaction action
-        {};
-        action.sa_handler = remember_signal;
-        sigemptyset(&action.sa_mask);
-        sigaction(SIGINT, &action, &old_interrupt);
-        sigaction(SIGTERM, &action, &old_terminate);
-      }
-
-      ~SignalGuard()
-      {
-        sigaction(SIGINT, &old_interrupt, nullptr);
-        sigaction(SIGTERM, &old_terminate, nullptr);
-      }
-
-    private:
-      struct sigaction old_interrupt, old_terminate;
-    };
-
-
-
     // The reading end of a child's stdout or stderr, taken apart into lines.
     struct Pipe
     {
@@ -221,18 +187,26 @@ namespace SlipStep
 
     std::vector<int> Crew::run()
     {
-      const SignalGuard guard;
-      while (n_finished < jobs.size() && caught_signal == 0)
+      const SignalGuard guard(true);
+      while (n_finished < jobs.size() && SignalGuard::caught() == 0)
         {
           start_children();
           listen();
           bury_the_dead();
           show_progress();
         }
-      if (caught_signal != 0)
+      if (SignalGuard::caught() != 0)
         stop_children();
       else
-        progress.finish();
+        {
+          const auto n_failed =
+            exit_code.size() -
+            std::count(exit_code.begin(), exit_code.end(), 0);
+          progress.finish(n_failed == 0 ?
+                            "done in" :
+                            std::to_string(n_failed) + " of " +
+                              std::to_string(jobs.size()) + " failed, after");
+        }
       return exit_code;
     }
 
@@ -322,7 +296,7 @@ namespace SlipStep
             }
           int status = 0;
           while (waitpid(child->pid, &status, 0) < 0 && errno == EINTR)
-            if (caught_signal != 0)
+            if (SignalGuard::caught() != 0)
               return;
           if (WIFEXITED(status))
             exit_code[child->job] = WEXITSTATUS(status);
@@ -363,24 +337,18 @@ namespace SlipStep
       progress.clear();
       for (const Child &child : children)
         kill(child.pid, SIGTERM);
+      // They complete their files after the present step, if that is soon.
+      const auto start = std::chrono::steady_clock::now();
       for (const Child &child : children)
-        {
-          while (waitpid(child.pid, nullptr, 0) < 0 && errno == EINTR)
-            {}
-        }
+        while (waitpid(child.pid, nullptr, WNOHANG) == 0)
+          {
+            if (std::chrono::steady_clock::now() - start >
+                std::chrono::seconds(5))
+              kill(child.pid, SIGKILL);
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+          }
     }
   } // namespace
-
-
-
-  bool is_under_mpirun()
-  {
-    for (const char *name :
-         {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK", "SLURM_STEP_ID"})
-      if (std::getenv(name) != nullptr)
-        return true;
-    return false;
-  }
 
 
 
@@ -400,8 +368,12 @@ namespace SlipStep
       exit_codes = crew.run();
     }
     // The shell is to see the signal, not an exit code.
-    if (caught_signal != 0)
-      std::raise(caught_signal);
+    if (SignalGuard::caught() != 0)
+      {
+        std::cerr << SignalGuard::in_words()
+                  << "; what was computed so far is kept" << std::endl;
+        SignalGuard::obey();
+      }
     return exit_codes;
   }
 } // namespace SlipStep

@@ -56,9 +56,10 @@ namespace SlipStep
 
 
 
-    void print_prm_section(std::ostream           &out,
-                           const ParameterSection &section,
-                           const std::string      &indent)
+    void print_prm_section(std::ostream                &out,
+                           const ParameterSection      &section,
+                           const std::string           &indent,
+                           const std::set<std::string> &disabled_sections)
     {
       bool is_first = true;
       for (const Parameters::Entry *entry : section.entries)
@@ -75,9 +76,14 @@ namespace SlipStep
         {
           out << (is_first ? "" : "\n");
           is_first = false;
-          out << indent << "subsection " << child.name << '\n';
-          print_prm_section(out, child, indent + "  ");
-          out << indent << "end\n";
+          const std::string mark =
+            disabled_sections.count(child.path) ? "# " : "";
+          out << indent << mark << "subsection " << child.name << '\n';
+          print_prm_section(out,
+                            child,
+                            indent + mark + "  ",
+                            disabled_sections);
+          out << indent << mark << "end\n";
         }
     }
 
@@ -128,11 +134,12 @@ namespace SlipStep
 
 
 
-  void print_prm(std::ostream               &out,
-                 const ParameterSection     &root,
-                 const std::vector<Variant> &variants)
+  void print_prm(std::ostream                &out,
+                 const ParameterSection      &root,
+                 const std::vector<Variant>  &variants,
+                 const std::set<std::string> &disabled_sections)
   {
-    print_prm_section(out, root, "");
+    print_prm_section(out, root, "", disabled_sections);
     if (variants.empty())
       return;
     out << "\nsubsection Variants\n";

@@ -330,9 +330,24 @@ namespace SlipStep
 
 
 
+  void Parameters::rewrite(
+    const std::string                                     &path,
+    const std::function<std::string(const std::string &)> &rewritten)
+  {
+    Entry &changed = entries[index_of_path.at(path)];
+    changed.value  = rewritten(changed.value);
+    for (Variant &variant : variant_list)
+      for (Variant::Override &setting : variant.overrides)
+        if (setting.path == path)
+          setting.value = rewritten(setting.value);
+  }
+
+
+
   void Parameters::print(std::ostream                &out,
                          const Format                 format,
-                         const std::set<std::string> &omitted_sections) const
+                         const std::set<std::string> &omitted_sections,
+                         const std::set<std::string> &disabled_sections) const
   {
     std::vector<const Entry *> shown;
     for (const Entry &entry : entries)
@@ -346,7 +361,7 @@ namespace SlipStep
     switch (format)
       {
         case Format::prm:
-          print_prm(out, root, variant_list);
+          print_prm(out, root, variant_list, disabled_sections);
           break;
         case Format::json:
           print_json(out, root);

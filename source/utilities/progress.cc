@@ -1,3 +1,4 @@
+#include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
 
 #include <sys/ioctl.h>
@@ -42,7 +43,10 @@ namespace SlipStep
 
 
   Progress::Progress(const bool quiet, const std::string &label)
-    : Progress(quiet, label, std::cout, isatty(STDOUT_FILENO) == 1)
+    : Progress(quiet,
+               label,
+               std::cout,
+               !is_under_mpirun() && isatty(STDOUT_FILENO) == 1)
   {}
 
 
@@ -98,8 +102,8 @@ namespace SlipStep
       percentage(fraction) + (label.empty() ? "" : label + ": ") + text;
     // The first instants say nothing about the rest.
     if (fraction > 0.005 && fraction < 1. && spent > 0.5)
-      line +=
-        ", " + duration_in_words(spent * (1. - fraction) / fraction) + " left";
+      line += ", about " +
+              duration_in_words(spent * (1. - fraction) / fraction) + " left";
     if (is_live)
       {
         out << "\r\033[K" << fitted(line) << std::flush;
@@ -111,13 +115,13 @@ namespace SlipStep
 
 
 
-  void Progress::finish()
+  void Progress::finish(const std::string &outcome)
   {
     if (quiet || is_finished)
       return;
     const double spent =
       std::chrono::duration<double>(Clock::now() - start).count();
-    print(1., "done in " + duration_in_words(spent));
+    print(1., outcome + " " + duration_in_words(spent));
     if (is_live)
       out << std::endl;
     line_is_open = false;

@@ -50,19 +50,30 @@ public:
     return std::filesystem::is_empty(folder());
   }
 
+  /// The content of a file in the working directory.
+  std::string read(const std::string &name) const
+  {
+    return content(folder() / name);
+  }
+
   void write(const std::string &name, const std::string &text) const
   {
     std::ofstream(folder() / name) << text;
   }
 
-  Result run(const std::vector<std::string> &arguments) const
+  /// @param launcher shell words before the program, e.g. "mpirun -np 2"
+  /// @param set_up shell commands before it, e.g. "ulimit -f 20 &&"
+  Result run(const std::vector<std::string> &arguments,
+             const std::string              &launcher = "",
+             const std::string              &set_up   = "") const
   {
     // A case that is wrongly accepted must not run for hours.
-    std::string command =
-      "cd " + quoted(folder().string()) + " && timeout 60 " + quoted(binary());
+    std::string command = "cd " + quoted(folder().string()) + " && { " +
+                          set_up + " timeout 60 " + launcher + " " +
+                          quoted(binary());
     for (const std::string &argument : arguments)
       command += " " + quoted(argument);
-    command += " < /dev/null > " + quoted((root / "out").string()) + " 2> " +
+    command += "; } < /dev/null > " + quoted((root / "out").string()) + " 2> " +
                quoted((root / "err").string());
     const int status = std::system(command.c_str());
     Result    result;

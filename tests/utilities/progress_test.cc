@@ -67,7 +67,7 @@ TEST(Progress, LinesAreReadBack)
 {
   ProgressLine line;
   ASSERT_TRUE(parse_progress_line(
-    "[ 42.5 %] 10 mm/min: 12.3 mm, step 240, 1 min 12 s left", line));
+    "[ 42.5 %] 10 mm/min: 12.3 mm, step 240, about 1 min 12 s left", line));
   EXPECT_DOUBLE_EQ(line.fraction, 0.425);
   EXPECT_EQ(line.text, "12.3 mm, step 240");
   ASSERT_TRUE(parse_progress_line("[100.0 %] done in 3.0 s", line));

@@ -3,6 +3,7 @@
 
 #include <slipstep/utilities/exceptions.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -57,15 +58,18 @@ namespace SlipStep
   public:
     HistoryWriter() = default;
 
-    /// @throws InputError if the file cannot be created
+    /// @throws InputError if the file cannot be created, RunError if the disk
+    ///   is full
     HistoryWriter(const std::filesystem::path &file, const std::string &name);
 
-    /// @throws RunError if the row cannot be written (disk full)
+    /// @throws RunError if the row cannot be written (disk full); the file then
+    ///   ends with the row before
     void write(const HistoryRow &row);
 
   private:
     std::ofstream         out;
     std::filesystem::path file;
+    std::uintmax_t        size = 0; ///< of the file, with all complete rows
   };
 
   /// Read a history.csv back. @throws InputError naming file:line

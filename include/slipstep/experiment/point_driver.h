@@ -19,6 +19,11 @@ namespace SlipStep
   /// @throws InputError, also when no step of it ever presses
   Programme parse_programme(const Parameters &parameters);
 
+  /// The same case for a file in @p folder: names of measured tests are
+  /// relative to it.
+  Parameters relocated_case(const Parameters            &parameters,
+                            const std::filesystem::path &folder);
+
   /// Drive one contact point of 1 mm^2 through a programme: slip and normal
   /// traction are those of the programme.
   /// @param observe called with the row of every step made

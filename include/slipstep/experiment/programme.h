@@ -70,6 +70,12 @@ namespace SlipStep
   private:
     std::vector<Segment> segment_list;
   };
+
+  /// The text of a programme whose file names are relative to @p from, as it
+  /// has to be where they are relative to @p to.
+  std::string relocated_programme(const std::string           &text,
+                                  const std::filesystem::path &from,
+                                  const std::filesystem::path &to);
 } // namespace SlipStep
 
 #endif

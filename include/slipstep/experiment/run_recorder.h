@@ -5,6 +5,7 @@
 #include <slipstep/experiment/programme.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/summary.h>
+#include <slipstep/experiment/work_estimate.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/utilities/progress.h>
 
@@ -40,6 +41,7 @@ namespace SlipStep
                 const bool         is_writer = true);
 
     /// A step was made.
+    /// @throws RunError if a SignalGuard has caught a signal
     void record(const HistoryRow &row);
 
     /// The run is over, with a reason if it failed. Completes the summary.
@@ -49,6 +51,8 @@ namespace SlipStep
     Summary summary;
 
   private:
+    void write(const HistoryRow &row);
+
     const RunOptions        options;
     const Programme         programme;
     const bool              is_writer;
@@ -56,6 +60,7 @@ namespace SlipStep
     HistoryWriter           writer;
     std::vector<HistoryRow> history;
     Progress                progress;
+    WorkEstimate            work;
   };
 } // namespace SlipStep
 

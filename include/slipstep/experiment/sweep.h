@@ -15,13 +15,10 @@ namespace SlipStep
     std::vector<std::string> arguments; ///< the first is the executable
   };
 
-  /// Whether mpirun, srun or the like started this process.
-  bool is_under_mpirun();
-
   /// Run the jobs as child processes, side by side on the cores, and show one
   /// progress for all. What a child writes to stderr is passed on with its
-  /// label; a failed job does not stop the others. SIGINT and SIGTERM are
-  /// passed on to the children, and then end this process, too.
+  /// label; a failed job does not stop the others. On SIGINT or SIGTERM the
+  /// children are stopped, and then this process ends by the same signal.
   /// @param n_parallel at most so many at once; 0 = one per core
   /// @return the exit codes in the order of the jobs; 1 for a killed child
   std::vector<int> run_side_by_side(const std::vector<SweepJob> &jobs,

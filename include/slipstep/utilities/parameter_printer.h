@@ -22,10 +22,12 @@ namespace SlipStep
   ParameterSection
   parameter_tree(const std::vector<const Parameters::Entry *> &entries);
 
-  /// A .prm file which Parameters::read() reads back.
-  void print_prm(std::ostream               &out,
-                 const ParameterSection     &root,
-                 const std::vector<Variant> &variants);
+  /// A .prm file which Parameters::read() reads back, with some sections
+  /// disabled by a "#" before each of their lines.
+  void print_prm(std::ostream                &out,
+                 const ParameterSection      &root,
+                 const std::vector<Variant>  &variants,
+                 const std::set<std::string> &disabled_sections);
 
   /// Nested objects; a parameter is {value, default, documentation, allowed}.
   void print_json(std::ostream &out, const ParameterSection &root);

@@ -9,6 +9,7 @@
 #include <slipstep/utilities/units.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <ostream>
@@ -157,11 +158,19 @@ namespace SlipStep
     /// The complete parameters of one variant, which is no sweep any more.
     Parameters with_variant(const Variant &variant) const;
 
+    /// Say the same in other words: change a value and what variants give
+    /// instead of it.
+    void
+    rewrite(const std::string                                     &path,
+            const std::function<std::string(const std::string &)> &rewritten);
+
     /// Write all parameters with their values. Sections named in
-    /// @p omitted_sections (paths such as "Friction/healing") are left out.
+    /// @p omitted_sections (paths such as "Friction/healing") are left out, in a
+    /// .prm file those in @p disabled_sections are put behind "#".
     void print(std::ostream                &out,
                const Format                 format,
-               const std::set<std::string> &omitted_sections = {}) const;
+               const std::set<std::string> &omitted_sections  = {},
+               const std::set<std::string> &disabled_sections = {}) const;
 
   private:
     std::vector<Entry>                 entries;

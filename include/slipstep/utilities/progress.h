@@ -10,11 +10,13 @@ namespace SlipStep
   /// Tells how far a run is: on a terminal one live line with the time left,
   /// in a file or pipe a plain line about every 5 % or 10 s, nothing if quiet.
   ///
-  /// A plain line is `[ 42.0 %] <label>: <text>, 12 s left`;
+  /// A plain line is `[ 42.0 %] <label>: <text>, about 12 s left`;
   /// parse_progress_line() reads it back.
   class Progress
   {
   public:
+    /// On stdout; live if that is a terminal. mpirun makes every stdout look
+    /// like one, so there are no live lines under it.
     /// @param quiet print nothing (also for all ranks but one)
     /// @param label what is running, e.g. the variant's
     Progress(const bool quiet, const std::string &label);
@@ -36,8 +38,9 @@ namespace SlipStep
     /// @param text the present state, e.g. "12.3 mm, step 240"
     void update(const double fraction, const std::string &text);
 
-    /// The last line, with the time taken.
-    void finish();
+    /// The last line.
+    /// @param outcome what stands before the time taken
+    void finish(const std::string &outcome = "done in");
 
     /// Remove the live line, because something else is to be printed; the next
     /// update() shows it again.

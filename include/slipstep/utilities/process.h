@@ -1,0 +1,47 @@
+#ifndef slipstep_utilities_process_h
+#define slipstep_utilities_process_h
+
+#include <csignal>
+#include <string>
+
+namespace SlipStep
+{
+  /// Whether mpirun, srun or the like started this process.
+  bool is_under_mpirun();
+
+  /// Which of the processes of mpirun this is, known without MPI_Init.
+  unsigned int launched_rank();
+
+  /// How many processes mpirun has started; 1 without it.
+  unsigned int n_launched();
+
+  /// While one lives, SIGINT and SIGTERM do not end the process but are
+  /// remembered, so that files can be completed first. The same signal a second
+  /// time ends it at once, unless @p is_patient.
+  class SignalGuard
+  {
+  public:
+    explicit SignalGuard(const bool is_patient = false);
+
+    ~SignalGuard();
+
+    SignalGuard(const SignalGuard &)            = delete;
+    SignalGuard &operator=(const SignalGuard &) = delete;
+
+    /// The signal that came since the last guard was set up, 0 if none. Holds
+    /// beyond the life of the guard.
+    static int caught();
+
+    /// "stopped by a signal (Interrupt)".
+    static std::string in_words();
+
+    /// Let the process end by the signal that was caught, as the shell expects;
+    /// does nothing if there was none. No guard is alive.
+    static void obey();
+
+  private:
+    struct sigaction old_interrupt, old_terminate;
+  };
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,108 @@
+#include <slipstep/utilities/process.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <initializer_list>
+#include <iostream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    volatile std::sig_atomic_t caught_signal = 0;
+
+    void remember_signal(const int signal)
+    {
+      caught_signal = signal;
+    }
+
+
+
+    unsigned int
+    number_in_environment(const std::initializer_list<const char *> &names,
+                          const unsigned int                         otherwise)
+    {
+      if (is_under_mpirun())
+        for (const char *name : names)
+          if (const char *number = std::getenv(name))
+            return std::atoi(number);
+      return otherwise;
+    }
+  } // namespace
+
+
+
+  bool is_under_mpirun()
+  {
+    for (const char *name :
+         {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK", "SLURM_STEP_ID"})
+      if (std::getenv(name) != nullptr)
+        return true;
+    return false;
+  }
+
+
+
+  unsigned int launched_rank()
+  {
+    return number_in_environment(
+      {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"}, 0);
+  }
+
+
+
+  unsigned int n_launched()
+  {
+    return number_in_environment(
+      {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_NTASKS"}, 1);
+  }
+
+
+
+  SignalGuard::SignalGuard(const bool is_patient)
+  {
+    caught_signal = 0;
+    struct sigaction action
+    {};
+    action.sa_handler = remember_signal;
+    if (!is_patient)
+      action.sa_flags = SA_RESETHAND;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, &old_interrupt);
+    sigaction(SIGTERM, &action, &old_terminate);
+  }
+
+
+
+  SignalGuard::~SignalGuard()
+  {
+    sigaction(SIGINT, &old_interrupt, nullptr);
+    sigaction(SIGTERM, &old_terminate, nullptr);
+  }
+
+
+
+  int SignalGuard::caught()
+  {
+    return caught_signal;
+  }
+
+
+
+  std::string SignalGuard::in_words()
+  {
+    return std::string("stopped by a signal (") + strsignal(caught_signal) +
+           ")";
+  }
+
+
+
+  void SignalGuard::obey()
+  {
+    if (caught_signal == 0)
+      return;
+    std::cout.flush();
+    std::cerr.flush();
+    std::raise(caught_signal);
+  }
+} // namespace SlipStep

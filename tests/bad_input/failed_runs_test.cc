@@ -1,0 +1,200 @@
+// Runs that end badly: the reason is told in words, and what was computed
+// before is kept and can be read.
+
+#include <slipstep/experiment/history.h>
+#include <slipstep/experiment/summary.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "slipstep_process.h"
+
+using namespace SlipStep;
+
+namespace
+{
+  // A few seconds of work.
+  const char *const slow =
+    "set Loading/Programme = press 1 MPa in 1 s; slide 1 mm/s for 1 mm\n"
+    "set Block/Subdivisions = 2, 2, 2\n"
+    "set Time stepping/Least steps per statement = 1000000\n"
+    "set Output/Fields = none\n";
+
+  // Nothing holds a block as slender as this one.
+  const char *const slender =
+    "set Loading/Programme = press 1 MPa in 1 s; slide 1 mm/s for 10 mm\n"
+    "set Block/Size = 2 mm, 10 mm, 40 mm\n"
+    "set Block/Subdivisions = 2, 2, 2\n";
+
+  const char *const sweep = "subsection Sweep\n"
+                            "  set Key    = Loading/Speed\n"
+                            "  set Values = 1 mm/s, 2 mm/s\n"
+                            "end\n";
+
+  const char *const sliding_as_swept =
+    "set Loading/Programme = press 1 MPa in 1 s; slide for 10 mm\n"
+    "set Block/Size = 2 mm, 10 mm, 40 mm\n"
+    "set Block/Subdivisions = 2, 2, 2\n";
+
+
+
+  void expect_kept(const SlipstepProcess &process,
+                   const std::string     &folder,
+                   const std::string     &reason)
+  {
+    const auto path = process.folder() / folder;
+    EXPECT_GE(read_history(path / "history.csv").size(), 2u);
+    const Summary summary = read_summary(path / "summary.json");
+    EXPECT_EQ(summary.status, "failed");
+    EXPECT_NE(summary.reason.find(reason), std::string::npos) << summary.reason;
+    EXPECT_FALSE(std::filesystem::exists(path / "summary.json.part"));
+  }
+} // namespace
+
+
+
+TEST(FailedRun, ATippingBlockIsToldAndKept)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", slender);
+  const auto result = process.run({"run", "case.prm"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
+  EXPECT_NE(result.err.find("tips over"), std::string::npos) << result.err;
+  expect_kept(process, "output/case", "tips over");
+  EXPECT_NE(process.read("output/case/report.html").find("tips over"),
+            std::string::npos);
+}
+
+
+
+TEST(FailedRun, LossOfPressureIsToldAndKept)
+{
+  const SlipstepProcess process;
+  process.write("case.prm",
+                "set Loading/Programme = press 1 MPa in 1 s; press 0 MPa in 1 "
+                "s; slide 1 mm/s for 1 mm\n"
+                "set Block/Subdivisions = 2, 2, 2\n");
+  const auto result = process.run({"run", "case.prm"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
+  expect_kept(process, "output/case", "pressure");
+}
+
+
+
+TEST(FailedRun, EveryVariantIsReported)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", std::string(sliding_as_swept) + sweep);
+  const auto result = process.run({"run", "case.prm"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.n_error_lines(), 2u) << result.err;
+  for (const std::string variant : {"1 mm/s: ", "2 mm/s: "})
+    EXPECT_NE(result.err.find(variant), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("2 of 2 failed"), std::string::npos);
+  expect_kept(process, "output/case/1_mm-s", "tips over");
+  expect_kept(process, "output/case/2_mm-s", "tips over");
+  EXPECT_TRUE(
+    std::filesystem::exists(process.folder() / "output/case/report.html"));
+}
+
+
+
+TEST(FailedRun, AFullDiskIsToldAndTheRowsBeforeAreKept)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", "set Loading/Speed = 2 mm/s\n");
+  const auto result =
+    process.run({"point", "case.prm", "--quiet"}, "", "ulimit -f 40 &&");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("is the disk full?"), std::string::npos)
+    << result.err;
+  expect_kept(process, "output/case", "is the disk full?");
+}
+
+
+
+TEST(FailedRun, WhatCannotBePrintedIsNoSuccess)
+{
+  const SlipstepProcess process;
+  if (!std::filesystem::exists("/dev/full"))
+    GTEST_SKIP() << "there is no /dev/full";
+  process.write("script.sh", "\"$@\" > /dev/full\n");
+  const auto redirected = process.run({"parameters"}, "sh script.sh");
+  EXPECT_EQ(redirected.exit_code, 1);
+  EXPECT_NE(redirected.err.find("is the disk full?"), std::string::npos);
+}
+
+
+
+TEST(StoppedRun, LeavesReadableFiles)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", slow);
+  const auto result =
+    process.run({"run", "case.prm"}, "timeout --preserve-status -s INT 3");
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
+  EXPECT_NE(result.err.find("stopped by a signal (Interrupt)"),
+            std::string::npos);
+  expect_kept(process, "output/case", "stopped by a signal");
+}
+
+
+
+TEST(StoppedRun, StopsTheVariants)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", std::string(slow) + sweep);
+  // In the foreground: only the parent gets the signal.
+  const auto result =
+    process.run({"run", "case.prm"},
+                "timeout --foreground --preserve-status -s TERM 3");
+  EXPECT_EQ(result.exit_code, 143);
+  EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
+  for (const auto &entry :
+       std::filesystem::directory_iterator(process.folder() / "output/case"))
+    if (entry.is_directory() &&
+        std::filesystem::exists(entry.path() / "history.csv"))
+      expect_kept(process,
+                  "output/case/" + entry.path().filename().string(),
+                  "stopped by a signal");
+}
+
+
+
+TEST(ManyRanks, SpeakOnce)
+{
+  if (std::system("command -v mpirun > /dev/null") != 0)
+    GTEST_SKIP() << "mpirun is missing";
+  const SlipstepProcess process;
+  const std::string     mpirun = "mpirun --oversubscribe -np 2";
+  const auto count = [](const std::string &text, const std::string &part) {
+    unsigned int n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos;
+         at             = text.find(part, at + 1))
+      ++n;
+    return n;
+  };
+  process.write("case.prm", std::string(sliding_as_swept) + sweep);
+
+  const auto check = process.run({"check", "case.prm"}, mpirun);
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_EQ(count(check.out, "OK"), 1u) << check.out;
+
+  const auto wrong =
+    process.run({"run", "case.prm", "--set", "Block/Degree=9"}, mpirun);
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_EQ(count(wrong.err, "Block/Degree"), 1u) << wrong.err;
+  EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
+
+  const auto failing = process.run({"run", "case.prm"}, mpirun);
+  EXPECT_EQ(failing.exit_code, 1);
+  EXPECT_EQ(count(failing.err, "tips over"), 2u) << failing.err;
+  EXPECT_EQ(failing.out.find('\r'), std::string::npos);
+  expect_kept(process, "output/case/1_mm-s", "tips over");
+  expect_kept(process, "output/case/2_mm-s", "tips over");
+}

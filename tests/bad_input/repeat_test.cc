@@ -1,0 +1,162 @@
+// The parameters that a run leaves behind make the same run again, bit for bit.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "slipstep_process.h"
+
+namespace
+{
+  // Off for one variant: a section that the other one needs.
+  const char *const text =
+    "set Loading/Programme = press 1 MPa in 1 s; \\\n"
+    "  slide for 0.01 mm at 30 deg; slide -1 mm/min for 3 um\n"
+    "set Block/Size         = 1 cm, 5 mm, 7\n"
+    "set Block/Subdivisions = 2, 1, 1\n"
+    "subsection Variants\n"
+    "  subsection smooth & slow\n"
+    "    set Friction/Effects = subloading, softening, healing\n"
+    "    set Friction/healing/Rate = 1e-5\n"
+    "  end\n"
+    "  subsection fast\n"
+    "    set Loading/Speed = 200 mm/min\n"
+    "  end\n"
+    "end\n";
+
+
+
+  // Without the comment that names the case.
+  std::string table(const std::string &history)
+  {
+    return history.substr(history.find("\ntime_s"));
+  }
+
+
+
+  void expect_same_table(const SlipstepProcess &process,
+                         const std::string     &first,
+                         const std::string     &second)
+  {
+    const std::string expected = table(process.read(first + "/history.csv"));
+    EXPECT_GT(expected.size(), 1000u);
+    EXPECT_EQ(expected, table(process.read(second + "/history.csv")));
+  }
+} // namespace
+
+
+
+TEST(Repeat, UsedParametersGiveTheSameHistory)
+{
+  for (const std::string command : {"point", "run"})
+    {
+      SCOPED_TRACE(command);
+      const SlipstepProcess process;
+      process.write("my case.prm", text);
+      const auto run = [&](const std::string &file, const std::string &output) {
+        const auto result =
+          process.run({command, file, "--quiet", "--output", output});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+      };
+      run("my case.prm", "first time");
+
+      // The sweep as a whole, and each of its variants alone.
+      const std::string used = "/used_parameters.prm";
+      EXPECT_EQ(process
+                  .run({"check",
+                        "first time" + used,
+                        "first time/fast" + used,
+                        "first time/smooth_slow" + used})
+                  .exit_code,
+                0);
+      run("first time" + used, "second");
+      run("first time/fast" + used, "third/fast");
+      run("first time/smooth_slow" + used, "third/smooth_slow");
+      for (const std::string variant : {"fast", "smooth_slow"})
+        for (const std::string again : {"second/", "third/"})
+          expect_same_table(process, "first time/" + variant, again + variant);
+    }
+}
+
+
+
+// The section of an effect that only some variants have.
+TEST(Repeat, VariantsMayHaveTheirOwnEffects)
+{
+  const SlipstepProcess process;
+  process.write("case.prm",
+                "set Loading/Programme = press 1 MPa in 1 s; slide for 1 um\n"
+                "set Friction/healing/Rate = 1e-5\n"
+                "subsection Variants\n"
+                "  subsection healed\n"
+                "    set Friction/Effects = subloading, softening, healing\n"
+                "  end\n"
+                "  subsection plain\n"
+                "    set Friction/Effects = subloading\n"
+                "  end\n"
+                "end\n");
+  process.run({"point", "case.prm", "--quiet", "--output", "first"});
+  const auto again = process.run(
+    {"point", "first/used_parameters.prm", "--quiet", "--output", "second"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  for (const std::string variant : {"healed", "plain"})
+    expect_same_table(process, "first/" + variant, "second/" + variant);
+}
+
+
+
+// Names of files in a case are relative to it.
+TEST(Repeat, AFollowedTestIsFoundAgain)
+{
+  const SlipstepProcess process;
+  std::filesystem::create_directories(process.folder() / "cases/measured");
+  process.write("cases/measured/a test.csv",
+                "time_s,displacement_mm,pressure_MPa,friction\n"
+                "0,0,5,0\n1,0,5,0\n3,0.01,6,0.1\n");
+  process.write("cases/case.prm",
+                "set Loading/Programme = press 5 MPa in 1 s; "
+                "follow measured/a test.csv; hold 1 s\n");
+  process.run(
+    {"point", "cases/case.prm", "--quiet", "--output", "results/first"});
+  const auto again = process.run({"point",
+                                  "results/first/used_parameters.prm",
+                                  "--quiet",
+                                  "--output",
+                                  "second"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  expect_same_table(process, "results/first", "second");
+}
+
+
+
+TEST(Repeat, SettingsAreAmongTheUsedParameters)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", text);
+  process.run({"point",
+               "case.prm",
+               "--quiet",
+               "--output",
+               "first",
+               "--set",
+               "Friction/Static coefficient = 0.3",
+               "--variant",
+               "fast"});
+  process.run({"point",
+               "first/fast/used_parameters.prm",
+               "--quiet",
+               "--output",
+               "second"});
+  expect_same_table(process, "first/fast", "second");
+}
+
+
+
+TEST(Repeat, ThePrintedParametersAreACase)
+{
+  const SlipstepProcess process;
+  process.write("defaults.prm", process.run({"parameters"}).out);
+  const auto result = process.run({"check", "defaults.prm"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
