@@ -15,15 +15,24 @@ namespace SlipStep
 
   namespace
   {
-    // Cut to the terminal's width: a line that wraps cannot be redrawn.
-    std::string fitted(const std::string &line)
+    // A line that wraps cannot be redrawn: cut to the terminal's width, but not
+    // the time left.
+    std::string fitted(const std::string &line, const std::string &end)
     {
       winsize           size{};
       const std::size_t width =
         ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ?
           size.ws_col - 1u :
           79u;
-      return line.substr(0, width);
+      if (line.size() + end.size() <= width)
+        return line + end;
+      const std::string gap  = " ...";
+      const std::size_t rest = end.size() + gap.size();
+      std::string       kept = line.substr(0, width > rest ? width - rest : 0);
+      // Not half a character.
+      while (!kept.empty() && (kept.back() & 0x80) != 0)
+        kept.pop_back();
+      return kept + gap + end;
     }
 
 
@@ -98,19 +107,20 @@ namespace SlipStep
   {
     const double spent =
       std::chrono::duration<double>(Clock::now() - start).count();
-    std::string line =
+    const std::string line =
       percentage(fraction) + (label.empty() ? "" : label + ": ") + text;
+    std::string end;
     // The first instants say nothing about the rest.
     if (fraction > 0.005 && fraction < 1. && spent > 0.5)
-      line += ", about " +
-              duration_in_words(spent * (1. - fraction) / fraction) + " left";
+      end = ", about " + duration_in_words(spent * (1. - fraction) / fraction) +
+            " left";
     if (is_live)
       {
-        out << "\r\033[K" << fitted(line) << std::flush;
+        out << "\r\033[K" << fitted(line, end) << std::flush;
         line_is_open = true;
       }
     else
-      out << line << std::endl;
+      out << line << end << std::endl;
   }
 
 

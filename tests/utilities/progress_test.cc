@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 #include <string>
+#include <thread>
 
 using namespace SlipStep;
 
@@ -46,6 +48,21 @@ TEST(Progress, ATerminalGetsOneLiveLine)
   EXPECT_EQ(text.back(), '\n');
   // A thousand updates within an instant must not flood the terminal.
   EXPECT_LE(std::count(text.begin(), text.end(), '\r'), 3);
+}
+
+
+
+TEST(Progress, TheTimeLeftIsNotCutOff)
+{
+  std::ostringstream out;
+  Progress           progress(false, "", out, true);
+  progress.update(0.1, std::string(300, 'x'));
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  progress.update(0.2, std::string(300, 'x'));
+  const std::string text = out.str();
+  const std::string last = text.substr(text.rfind('\r'));
+  EXPECT_NE(last.find("x ..., about "), std::string::npos) << last;
+  EXPECT_NE(last.find(" s left"), std::string::npos) << last;
 }
 
 
