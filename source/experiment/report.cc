@@ -5,10 +5,12 @@
 #include <slipstep/utilities/figure.h>
 #include <slipstep/utilities/version.h>
 
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -119,6 +121,14 @@ namespace SlipStep
       return std::cos(slide.angle) < -1e-9;
     }
 
+    /// Whether a slide is not along the first axis, where a sign would do.
+    bool angles_matter(const std::vector<ResultRow> &rows)
+    {
+      return std::any_of(rows.begin(), rows.end(), [](const ResultRow &row) {
+        return std::abs(std::sin(row.slide.angle)) > 1e-6;
+      });
+    }
+
     /// Whether labels say more than the column of speeds does.
     bool labels_matter(const std::vector<ResultRow> &rows)
     {
@@ -133,10 +143,14 @@ namespace SlipStep
                                         const bool                    in_full)
     {
       const bool with_labels = labels_matter(rows);
+      const bool with_angles = angles_matter(rows);
       TableLine  head;
       if (with_labels)
         head.push_back("run");
-      head.insert(head.end(), {"speed [mm/min]", "peak", "kinetic"});
+      head.push_back("speed [mm/min]");
+      if (with_angles)
+        head.push_back("angle [deg]");
+      head.insert(head.end(), {"peak", "kinetic"});
       if (reference.exists())
         head.insert(head.end(), {reference.name(), "difference [%]"});
       if (in_full)
@@ -150,10 +164,13 @@ namespace SlipStep
           TableLine           line;
           if (with_labels)
             line.push_back(row.label);
+          line.push_back((is_reverse(slide) && !with_angles ? "-" : "") +
+                         short_text(60. * slide.speed));
+          if (with_angles)
+            line.push_back(
+              short_text(slide.angle * 180. / dealii::numbers::PI));
           line.insert(line.end(),
-                      {(is_reverse(slide) ? "-" : "") +
-                         short_text(60. * slide.speed),
-                       fixed_text(slide.peak, 4),
+                      {fixed_text(slide.peak, 4),
                        fixed_text(slide.kinetic, 4)});
           if (reference.exists())
             line.insert(line.end(),
@@ -181,44 +198,57 @@ namespace SlipStep
 
     std::vector<TableLine> cost_lines(const std::vector<RunResults> &runs)
     {
-      std::vector<TableLine> lines = {{"run",
-                                       "cells",
-                                       "unknowns",
-                                       "ranks",
-                                       "steps",
-                                       "rejected",
-                                       "Newton per step",
-                                       "linear per Newton",
-                                       "wall time [s]",
-                                       "CPU time [s]",
-                                       "memory [MB]"}};
-      const auto             ratio = [](const double a, const double b) {
+      // A single point has neither mesh nor systems to solve.
+      const bool             has_mesh = runs[0].summary.command != "point";
+      std::vector<TableLine> lines    = {{"run"}};
+      if (has_mesh)
+        lines[0].insert(lines[0].end(), {"cells", "unknowns", "ranks"});
+      lines[0].insert(lines[0].end(), {"steps", "rejected"});
+      if (has_mesh)
+        lines[0].insert(lines[0].end(),
+                        {"Newton per step", "linear per Newton"});
+      lines[0].insert(lines[0].end(),
+                      {"wall time [s]", "CPU time [s]", "memory [MB]"});
+      const auto ratio = [](const double a, const double b) {
         return b > 0. ? fixed_text(a / b, 2) : std::string("–");
       };
       for (const RunResults &run : runs)
         {
-          const Summary &s = run.summary;
-          lines.push_back({run_name(run),
-                           std::to_string(s.cells),
-                           std::to_string(s.dofs),
-                           std::to_string(s.ranks),
-                           std::to_string(s.steps),
-                           std::to_string(s.rejected_steps),
-                           ratio(s.newton_iterations, s.steps),
-                           ratio(s.linear_iterations, s.newton_iterations),
-                           short_text(s.wall_time, 3),
-                           short_text(s.cpu_time, 3),
-                           short_text(s.peak_memory, 3)});
+          const Summary &s    = run.summary;
+          TableLine      line = {run_name(run)};
+          if (has_mesh)
+            line.insert(line.end(),
+                        {std::to_string(s.cells),
+                         std::to_string(s.dofs),
+                         std::to_string(s.ranks)});
+          line.insert(line.end(),
+                      {std::to_string(s.steps),
+                       std::to_string(s.rejected_steps)});
+          if (has_mesh)
+            line.insert(line.end(),
+                        {ratio(s.newton_iterations, s.steps),
+                         ratio(s.linear_iterations, s.newton_iterations)});
+          line.insert(line.end(),
+                      {fixed_text(s.wall_time, 1),
+                       fixed_text(s.cpu_time, 1),
+                       fixed_text(s.peak_memory, 0)});
+          lines.push_back(line);
         }
       return lines;
     }
 
     std::vector<TableLine> energy_lines(const std::vector<RunResults> &runs)
     {
+      // A point stands for 1 mm² of contact, a block in 2-D for 1 mm of its
+      // thickness.
+      const Summary         &first = runs[0].summary;
+      const std::string      unit  = first.command == "point" ? " [N mm/mm²]" :
+                                     first.dimension == 2     ? " [N mm/mm]" :
+                                                                " [N mm]";
       std::vector<TableLine> lines = {{"run",
-                                       "work put in [N mm]",
-                                       "stored [N mm]",
-                                       "dissipated [N mm]",
+                                       "work put in" + unit,
+                                       "stored" + unit,
+                                       "dissipated" + unit,
                                        "unaccounted [% of the work]"}};
       for (const RunResults &run : runs)
         lines.push_back({run_name(run),
@@ -378,24 +408,48 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
       return shown;
     }
 
+    std::string quoted(const std::string &text)
+    {
+      return text.find_first_of(" '\"$&;()<>|*?`\\") == std::string::npos ?
+               text :
+               "\"" + text + "\"";
+    }
+
+    /// The options --set that the user gave.
+    std::string settings(const Parameters &parameters)
+    {
+      std::string text;
+      for (const std::string &path : parameters.paths())
+        if (parameters.is_set(path) &&
+            begins_with(parameters.origin(path), "--set"))
+          text += " --set \"" + path + "=" + parameters.text(path) + "\"";
+      return text;
+    }
+
     /// How to get these results again.
     std::string repetition(const Parameters              &parameters,
                            const std::vector<RunResults> &runs)
     {
-      const auto call = [](const Summary &s, const std::string &file) {
-        return (s.ranks > 1 ? "mpirun -np " + std::to_string(s.ranks) + " " :
-                              "") +
-               "slipstep " + s.command + " " + file + "\n";
+      // ./run tells how it was called.
+      const char *const script = std::getenv("SLIPSTEP_CALLED_AS");
+      const auto        call = [&](const Summary &s, const std::string &file) {
+        return (s.ranks > 1 ?
+                         "mpirun -np " + std::to_string(s.ranks) + " slipstep " :
+                       script != nullptr ? quoted(script) + " " :
+                                           "slipstep ") +
+               s.command + " " + quoted(file);
       };
       std::string html =
         "<p>The whole case, as its file is now:</p>\n<pre>" +
-        html_text(call(runs[0].summary, parameters.case_file().string())) +
-        "</pre>\n";
+        html_text(call(runs[0].summary, parameters.case_file().string()) +
+                  settings(parameters)) +
+        "\n</pre>\n";
       std::string single;
       for (const RunResults &run : runs)
         if (std::filesystem::exists(run.folder / "used_parameters.prm"))
           single +=
-            call(run.summary, (run.folder / "used_parameters.prm").string());
+            call(run.summary, (run.folder / "used_parameters.prm").string()) +
+            "\n";
       if (!single.empty())
         html += "<p>One run, with every value it used:</p>\n<pre>" +
                 html_text(single) + "</pre>\n";
@@ -428,7 +482,10 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
            << html_text(headline(rows, reference)) << "</p>\n"
            << problem_boxes(runs, warnings);
       if (!rows.empty())
-        html << html_table(result_lines(rows, reference, true));
+        html
+          << html_table(result_lines(rows, reference, true))
+          << "<p class='origin'>kinetic, r, μ: at the end of the slide, means "
+             "over the contact face; drop: from peak to kinetic.</p>\n";
       html << figures(pictures);
       if (!runs.empty())
         {
@@ -468,7 +525,8 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
     out << page(parameters, reference, results, pictures, warnings)
         << std::flush;
     if (!out)
-      throw RunError(file.string() + ": this file cannot be written");
+      throw RunError(file.string() +
+                     ": this file cannot be written (is the disk full?)");
     return warnings;
   }
 } // namespace SlipStep

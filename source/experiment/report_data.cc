@@ -64,7 +64,7 @@ namespace SlipStep
                                         message.substr(begin + 1, end - begin - 1);
         }
       std::cerr.rdbuf(terminal);
-      return fault;
+      return fault.substr(0, fault.find_last_not_of(". ") + 1);
     }
   } // namespace
 
@@ -172,12 +172,15 @@ namespace SlipStep
       for (const SlideSummary &slide : runs[i].summary.slides)
         {
           ResultRow row;
-          row.label      = runs[i].label;
-          row.run        = i;
-          row.slide      = slide;
-          row.drop       = 100. * (1. - slide.kinetic / slide.peak);
+          row.label = runs[i].label;
+          row.run   = i;
+          row.slide = slide;
+          if (!slide.is_complete)
+            row.slide.kinetic       = row.slide.dynamic_ratio =
+              row.slide.coefficient = std::numeric_limits<double>::quiet_NaN();
+          row.drop       = 100. * (1. - row.slide.kinetic / slide.peak);
           row.reference  = reference.kinetic(slide.speed);
-          row.difference = 100. * (slide.kinetic / row.reference - 1.);
+          row.difference = 100. * (row.slide.kinetic / row.reference - 1.);
           rows.push_back(row);
         }
     return rows;
@@ -200,73 +203,113 @@ namespace SlipStep
              " % of ";
     }
 
+    std::string from_to(const std::string &low, const std::string &high)
+    {
+      return low == high ? low : low + " to " + high;
+    }
+
     std::string one_slide(const ResultRow &row, const Reference &reference)
     {
-      std::string text =
-        "At " + speed_text(row.slide.speed) + ", friction peaks at " +
-        fixed_text(row.slide.peak, 4) + " after " +
-        short_text(row.slide.peak_displacement, 2) + " mm and settles at " +
-        fixed_text(row.slide.kinetic, 4) + ", " + fixed_text(row.drop, 1) +
-        " % lower";
+      const std::string drop = fixed_text(row.drop, 1);
+      std::string       text =
+        "At " + speed_text(row.slide.speed) + ", friction " +
+        (drop == "0.0" ?
+           "rises to " + fixed_text(row.slide.kinetic, 4) + " without a peak" :
+           "peaks at " + fixed_text(row.slide.peak, 4) + " after " +
+             short_text(row.slide.peak_displacement, 2) + " mm and is " +
+             fixed_text(row.slide.kinetic, 4) + " in the end, " + drop +
+             " % lower");
       if (reference.exists())
         text += "; that is " + comparison(row.difference, row.difference) +
                 reference.name();
       return text + ".";
     }
+
+    /// Smallest and largest of the rows by a value.
+    template <typename Value>
+    std::pair<ResultRow, ResultRow> extremes(const std::vector<ResultRow> &rows,
+                                             const Value &value)
+    {
+      const auto found =
+        std::minmax_element(rows.begin(),
+                            rows.end(),
+                            [&](const ResultRow &a, const ResultRow &b) {
+                              return value(a) < value(b);
+                            });
+      return {*found.first, *found.second};
+    }
+
+    /// "Kinetic friction rises from 0.1 at 1 mm/min to 0.12 at 50 mm/min"
+    std::string kinetic_friction(const std::vector<ResultRow> &rows)
+    {
+      const auto kinetic = [](const ResultRow &row) {
+        return fixed_text(row.slide.kinetic, 4);
+      };
+      const auto by_kinetic =
+        extremes(rows, [](const ResultRow &row) { return row.slide.kinetic; });
+      const auto by_speed =
+        extremes(rows, [](const ResultRow &row) { return row.slide.speed; });
+      const std::string range =
+        from_to(kinetic(by_kinetic.first), kinetic(by_kinetic.second));
+
+      // One slide per run and speed tells a trend.
+      const bool one_per_run =
+        rows.front().run != rows.back().run &&
+        rows.size() == rows.back().run - rows.front().run + 1;
+      if (by_speed.second.slide.speed > 1.001 * by_speed.first.slide.speed &&
+          kinetic(by_speed.first) != kinetic(by_speed.second))
+        return std::string("Kinetic friction ") +
+               (by_speed.first.slide.kinetic < by_speed.second.slide.kinetic ?
+                  "rises" :
+                  "falls") +
+               " from " + kinetic(by_speed.first) + " at " +
+               speed_text(by_speed.first.slide.speed) + " to " +
+               kinetic(by_speed.second) + " at " +
+               speed_text(by_speed.second.slide.speed);
+      if (one_per_run &&
+          kinetic(by_kinetic.first) != kinetic(by_kinetic.second))
+        return "Kinetic friction ranges from " + kinetic(by_kinetic.first) +
+               " (" + by_kinetic.first.label + ") to " +
+               kinetic(by_kinetic.second) + " (" + by_kinetic.second.label +
+               ")";
+      return "Kinetic friction is " + range + " in " +
+             std::to_string(rows.size()) + " slides";
+    }
   } // namespace
 
 
 
-  std::string headline(const std::vector<ResultRow> &rows,
+  std::string headline(const std::vector<ResultRow> &all_rows,
                        const Reference              &reference)
   {
-    if (rows.empty())
+    if (all_rows.empty())
       return "No slide has been reached.";
+    std::vector<ResultRow> rows;
+    for (const ResultRow &row : all_rows)
+      if (row.slide.is_complete)
+        rows.push_back(row);
+    if (rows.empty())
+      return "No slide has been completed.";
     if (rows.size() == 1)
       return one_slide(rows[0], reference);
 
-    const auto extremes = [&rows](const auto &value) {
-      return std::minmax_element(rows.begin(),
-                                 rows.end(),
-                                 [&](const ResultRow &a, const ResultRow &b) {
-                                   return value(a) < value(b);
-                                 });
-    };
-    const auto kinetic = [](const ResultRow &row) { return row.slide.kinetic; };
-    const auto speeds =
-      extremes([](const ResultRow &row) { return row.slide.speed; });
-    const auto by_kinetic = extremes(kinetic);
-
-    const bool is_speed_sweep =
-      speeds.second->slide.speed > 1.001 * speeds.first->slide.speed;
-    const auto first = is_speed_sweep ? speeds.first : by_kinetic.first;
-    const auto last  = is_speed_sweep ? speeds.second : by_kinetic.second;
-    const auto name  = [&](const ResultRow &row) {
-      return is_speed_sweep || row.label.empty() ? speed_text(row.slide.speed) :
-                                                    row.label;
-    };
-    std::string text = std::string("Kinetic friction ") +
-                       (!is_speed_sweep                   ? "ranges" :
-                        kinetic(*last) >= kinetic(*first) ? "rises" :
-                                                            "falls") +
-                       " from " + fixed_text(kinetic(*first), 4) + " at " +
-                       name(*first) + " to " + fixed_text(kinetic(*last), 4) +
-                       " at " + name(*last);
-
-    const auto difference =
-      extremes([](const ResultRow &row) { return row.difference; });
+    std::string text = kinetic_friction(rows);
+    const auto  difference =
+      extremes(rows, [](const ResultRow &row) { return row.difference; });
     if (reference.exists())
-      text += ", " +
-              comparison(difference.first->difference,
-                         difference.second->difference) +
-              reference.name();
+      text +=
+        ", " +
+        comparison(difference.first.difference, difference.second.difference) +
+        reference.name();
 
-    const auto drop = extremes([](const ResultRow &row) { return row.drop; });
-    const std::string lowest  = fixed_text(drop.first->drop, 1);
-    const std::string highest = fixed_text(drop.second->drop, 1);
-    return text + "; it is " +
-           (lowest == highest ? lowest : lowest + " to " + highest) +
-           " % lower than its peak.";
+    const auto drop =
+      extremes(rows, [](const ResultRow &row) { return row.drop; });
+    const std::string highest = fixed_text(drop.second.drop, 1);
+    return text +
+           (highest == "0.0" ?
+              "; there is no drop from a peak." :
+              "; it is " + from_to(fixed_text(drop.first.drop, 1), highest) +
+                " % lower than its peak.");
   }
 
 

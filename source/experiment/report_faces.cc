@@ -41,6 +41,11 @@ namespace SlipStep
           field.label  = name + " − " + short_text(mean, 5) + " " + unit +
                         "  [" + (unit == "mm" ? "µm" : "kPa") + "]";
         }
+      else if (size < 0.01)
+        {
+          field.factor = 1e3;
+          field.label  = name + "  [" + (unit == "mm" ? "µm" : "kPa") + "]";
+        }
       for (const double value : face[column])
         field.range.add(field.factor * (value - field.offset));
 
@@ -156,10 +161,13 @@ namespace SlipStep
                          "set xlabel 'x  [mm]'\n";
       for (unsigned int k = 0; k < 2; ++k)
         figure.script() << "set ylabel " << gnuplot_text(fields[k].label)
-                        << "\nset yrange [" << fields[k].range.lower << ":"
-                        << fields[k].range.upper
-                        << "]\nset offsets 0, 0, graph 0.05, graph 0.05\nplot "
-                        << data << " using 1:" << 2 + k
+                        << "\nset yrange ["
+                        << fields[k].range.lower -
+                             0.05 * fields[k].range.width()
+                        << ":"
+                        << fields[k].range.upper +
+                             0.05 * fields[k].range.width()
+                        << "]\nplot " << data << " using 1:" << 2 + k
                         << " with linespoints lw 2 pt 7 ps 0.4 lc rgb "
                         << "'#0072B2'\n";
       figure.script() << "unset multiplot\n";

@@ -102,6 +102,16 @@ namespace SlipStep
       return points;
     }
 
+    /// Whether a slide is neither along the first one nor back.
+    bool changes_direction(const RunResults &run)
+    {
+      const auto &slides = run.summary.slides;
+      return std::any_of(
+        slides.begin(), slides.end(), [&](const SlideSummary &slide) {
+          return std::abs(std::sin(slide.angle - slides[0].angle)) > 1e-6;
+        });
+    }
+
     /// The curve of the first slide alone, from where it starts.
     Rows first_slide(const RunResults &run)
     {
@@ -149,7 +159,7 @@ namespace SlipStep
       for (const RunResults &run : runs)
         longest = std::max(longest, legend(run).size());
       const double edge =
-        1. - std::min(70. + 7.8 * longest, 0.4 * picture_width) / picture_width;
+        1. - std::min(80. + 8. * longest, 0.4 * picture_width) / picture_width;
       return "set rmargin at screen " + short_text(edge) +
              "\nset key at screen " + short_text(edge + 0.02) +
              ", graph 1 left top\n";
@@ -262,13 +272,13 @@ namespace SlipStep
       else
         figure.script() << "set xzeroaxis lc rgb '#444444' lw 1 dt solid\n";
       figure.script() << plots << "\n";
-      return finish(figure,
-                    "Friction against displacement",
-                    reference.exists() ?
-                      "Strokes at the right end: kinetic level after " +
-                        reference.name() + ", in the colour of the run." :
-                      "",
-                    warnings);
+      std::string caption;
+      if (std::any_of(runs.begin(), runs.end(), changes_direction))
+        caption = "Both along the direction of the first slide. ";
+      if (reference.exists())
+        caption += "Strokes at the right end: kinetic level after " +
+                   reference.name() + ", in the colour of the run.";
+      return finish(figure, "Friction against displacement", caption, warnings);
     }
 
 
@@ -360,6 +370,8 @@ namespace SlipStep
       for (const RunResults &run : runs)
         for (const SlideSummary &slide : run.summary.slides)
           {
+            if (!slide.is_complete)
+              continue;
             simulated.push_back({slide.speed * mm_min, slide.dynamic_ratio});
             speeds.add(slide.speed * mm_min);
           }

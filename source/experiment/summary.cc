@@ -30,7 +30,8 @@ namespace SlipStep
               {"peak_displacement_mm", slide.peak_displacement},
               {"kinetic", slide.kinetic},
               {"r", slide.dynamic_ratio},
-              {"mu", slide.coefficient}};
+              {"mu", slide.coefficient},
+              {"complete", slide.is_complete}};
     }
 
     /// JSON has no NaN: the library writes null, read back here.
@@ -51,6 +52,7 @@ namespace SlipStep
       slide.kinetic           = number(object, "kinetic");
       slide.dynamic_ratio     = number(object, "r");
       slide.coefficient       = number(object, "mu");
+      object.at("complete").get_to(slide.is_complete);
       return slide;
     }
 
@@ -233,7 +235,8 @@ namespace SlipStep
       slide.angle = std::atan2(motion.direction[1] + 0., motion.direction[0]);
       slide.peak  = -std::numeric_limits<double>::infinity();
 
-      bool found = false;
+      bool found        = false;
+      slide.is_complete = history.back().time >= motion.end_time - tolerance;
       for (const HistoryRow &row : history)
         if (row.time > motion.start_time + tolerance &&
             row.time <= motion.end_time + tolerance)

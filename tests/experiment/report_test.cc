@@ -1,5 +1,6 @@
 #include <slipstep/experiment/history.h>
 #include <slipstep/experiment/report.h>
+#include <slipstep/experiment/report_data.h>
 #include <slipstep/experiment/summary.h>
 
 #include <gtest/gtest.h>
@@ -186,6 +187,75 @@ TEST(Report, ThePageIsCompleteInItself)
                                  "contact_face_1",
                                  "contact_face_2"})
     EXPECT_TRUE(contains(page, "id=\"" + name + "-")) << name;
+}
+
+
+
+TEST(Report, TheHeadlineClaimsNoMoreThanThereIs)
+{
+  const Reference none(parameters_with({}));
+  const auto      row = [](const std::size_t run,
+                      const double      speed,
+                      const double      peak,
+                      const double      kinetic) {
+    ResultRow result;
+    result.run                     = run;
+    result.label                   = "run " + std::to_string(run);
+    result.slide.speed             = speed / 60.;
+    result.slide.peak              = peak;
+    result.slide.peak_displacement = 0.02;
+    result.slide.kinetic           = kinetic;
+    result.drop                    = 100. * (1. - kinetic / peak);
+    return result;
+  };
+  EXPECT_EQ(headline({}, none), "No slide has been reached.");
+  EXPECT_EQ(headline({row(0, 1., 0.2, 0.1)}, none),
+            "At 1 mm/min, friction peaks at 0.2000 after 0.02 mm and is 0.1000 "
+            "in the end, 50.0 % lower.");
+  EXPECT_EQ(headline({row(0, 1., 0.2, 0.2)}, none),
+            "At 1 mm/min, friction rises to 0.2000 without a peak.");
+  // One run, forth and back.
+  EXPECT_EQ(headline({row(0, 1., 0.2, 0.16), row(0, 1., 0.16, 0.15)}, none),
+            "Kinetic friction is 0.1500 to 0.1600 in 2 slides; it is 6.2 to "
+            "20.0 % lower than its peak.");
+  // Runs that differ in something else than speed, or in nothing.
+  EXPECT_EQ(headline({row(0, 1., 0.2, 0.16), row(1, 1., 0.2, 0.1)}, none),
+            "Kinetic friction ranges from 0.1000 (run 1) to 0.1600 (run 0); it "
+            "is 20.0 to 50.0 % lower than its peak.");
+  EXPECT_EQ(headline({row(0, 1., 0.2, 0.2), row(1, 10., 0.2, 0.2)}, none),
+            "Kinetic friction is 0.2000 in 2 slides; there is no drop from a "
+            "peak.");
+
+  ResultRow cut_short         = row(0, 1., 0.2, 0.2);
+  cut_short.slide.is_complete = false;
+  EXPECT_EQ(headline({cut_short}, none), "No slide has been completed.");
+}
+
+
+
+TEST(Report, ASlideThatIsCutShortHasNoKineticFriction)
+{
+  const ReportedRun run     = make_run(1., "tipped");
+  Summary           summary = read_summary(run.folder / "summary.json");
+  summary.slides.front().is_complete = false;
+  write_summary(run.folder / "summary.json", summary);
+  const std::string table = result_table(parameters_with({}), {run});
+  EXPECT_TRUE(contains(table, "0.1122         –")) << table;
+}
+
+
+
+TEST(Report, TheCallIsTheUsersOwn)
+{
+  setenv("SLIPSTEP_CALLED_AS", "./run", 1);
+  Parameters parameters = parameters_with({});
+  parameters.set("Report/Title", "a b", "--set");
+  write_report(test_folder(), parameters, {make_run(1., "rough")});
+  unsetenv("SLIPSTEP_CALLED_AS");
+  EXPECT_TRUE(contains(content(test_folder() / "report.html"),
+                       "--set &quot;Report/Title=a b&quot;"));
+  EXPECT_TRUE(
+    contains(content(test_folder() / "report.html"), "<pre>./run run"));
 }
 
 

@@ -92,7 +92,8 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                "peak_displacement_mm",
                "kinetic",
                "r",
-               "mu"});
+               "mu",
+               "complete"});
 }
 
 
@@ -226,6 +227,8 @@ TEST(Summary, AnUnfinishedHistoryGivesTheSlidesItReached)
   summarise_history(history, programme, summary);
   ASSERT_EQ(summary.slides.size(), 2u);
   EXPECT_NEAR(summary.slides[1].length, 5., 1e-10);
+  EXPECT_TRUE(summary.slides[0].is_complete);
+  EXPECT_FALSE(summary.slides[1].is_complete);
 
   summarise_history({}, programme, summary);
   EXPECT_TRUE(summary.slides.empty());

@@ -71,7 +71,9 @@ namespace SlipStep
     std::string  label;
     std::size_t  run = 0; ///< its index among the runs
     SlideSummary slide;
-    double       drop = 0.; ///< from peak to kinetic [%]
+    /// What a slide that was not completed cannot tell is NaN: kinetic, r and
+    /// mu in `slide`, drop, difference.
+    double drop = 0.; ///< from peak to kinetic [%]
     /// NaN without a reference.
     double reference  = 0.;
     double difference = 0.; ///< of kinetic from reference [%]
@@ -80,7 +82,7 @@ namespace SlipStep
   std::vector<ResultRow> result_rows(const std::vector<RunResults> &runs,
                                      const Reference               &reference);
 
-  /// One sentence with the numbers that matter.
+  /// One sentence with the numbers that matter, of completed slides only.
   std::string headline(const std::vector<ResultRow> &rows,
                        const Reference              &reference);
 

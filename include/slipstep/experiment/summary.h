@@ -13,14 +13,15 @@ namespace SlipStep
   /// What one `slide` of the programme showed.
   struct SlideSummary
   {
-    double speed             = 0.; ///< [mm/s], magnitude
-    double angle             = 0.; ///< direction of motion [rad]
-    double length            = 0.; ///< [mm]
-    double peak              = 0.; ///< largest friction in this direction
-    double peak_displacement = 0.; ///< path since the start of the slide [mm]
-    double kinetic           = 0.; ///< friction at the end of the slide
-    double dynamic_ratio     = 0.; ///< mean r at the end of the slide
-    double coefficient       = 0.; ///< mean mu at the end of the slide
+    double speed             = 0.;   ///< [mm/s], magnitude
+    double angle             = 0.;   ///< direction of motion [rad]
+    double length            = 0.;   ///< [mm]
+    double peak              = 0.;   ///< largest friction in this direction
+    double peak_displacement = 0.;   ///< path since the start of the slide [mm]
+    double kinetic           = 0.;   ///< friction at the end of the slide
+    double dynamic_ratio     = 0.;   ///< mean r at the end of the slide
+    double coefficient       = 0.;   ///< mean mu at the end of the slide
+    bool   is_complete       = true; ///< not cut short by a failure
   };
 
   /// The content of summary.json.
