@@ -228,9 +228,11 @@ namespace SlipStep
                    const std::vector<HistoryRow> &history,
                    SlideSummary                  &slide)
     {
-      const double tolerance = 1e-9 * (std::abs(motion.end_time) +
-                                       motion.end_time - motion.start_time);
-      slide.speed            = motion.speed;
+      // Steps end at the borders of statements to the last bit, and the first
+      // steps after a border can be as short as a microsecond.
+      const double tolerance =
+        4. * std::numeric_limits<double>::epsilon() * motion.end_time;
+      slide.speed = motion.speed;
       // Adding zero turns -0, for which atan2 gives -pi, into +0.
       slide.angle = std::atan2(motion.direction[1] + 0., motion.direction[0]);
       slide.peak  = -std::numeric_limits<double>::infinity();

@@ -1,3 +1,4 @@
+#include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/summary.h>
 
 #include <gtest/gtest.h>
@@ -249,4 +250,31 @@ TEST(Summary, AFollowedTestIsOneSlideAtItsSpeed)
   EXPECT_NEAR(summary.slides[0].speed, 3., 1e-12);
   EXPECT_NEAR(summary.slides[0].angle, pi, 1e-12);
   EXPECT_NEAR(summary.slides[0].length, 6., 1e-12);
+}
+
+
+
+// The first step of a slide can be a thousand times shorter than what a clock
+// after months of rest seems to resolve.
+TEST(Summary, SlidesAfterALongRestAreToldApart)
+{
+  Parameters parameters;
+  declare_loading_parameters(parameters);
+  FrictionLaw::declare_parameters(parameters);
+  parameters.set("Loading/Programme",
+                 "press 5.8 MPa in 1 s; hold 1e7 s; slide 100 mm/s for 1 mm; "
+                 "slide -100 mm/s for 1 mm",
+                 "test");
+  const FrictionLaw       law(parameters);
+  const Programme         programme = parse_programme(parameters);
+  std::vector<HistoryRow> history;
+  drive_point(law,
+              programme,
+              StepControl(parameters, programme, law),
+              [&](const HistoryRow &row) { history.push_back(row); });
+  Summary summary;
+  summarise_history(history, programme, summary);
+  ASSERT_EQ(summary.slides.size(), 2u);
+  EXPECT_GT(summary.slides[0].kinetic, 0.98 * summary.slides[0].peak);
+  EXPECT_GT(summary.slides[1].kinetic, 0.98 * summary.slides[1].peak);
 }
