@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace SlipStep
@@ -101,6 +102,7 @@ namespace SlipStep
       wanted =
         std::min(wanted,
                  first_slip * elastic_slip_per_pressure * pressure / speed);
+    first_step = wanted;
     plan(wanted);
   }
 
@@ -123,6 +125,24 @@ namespace SlipStep
 
 
 
+  // A step that the clock can hardly resolve is no step.
+  void StepControl::shrink(const double wanted_step, const std::string &reason)
+  {
+    ++rejected;
+    const double resolution = 8. * std::numeric_limits<double>::epsilon() *
+                              programme.segments()[segment].end_time;
+    if (!(wanted_step > resolution))
+      {
+        std::ostringstream message;
+        message << "At t = " << std::setprecision(6) << begin
+                << " s no time step is small enough: " << reason;
+        throw RunError(message.str());
+      }
+    plan(wanted_step);
+  }
+
+
+
   bool StepControl::accept(const double error, const double strength)
   {
     const double relative_error =
@@ -130,10 +150,12 @@ namespace SlipStep
     const double step = step_size();
     const double ideal =
       0.9 * std::sqrt(tolerance / std::max(relative_error, 1e-30));
-    if (relative_error > 1.5 * tolerance)
+    // Written so that an undefined error is refused, too.
+    if (!(relative_error <= 1.5 * tolerance))
       {
-        ++rejected;
-        plan(step * std::max(0.2, std::min(ideal, 0.7)));
+        shrink(step * std::max(0.2, std::min(ideal, 0.7)),
+               "the friction law asks for a smaller one than the clock "
+               "resolves");
         return false;
       }
 
@@ -156,15 +178,8 @@ namespace SlipStep
 
   void StepControl::cut(const std::string &reason)
   {
-    const Segment &now = programme.segments()[segment];
-    ++rejected;
-    if (step_size() < 1e-12 * std::max(now.end_time, 1e-6))
-      {
-        std::ostringstream message;
-        message << "At t = " << std::setprecision(6) << begin
-                << " s no time step is small enough: " << reason;
-        throw RunError(message.str());
-      }
-    plan(step_size() / 4.);
+    // After so many cuts something else is wrong than the step.
+    const bool is_hopeless = step_size() < 1e-9 * first_step;
+    shrink(is_hopeless ? 0. : step_size() / 4., reason);
   }
 } // namespace SlipStep

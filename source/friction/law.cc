@@ -43,6 +43,7 @@ namespace SlipStep
     Tensor<1, 2> d_start_ratio_d_trial;
     double       d_start_ratio_d_strength  = 0.;
     double       d_trial_strength_d_normal = 0.;
+    Tensor<1, 2> d_trial_strength_d_direction;
 
     double       traction = 0.; // |f_t|, the unknown
     double       slip     = 0.;
@@ -103,7 +104,7 @@ namespace SlipStep
     const double start = local.start.coefficient;
     double       lower = 0., upper = 1e3;
     double       mu = local.coefficient;
-    for (unsigned int iteration = 0; iteration < 100; ++iteration)
+    for (unsigned int iteration = 0; iteration < 2000; ++iteration)
       {
         const Rate   slip = coefficient_rate_per_slip(mu);
         const Rate   time = coefficient_rate_per_time(mu);
@@ -223,8 +224,9 @@ namespace SlipStep
         // s is stationary, so only the explicit dependence counts.
         if (norm > 0.)
           local.d_start_ratio_d_trial = s * traction / (norm * strength);
-        local.d_start_ratio_d_strength  = -s * smallest / strength;
-        local.d_trial_strength_d_normal = local.d_strength.d_normal;
+        local.d_start_ratio_d_strength     = -s * smallest / strength;
+        local.d_trial_strength_d_normal    = local.d_strength.d_normal;
+        local.d_trial_strength_d_direction = local.d_strength.d_direction;
       }
   }
 
@@ -286,13 +288,24 @@ namespace SlipStep
 
 
   // Backward Euler's local error of the slip is half the change of its rate
-  // times the step, as the flow rule lets it through (not at all without
-  // overstress); that of mu is half the change of its rates.
+  // times the step. Of a change of size the flow rule lets only part through
+  // (nothing without overstress), of a change of direction the transverse
+  // stiffness. The error of mu is half the change of its rates.
   double FrictionLaw::error_estimate(const LocalSystem &local) const
   {
     double error = 0.;
     if (local.slip > 0.)
       {
+        const double old_norm = local.start.traction.norm();
+        if (old_norm > 0.)
+          {
+            const Tensor<1, 2> old = local.start.traction / old_norm;
+            const Tensor<1, 2> turned =
+              local.direction - (local.direction * old) * old;
+            error += alpha_t * local.traction / local.trial_norm * 0.5 *
+                     local.slip * turned.norm();
+          }
+
         const double transmitted =
           (local.flow.d_rate / local.time_step) / local.d_residual;
         error += alpha_t * transmitted * 0.5 *
@@ -334,7 +347,9 @@ namespace SlipStep
     const Tensor<1, 2> d_slip_d_trial =
       -(local.flow.d_ratio / local.strength * m +
         from_strength * (transverse * local.d_strength.d_direction) +
-        from_start * local.d_start_ratio_d_trial) /
+        from_start * (local.d_start_ratio_d_trial +
+                      local.d_start_ratio_d_strength *
+                        (transverse * local.d_trial_strength_d_direction))) /
       local.d_residual;
     const double d_slip_d_normal =
       -(from_strength * local.d_strength.d_normal +

@@ -82,8 +82,8 @@ namespace SlipStep
   {
     dof_handler.distribute_dofs(fe);
     DoFTools::extract_locally_relevant_dofs(dof_handler, relevant_dofs);
-    AffineConstraints<double> probe(relevant_dofs);
-    make_flat_faces(probe);
+    AffineConstraints<double> probe;
+    prescribe_displacements(Tensor<1, 2>(), probe);
     std::vector<types::global_dof_index> masters;
     for (const auto &line : probe.get_lines())
       for (const auto &entry : line.entries)
@@ -103,6 +103,7 @@ namespace SlipStep
                            &constant_load,
                            &unit_pressure_load,
                            &unbalanced,
+                           &old_unbalanced,
                            &forces,
                            &right_hand_side})
       vector->reinit(dof_handler.locally_owned_dofs(),
@@ -187,8 +188,8 @@ namespace SlipStep
 
 
 
-  // Reactions at driven unknowns are the force of the drive; sums over all
-  // unknowns of a component are resultants.
+  // Forces at supported unknowns are reactions; sums over all unknowns of a
+  // component are resultants.
   template <int dim>
   void Block<dim>::find_groups_of_unknowns()
   {
@@ -199,21 +200,12 @@ namespace SlipStep
         DoFTools::extract_dofs(dof_handler, mask)
           .fill_index_vector(dofs_of_component[d]);
       }
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      {
-        ComponentMask mask(dim, false);
-        mask.set(parameters.tangential_axis(i), true);
-        std::set<types::boundary_id> driven_faces;
-        for (unsigned int f = 0; f < 2 * dim; ++f)
-          if (parameters.faces[f].is_driven)
-            driven_faces.insert(f);
-        if (driven_faces.empty())
-          continue;
-        const IndexSet on_faces =
-          DoFTools::extract_boundary_dofs(dof_handler, mask, driven_faces) &
-          dof_handler.locally_owned_dofs();
-        on_faces.fill_index_vector(driven_dofs[i]);
-      }
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const auto dof : dofs_of_component[d])
+        if (const auto *entries =
+              homogeneous_constraints.get_constraint_entries(dof))
+          if (entries->empty())
+            supported_dofs[d].push_back(dof);
   }
 
 
@@ -538,30 +530,29 @@ namespace SlipStep
 
 
 
-  // Driven faces move with the frame: their reactions do work on its motion,
-  // and so do the loads, besides what they do on the displacement within the
-  // frame. Other prescribed displacements stand still in space.
+  // Reactions and loads do work on displacements in space: those in the frame
+  // plus the motion of the frame. A face that is held in space moves against
+  // the frame, and its reactions do none.
   template <int dim>
   void Block<dim>::add_external_work()
   {
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      {
-        double sum = 0.;
-        for (const auto dof : driven_dofs[i])
-          sum += unbalanced(dof);
-        drive_force[i] = Utilities::MPI::sum(sum, communicator);
-      }
     const Tensor<1, 2> motion = loading.displacement - old_loading.displacement;
-    external_work += 0.5 * (old_drive_force + drive_force) * motion;
-    old_drive_force = drive_force;
+    Tensor<1, dim>     frame_motion;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      frame_motion[parameters.tangential_axis(i)] = motion[i];
+    double work = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const auto dof : supported_dofs[d])
+        work += 0.5 * (old_unbalanced(dof) + unbalanced(dof)) *
+                (solution(dof) - old_solution(dof) + frame_motion[d]);
+    external_work += Utilities::MPI::sum(work, communicator);
+    old_unbalanced = unbalanced;
 
     forces = constant_load;
     forces.add((old_loading.pressure + loading.pressure) / 2.,
                unit_pressure_load);
     external_work += forces * solution - forces * old_solution;
-    const Tensor<1, dim> resultant = sum_by_component(forces);
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      external_work += resultant[parameters.tangential_axis(i)] * motion[i];
+    external_work += sum_by_component(forces) * frame_motion;
 
     // Global balance: elastic forces have no resultant, so contact forces are
     // the loads plus all reactions; `unbalanced` holds nothing but reactions.

@@ -357,7 +357,26 @@ namespace SlipStep
 
     // Without pressure the block would drift away.
     const bool begins_pressed = programme.segments().front().end.pressure > 0.;
-    bool       is_pressed     = n_pressed > 0 && begins_pressed;
+    if (dimension == 2)
+      for (const Segment &segment : programme.segments())
+        if (std::abs(segment.end.velocity[1]) >
+            1e-12 * segment.end.velocity.norm())
+          parameters.reject("Loading/Programme",
+                            "a block in 2-D can slide at 0 deg only");
+
+    // A flat face must be free to move as a whole.
+    for (unsigned int f = 0; f < names.size(); ++f)
+      for (unsigned int g = 0; g < names.size(); ++g)
+        if (faces[f].is_flat && g / 2 != f / 2 &&
+            (faces[g].is_prescribed[f / 2] ||
+             (faces[g].is_driven && f / 2 != normal_axis())))
+          parameters.reject(
+            "Block/Faces/" + names[f],
+            "the face cannot be kept flat, because face '" + names[g] +
+              "' prescribes the displacement normal to it along "
+              "their common edge");
+
+    bool is_pressed = n_pressed > 0 && begins_pressed;
     for (const FaceConditions &face : faces)
       is_pressed = is_pressed ||
                    face.traction[normal_axis()] * outward_sign() > 0. ||

@@ -13,6 +13,27 @@ namespace SlipStep
 
   namespace
   {
+    // A full disk or a signal may hit one rank only: all must stop together.
+    void record_together(RunRecorder      &recorder,
+                         const HistoryRow &row,
+                         const MPI_Comm   &communicator)
+    {
+      std::string reason;
+      try
+        {
+          recorder.record(row);
+        }
+      catch (const RunError &error)
+        {
+          reason = error.what();
+        }
+      const unsigned int has_failed = reason.empty() ? 0 : 1;
+      if (Utilities::MPI::max(has_failed, communicator) > 0)
+        throw RunError(reason.empty() ? "another process was stopped" : reason);
+    }
+
+
+
     template <int dim>
     void run_block_in(const BlockParameters &block_parameters,
                       const Parameters      &parameters,
@@ -33,8 +54,9 @@ namespace SlipStep
       std::string reason;
       try
         {
-          block.run(&output,
-                    [&](const HistoryRow &row) { recorder.record(row); });
+          block.run(&output, [&](const HistoryRow &row) {
+            record_together(recorder, row, communicator);
+          });
         }
       catch (const RunError &error)
         {

@@ -25,13 +25,12 @@ namespace
              {{"Effects", "subloading, overstress"},
               {"subloading/Form", "log"}}},
             {"paper", {{"Effects", paper}}},
-            {"elastic_range",
-             {{"Effects", paper}, {"subloading/Initial ratio", "0.5"}}},
             {"no_subloading", {{"Effects", "overstress, softening"}}},
             {"healing",
              {{"Effects", paper + ", healing"},
               {"healing/Rate", "1e-3"},
               {"healing/Steepness", "100"}}},
+            {"probe", {{"Effects", paper + ", probe"}}},
             {"perzyna", {{"Effects", "subloading, perzyna, softening"}}}};
   }
 

@@ -81,6 +81,7 @@ namespace SlipStep
   private:
     void start_segment();
     void plan(const double wanted_step);
+    void shrink(const double wanted_step, const std::string &reason);
 
     const Programme    programme;
     const double       tolerance;
@@ -93,6 +94,7 @@ namespace SlipStep
     double       begin            = 0.;
     double       end              = 0.;
     double       largest_step     = 0.;
+    double       first_step       = 0.; ///< of the statement
     double       full_step        = 0.; ///< wanted, before clipping to borders
     bool         first_of_segment = true;
     unsigned int accepted         = 0;

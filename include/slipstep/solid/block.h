@@ -117,11 +117,12 @@ namespace SlipStep
     dealii::IndexSet                                  relevant_dofs;
     dealii::AffineConstraints<double>                 homogeneous_constraints;
 
-    // Unknowns which follow the drive, by axis of the contact plane.
-    std::array<std::vector<dealii::types::global_dof_index>, 2> driven_dofs;
     // Locally owned unknowns by displacement component.
     std::array<std::vector<dealii::types::global_dof_index>, dim>
       dofs_of_component;
+    // Those of them whose displacement is prescribed.
+    std::array<std::vector<dealii::types::global_dof_index>, dim>
+      supported_dofs;
 
     // Contact and linear algebra.
     ContactFace<dim>                    contact;
@@ -142,15 +143,15 @@ namespace SlipStep
     Loading     old_loading, loading;
 
     // Newton's method.
-    Vector               unbalanced; // internal - external forces, all supports
-    Vector               forces;     // scratch
-    dealii::Tensor<1, 2> drive_force, old_drive_force;
-    Vector               right_hand_side;
-    double               force_scale = 0.;
-    std::vector<double>  residual_norms;
-    unsigned int         n_newton = 0, n_linear = 0;
-    unsigned long long   n_newton_total = 0, n_linear_total = 0;
-    std::string          failure;
+    Vector              unbalanced; // internal - external forces, all supports
+    Vector              forces;     // scratch
+    Vector              old_unbalanced; // of the last accepted step
+    Vector              right_hand_side;
+    double              force_scale = 0.;
+    std::vector<double> residual_norms;
+    unsigned int        n_newton = 0, n_linear = 0;
+    unsigned long long  n_newton_total = 0, n_linear_total = 0;
+    std::string         failure;
 
     // Bookkeeping.
     double external_work          = 0.;

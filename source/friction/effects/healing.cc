@@ -1,5 +1,6 @@
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -24,7 +25,8 @@ namespace SlipStep
       virtual Rate
       coefficient_rate_per_time(const double coefficient) const override
       {
-        const double growth = std::expm1(b * (mu_s - coefficient));
+        const double growth =
+          std::expm1(std::min(b * (mu_s - coefficient), largest_exponent));
         return {xi * growth, -xi * b * (growth + 1.)};
       }
 
@@ -45,6 +47,9 @@ namespace SlipStep
       }
 
     private:
+      // Beyond, a product with no slip or no time would not be 0.
+      static constexpr double largest_exponent = 500.;
+
       const double xi;
       const double b;
       const double mu_s;

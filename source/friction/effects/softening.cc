@@ -1,5 +1,6 @@
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -32,7 +33,8 @@ namespace SlipStep
       virtual Rate
       coefficient_rate_per_slip(const double coefficient) const override
       {
-        const double growth = std::expm1(a * (coefficient - mu_k));
+        const double growth =
+          std::expm1(std::min(a * (coefficient - mu_k), largest_exponent));
         return {-kappa * growth, -kappa * a * (growth + 1.)};
       }
 
@@ -61,6 +63,9 @@ namespace SlipStep
       }
 
     private:
+      // Beyond, a product with no slip or no time would not be 0.
+      static constexpr double largest_exponent = 500.;
+
       const double kappa;
       const double a;
       const double mu_k;

@@ -29,12 +29,11 @@ namespace SlipStep
       Subloading(const Parameters &parameters, const CoefficientBasis &)
         : u(parameters.number("Friction/subloading/Rate"))
         , is_logarithmic(parameters.text("Friction/subloading/Form") == "log")
-        , initial_ratio(parameters.number("Friction/subloading/Initial ratio"))
       {}
 
       virtual double virgin_normal_ratio() const override
       {
-        return initial_ratio;
+        return 0.;
       }
 
       virtual NormalRatio
@@ -62,12 +61,6 @@ namespace SlipStep
                            "sliding is fully developed after a slip of a few "
                            "1/u; infinity is Coulomb's law. More than 0, in "
                            "1/mm.");
-        parameters.declare("Friction/subloading/Initial ratio",
-                           "0",
-                           Quantity(Dimension::number, 0., 1.),
-                           "Normal ratio r_s of a point that was not loaded "
-                           "before: 0 gives slip from the first load on, 1 an "
-                           "elastic range. Between 0 and 1, no unit.");
       }
 
     private:
@@ -118,7 +111,6 @@ namespace SlipStep
 
       const double u;
       const bool   is_logarithmic;
-      const double initial_ratio;
     };
 
     const RegisterEffect registration(

@@ -1,0 +1,49 @@
+// An effect for the tests: a strength that depends on everything a hook may
+// depend on, and some strength besides.
+
+#include <slipstep/friction/effect.h>
+
+#include <cmath>
+
+namespace SlipStep
+{
+  namespace
+  {
+    class Probe : public Effect
+    {
+    public:
+      virtual Strength strength_factor(const SlipStepData &step) const override
+      {
+        const double path   = step.start.slip_path + step.slip;
+        const double slip   = 1. + 0.2 * std::exp(-path);
+        const double normal = std::pow(1. + step.normal_traction, -0.1);
+        const double angle  = 1. + 0.1 * step.direction[0] * step.direction[1];
+        Strength     result{slip * normal * angle,
+                        -0.2 * std::exp(-path) * normal * angle,
+                        -0.1 * slip * normal * angle /
+                          (1. + step.normal_traction),
+                        {}};
+        result.d_direction[0] = slip * normal * 0.1 * step.direction[1];
+        result.d_direction[1] = slip * normal * 0.1 * step.direction[0];
+        return result;
+      }
+
+      virtual Strength
+      additive_strength(const SlipStepData &step) const override
+      {
+        return {0.01 + 0.02 * step.slip, 0.02, 0., {}};
+      }
+    };
+
+    const RegisterEffect
+      registration({"probe",
+                    ExclusiveSlot::none,
+                    "a strength that depends on slip, pressure and direction",
+                    "made for the tests",
+                    "not neutral",
+                    [](Parameters &) {},
+                    [](const Parameters &, const CoefficientBasis &) {
+                      return std::make_unique<Probe>();
+                    }});
+  } // namespace
+} // namespace SlipStep
