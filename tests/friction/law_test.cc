@@ -218,6 +218,7 @@ TEST_P(EveryLaw, contact_lost_and_found)
   const ContactResponse back  = point.update(*law, vector(1e-5), 5.8, 0.1);
   ContactState          fresh = law->initial_state();
   fresh.coefficient           = lost.coefficient;
+  fresh.slip_path             = lost.slip_path;
   ContactState          end;
   const ContactResponse virgin =
     law->update(fresh, vector(1e-5), 5.8, 0.1, end);
