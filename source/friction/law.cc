@@ -377,6 +377,58 @@ namespace SlipStep
 
 
 
+  void FrictionLaw::complete(ContactState &state) const
+  {
+    if (state.normal_traction <= 0.)
+      {
+        state.traction        = Tensor<1, 2>();
+        state.normal_traction = state.strength = 0.;
+        state.loading_ratio = state.slip_rate = 0.;
+        state.normal_ratio = normal_ratio->virgin_normal_ratio();
+        return;
+      }
+    state.loading_ratio =
+      (state.strength > 0. ? state.traction.norm() / state.strength : 0.);
+    if (normal_ratio == &neutral)
+      state.normal_ratio = 1.;
+    else
+      {
+        const double largest = std::min(state.loading_ratio, 1.);
+        state.normal_ratio =
+          (flow == &neutral ?
+             largest :
+             std::min(std::max(state.normal_ratio, 0.), largest));
+      }
+  }
+
+
+
+  // Slip and time each drive mu towards the value where their rate vanishes;
+  // rates fall with mu.
+  std::array<double, 2> FrictionLaw::coefficient_range() const
+  {
+    std::array<double, 2> range  = {{initial_coefficient, initial_coefficient}};
+    const auto            extend = [&range](const auto &rate_at) {
+      double lower = 0., upper = 1e3;
+      if (rate_at(lower) == 0. && rate_at(upper) == 0.)
+        return;
+      for (unsigned int bisection = 0; bisection < 200; ++bisection)
+        {
+          const double middle = (lower + upper) / 2.;
+          (rate_at(middle) > 0. ? lower : upper) = middle;
+        }
+      range[0] = std::min(range[0], lower);
+      range[1] = std::max(range[1], upper);
+    };
+    extend(
+      [&](const double mu) { return coefficient_rate_per_slip(mu).value; });
+    extend(
+      [&](const double mu) { return coefficient_rate_per_time(mu).value; });
+    return range;
+  }
+
+
+
   ContactResponse FrictionLaw::update(const ContactState &start,
                                       const Tensor<1, 2> &slip_increment,
                                       const double        normal_traction,

@@ -67,6 +67,35 @@ INSTANTIATE_TEST_SUITE_P(Law,
 
 
 
+// What a mesh change relies on: the law's own states are within the bounds that
+// it names, and complete as they are.
+TEST_P(EveryLaw, states_are_complete_and_within_bounds)
+{
+  const auto range = law->coefficient_range();
+  EXPECT_LE(range[0], law->initial_state().coefficient);
+  EXPECT_GE(range[1], law->initial_state().coefficient);
+  ContactState state = law->initial_state();
+  for (unsigned int step = 0; step < 500; ++step)
+    {
+      const ContactState start    = state;
+      const double       pressure = uniform(-1., 1.) * magnitude(-1, 2);
+      law->update(start, random_slip(-6, 0), pressure, magnitude(-6, 2), state);
+      EXPECT_GE(state.coefficient, range[0] - 1e-12);
+      EXPECT_LE(state.coefficient, range[1] + 1e-12);
+      EXPECT_LE(state.loading_ratio, law->maximum_ratio() * (1. + 1e-9));
+      ContactState completed  = state;
+      completed.loading_ratio = -1.;
+      law->complete(completed);
+      EXPECT_NEAR(completed.loading_ratio,
+                  state.loading_ratio,
+                  1e-9 * state.loading_ratio);
+      EXPECT_NEAR(completed.normal_ratio, state.normal_ratio, 1e-9);
+      EXPECT_EQ(completed.traction, state.traction);
+    }
+}
+
+
+
 TEST_P(EveryLaw, random_loading_never_fails)
 {
   const double r_m =

@@ -136,6 +136,14 @@ namespace SlipStep
       return {normal_ratio - ratio, -1., 1., 0.};
     }
 
+    /// Least upper bound of r, infinity if there is none. Neutral: 1, as r =
+    /// r_s
+    /// <= 1.
+    virtual double maximum_ratio() const
+    {
+      return 1.;
+    }
+
     /// r in steady sliding at a speed [mm/s], r_s = 1.
     virtual double steady_ratio(const double /*slip_rate*/) const
     {

@@ -3,6 +3,7 @@
 
 #include <slipstep/friction/effect.h>
 
+#include <array>
 #include <ostream>
 #include <set>
 #include <string>
@@ -46,6 +47,21 @@ namespace SlipStep
                            const double                normal_traction,
                            const double                time_step,
                            ContactState               &end) const;
+
+    /// Make a state consistent that comes from averaging or interpolating
+    /// others: r follows from traction and strength, r_s obeys r_s <= r (and
+    /// equals it without overstress), an open point carries no traction.
+    void complete(ContactState &state) const;
+
+    /// Least upper bound of r.
+    double maximum_ratio() const
+    {
+      return flow->maximum_ratio();
+    }
+
+    /// The smallest and the largest mu that can be reached from the initial
+    /// one.
+    std::array<double, 2> coefficient_range() const;
 
     double normal_stiffness() const ///< alpha_n [MPa/mm]
     {

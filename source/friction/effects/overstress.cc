@@ -55,6 +55,11 @@ namespace SlipStep
         return (bracket.first + bracket.second) / 2.;
       }
 
+      virtual double maximum_ratio() const override
+      {
+        return r_m;
+      }
+
       static void declare(Parameters &parameters)
       {
         parameters.declare("Friction/overstress/Viscosity",

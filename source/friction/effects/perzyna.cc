@@ -1,6 +1,7 @@
 #include <slipstep/friction/effect.h>
 
 #include <cmath>
+#include <limits>
 
 namespace SlipStep
 {
@@ -34,6 +35,11 @@ namespace SlipStep
       virtual double steady_ratio(const double slip_rate) const override
       {
         return 1. + overstress_of(slip_rate);
+      }
+
+      virtual double maximum_ratio() const override
+      {
+        return std::numeric_limits<double>::infinity();
       }
 
       static void declare(Parameters &parameters)
