@@ -132,6 +132,18 @@ namespace SlipStep
 
 
   template <int dim>
+  void ContactFace<dim>::set_states(const unsigned int               index,
+                                    const std::vector<ContactState> &states)
+  {
+    AssertIndexRange(index, faces.size());
+    AssertDimension(states.size(), faces[index].points.size());
+    for (unsigned int q = 0; q < states.size(); ++q)
+      faces[index].points[q].point = ContactPoint(states[q]);
+  }
+
+
+
+  template <int dim>
   void ContactFace<dim>::add_forces(Vector &forces) const
   {
     const FiniteElement<dim>            &fe        = dof_handler->get_fe();

@@ -81,6 +81,12 @@ namespace SlipStep
 
     void commit();
 
+    /// Replace the committed states of a face of a cell.
+    /// @param index in cell_faces()
+    /// @param states one per quadrature point
+    void set_states(const unsigned int               index,
+                    const std::vector<ContactState> &states);
+
     /// Add the contact forces, tested with all shape functions, to a vector
     /// which is then to be compressed. Constraints are not applied.
     void add_forces(Vector &forces) const;

@@ -1,0 +1,96 @@
+#ifndef slipstep_solid_contact_transfer_h
+#define slipstep_solid_contact_transfer_h
+
+#include <deal.II/distributed/tria.h>
+
+#include <slipstep/solid/contact_face.h>
+#include <slipstep/solid/contact_projection.h>
+
+#include <utility>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Carries the committed states of a contact face from mesh to mesh: through
+  /// refinement and coarsening, to other ranks, and through a file.
+  ///
+  /// The states travel with the cells of the triangulation. Those of a cell
+  /// that is neither refined nor coarsened arrive bit for bit; the others go
+  /// through ContactProjection.
+  /// @code
+  ///   ContactTransfer<dim> transfer(triangulation, parameters, law);
+  ///   triangulation.prepare_coarsening_and_refinement();
+  ///   transfer.attach(contact);
+  ///   triangulation.execute_coarsening_and_refinement(); // or save(file)
+  ///   dof_handler.distribute_dofs(fe);
+  ///   contact.reinit(dof_handler);
+  ///   transfer.unpack(contact);
+  /// @endcode
+  /// To read a file: load(file), distribute_dofs, contact.reinit(),
+  /// unpack_loaded(). Several classes may attach data to one triangulation;
+  /// after load() they have to unpack in the order in which they attached.
+  template <int dim>
+  class ContactTransfer
+  {
+  public:
+    /// All arguments are kept as references.
+    ContactTransfer(
+      dealii::parallel::distributed::Triangulation<dim> &triangulation,
+      const BlockParameters                             &parameters,
+      const FrictionLaw                                 &law);
+
+    /// Attach the states to the cells, before the mesh changes or is saved. The
+    /// face must not change until it has.
+    void attach(const ContactFace<dim> &contact);
+
+    /// Put the states into a face made anew on the changed mesh.
+    void unpack(ContactFace<dim> &contact);
+
+    /// Put the states that came with a mesh from a file into a face made on it.
+    void unpack_loaded(ContactFace<dim> &contact);
+
+  private:
+    using Triangulation = dealii::parallel::distributed::Triangulation<dim>;
+    using Cell          = typename Triangulation::cell_iterator;
+    using Status        = typename Triangulation::CellStatus;
+    using States        = typename ContactProjection<dim>::States;
+    using Bytes         = std::vector<char>;
+
+    /// Where the contact face of a cell is in the list of ContactFace, found by
+    /// level and index.
+    class Directory
+    {
+    public:
+      Directory(const ContactFace<dim> &contact);
+
+      /// Index in cell_faces(), or invalid_unsigned_int if the cell has none.
+      unsigned int find(const Cell &cell) const;
+
+    private:
+      std::vector<std::vector<unsigned int>> of_level;
+    };
+
+    /// Cells at the contact face among the children of a cell, in the order of
+    /// ContactProjection.
+    std::array<Cell, ContactProjection<dim>::n_children>
+    children_on_face(const Cell &cell) const;
+
+    bool  is_on_face(const Cell &cell) const;
+    Bytes pack(const ContactFace<dim> &contact,
+               const Directory        &directory,
+               const Cell             &cell,
+               const Status            status) const;
+    void  unpack_cell(ContactFace<dim> &contact,
+                      const Directory  &directory,
+                      const Cell       &cell,
+                      const Status      status,
+                      const States     &states) const;
+
+    Triangulation               &triangulation;
+    const BlockParameters       &parameters;
+    const ContactProjection<dim> projection;
+    unsigned int                 handle = dealii::numbers::invalid_unsigned_int;
+  };
+} // namespace SlipStep
+
+#endif

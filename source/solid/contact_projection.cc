@@ -1,0 +1,307 @@
+#include <slipstep/solid/contact_projection.h>
+
+#include <deal.II/base/polynomial.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace SlipStep
+{
+  using namespace dealii;
+
+  namespace
+  {
+    enum Field : unsigned int
+    {
+      traction_0,
+      traction_1,
+      normal_traction,
+      strength,
+      normal_ratio,
+      coefficient,
+      slip_path,
+      slip_rate,
+      dissipation
+    };
+
+    // Round-off of the polynomials.
+    const double tolerance = 1e-12;
+
+    // Where a face is scaled, its points stay closed: an open point carries
+    // nothing, which no scaling reaches.
+    const double least_share = 1e-6;
+
+    using AllFields = std::array<double, 9>;
+
+    AllFields mean_of(const std::vector<AllFields> &fields,
+                      const std::vector<double>    &weights)
+    {
+      AllFields mean{};
+      double    sum = 0.;
+      for (unsigned int k = 0; k < fields.size(); ++k)
+        {
+          const double weight = weights[k % weights.size()];
+          for (unsigned int i = 0; i < mean.size(); ++i)
+            mean[i] += weight * fields[k][i];
+          sum += weight;
+        }
+      for (double &value : mean)
+        value /= sum;
+      return mean;
+    }
+
+
+
+    std::vector<double> points_in_1d(const unsigned int degree)
+    {
+      const QGauss<1>     gauss(degree + 1);
+      std::vector<double> points;
+      for (const Point<1> &point : gauss.get_points())
+        points.push_back(point[0]);
+      return points;
+    }
+
+
+
+    // Lagrange polynomials through the Gauss points of [0,1], at the Gauss
+    // points of the lower or upper half.
+    FullMatrix<double> half_in_1d(const unsigned int degree,
+                                  const unsigned int half)
+    {
+      const std::vector<double> points = points_in_1d(degree);
+      std::vector<Point<1>>     nodes(points.size());
+      for (unsigned int q = 0; q < points.size(); ++q)
+        nodes[q][0] = points[q];
+      const auto basis = Polynomials::generate_complete_Lagrange_basis(nodes);
+
+      FullMatrix<double> matrix(points.size(), points.size());
+      for (unsigned int k = 0; k < points.size(); ++k)
+        for (unsigned int q = 0; q < points.size(); ++q)
+          matrix(k, q) = basis[q].value((points[k] + half) / 2.);
+      return matrix;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  ContactProjection<dim>::ContactProjection(const unsigned int degree,
+                                            const FrictionLaw &law)
+    : law(law)
+    , maximum_ratio(law.maximum_ratio())
+    , coefficient_range(law.coefficient_range())
+    , weights(QGauss<dim - 1>(degree + 1).get_weights())
+  {
+    const unsigned int n_1d = degree + 1, n = weights.size();
+    for (unsigned int child = 0; child < n_children; ++child)
+      {
+        to_child[child].reinit(n, n);
+        to_parent[child].reinit(n, n);
+        for (unsigned int k = 0; k < n; ++k)
+          for (unsigned int q = 0; q < n; ++q)
+            to_child[child](k, q) = 1.;
+        unsigned int stride = 1;
+        for (unsigned int d = 0; d < dim - 1; ++d, stride *= n_1d)
+          {
+            const FullMatrix<double> half =
+              half_in_1d(degree, (child >> d) & 1);
+            for (unsigned int k = 0; k < n; ++k)
+              for (unsigned int q = 0; q < n; ++q)
+                to_child[child](k, q) *=
+                  half(k / stride % n_1d, q / stride % n_1d);
+          }
+
+        // The mass matrix of the Lagrange polynomials is diagonal.
+        for (unsigned int q = 0; q < n; ++q)
+          for (unsigned int k = 0; k < n; ++k)
+            to_parent[child](q, k) =
+              weights[k] / n_children * to_child[child](k, q) / weights[q];
+      }
+  }
+
+
+
+  template <int dim>
+  typename ContactProjection<dim>::Fields
+  ContactProjection<dim>::fields_of(const ContactState &state)
+  {
+    return {{state.traction[0],
+             state.traction[1],
+             state.normal_traction,
+             state.strength,
+             state.normal_ratio,
+             state.coefficient,
+             state.slip_path,
+             state.slip_rate,
+             state.dissipation}};
+  }
+
+
+
+  template <int dim>
+  std::array<typename ContactProjection<dim>::States,
+             ContactProjection<dim>::n_children>
+  ContactProjection<dim>::refine(const States &parent) const
+  {
+    std::vector<Fields> fields(n_children * n_points(), Fields{});
+    for (unsigned int child = 0; child < n_children; ++child)
+      for (unsigned int k = 0; k < n_points(); ++k)
+        for (unsigned int q = 0; q < n_points(); ++q)
+          {
+            const Fields source = fields_of(parent[q]);
+            for (unsigned int i = 0; i < n_fields; ++i)
+              fields[child * n_points() + k][i] +=
+                to_child[child](k, q) * source[i];
+          }
+
+    const States                   states = admissible_states(fields);
+    std::array<States, n_children> children;
+    for (unsigned int child = 0; child < n_children; ++child)
+      children[child].assign(states.begin() + child * n_points(),
+                             states.begin() + (child + 1) * n_points());
+    return children;
+  }
+
+
+
+  template <int dim>
+  typename ContactProjection<dim>::States ContactProjection<dim>::coarsen(
+    const std::array<States, n_children> &children) const
+  {
+    std::vector<Fields> fields(n_points(), Fields{});
+    for (unsigned int child = 0; child < n_children; ++child)
+      for (unsigned int k = 0; k < n_points(); ++k)
+        {
+          const Fields source = fields_of(children[child][k]);
+          for (unsigned int q = 0; q < n_points(); ++q)
+            for (unsigned int i = 0; i < n_fields; ++i)
+              fields[q][i] += to_parent[child](q, k) * source[i];
+        }
+    return admissible_states(fields);
+  }
+
+
+
+  template <int dim>
+  typename ContactProjection<dim>::States
+  ContactProjection<dim>::admissible_states(std::vector<Fields> fields) const
+  {
+    const double infinity = std::numeric_limits<double>::infinity();
+    limit_tractions(fields);
+    limit_field(fields,
+                coefficient,
+                coefficient_range[0],
+                coefficient_range[1]);
+    for (const Field field : {slip_path, slip_rate, dissipation})
+      limit_field(fields, field, 0., infinity);
+
+    States states(fields.size());
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      {
+        const Fields &values  = fields[k];
+        ContactState &state   = states[k];
+        state.traction[0]     = values[traction_0];
+        state.traction[1]     = values[traction_1];
+        state.normal_traction = values[normal_traction];
+        state.strength        = values[strength];
+        state.normal_ratio    = values[normal_ratio];
+        state.coefficient     = values[coefficient];
+        state.slip_path       = values[slip_path];
+        state.slip_rate       = values[slip_rate];
+        state.dissipation     = values[dissipation];
+        law.complete(state);
+      }
+    return states;
+  }
+
+
+
+  // With overstress r < r_m strictly, without it r = 1 is full slip.
+  template <int dim>
+  bool ContactProjection<dim>::is_admissible(
+    const Fields &fields,
+    const double  least_normal_traction) const
+  {
+    const double t = std::hypot(fields[traction_0], fields[traction_1]);
+    if (fields[normal_traction] < least_normal_traction ||
+        fields[strength] < 0.)
+      return false;
+    if (fields[normal_traction] == 0.)
+      return t == 0. && fields[strength] == 0.;
+    if (t == 0. || std::isinf(maximum_ratio))
+      return t == 0. || fields[strength] > 0.;
+    const double largest =
+      maximum_ratio * (maximum_ratio > 1. ? 1. - 1e-9 : 1. + tolerance);
+    return t <= largest * fields[strength];
+  }
+
+
+
+  template <int dim>
+  void
+  ContactProjection<dim>::limit_tractions(std::vector<Fields> &fields) const
+  {
+    if (std::all_of(fields.begin(), fields.end(), [&](const Fields &f) {
+          return is_admissible(f, 0.);
+        }))
+      return;
+
+    const Fields mean      = mean_of(fields, weights);
+    const auto   scaled_by = [&](const double factor, Fields values) {
+      for (const Field i : {traction_0, traction_1, normal_traction, strength})
+        values[i] = mean[i] + factor * (values[i] - mean[i]);
+      return values;
+    };
+
+    // Allowed states are a convex set, to which the mean belongs.
+    double lower = 0., upper = 1.;
+    for (unsigned int bisection = 0; bisection < 60; ++bisection)
+      {
+        const double factor = (lower + upper) / 2.;
+        const bool   fits =
+          std::all_of(fields.begin(), fields.end(), [&](const Fields &f) {
+            return is_admissible(scaled_by(factor, f),
+                                 least_share * mean[normal_traction]);
+          });
+        (fits ? lower : upper) = factor;
+      }
+    for (Fields &values : fields)
+      values = scaled_by(lower, values);
+  }
+
+
+
+  template <int dim>
+  void ContactProjection<dim>::limit_field(std::vector<Fields> &fields,
+                                           const unsigned int   field,
+                                           const double         lower,
+                                           const double         upper) const
+  {
+    const double mean       = mean_of(fields, weights)[field];
+    double       factor     = 1.;
+    bool         is_outside = false;
+    for (const Fields &values : fields)
+      {
+        const double value = values[field];
+        is_outside         = is_outside || value < lower || value > upper;
+        if (value < lower)
+          factor = std::min(factor, (mean - lower) / (mean - value));
+        if (value > upper)
+          factor = std::min(factor, (upper - mean) / (value - mean));
+      }
+    if (!is_outside)
+      return;
+    // Round-off may leave even the mean outside.
+    factor = std::max(factor, 0.);
+    for (Fields &values : fields)
+      values[field] =
+        std::min(std::max(mean + factor * (values[field] - mean), lower),
+                 upper);
+  }
+
+
+
+  template class ContactProjection<2>;
+  template class ContactProjection<3>;
+} // namespace SlipStep

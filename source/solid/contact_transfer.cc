@@ -1,0 +1,237 @@
+#include <slipstep/solid/contact_transfer.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
+
+namespace SlipStep
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Record = std::array<double, 10>;
+
+    Record record_of(const ContactState &state)
+    {
+      return {{state.traction[0],
+               state.traction[1],
+               state.normal_traction,
+               state.strength,
+               state.loading_ratio,
+               state.normal_ratio,
+               state.coefficient,
+               state.slip_path,
+               state.slip_rate,
+               state.dissipation}};
+    }
+
+
+
+    ContactState state_of(const Record &record)
+    {
+      ContactState state;
+      state.traction[0]     = record[0];
+      state.traction[1]     = record[1];
+      state.normal_traction = record[2];
+      state.strength        = record[3];
+      state.loading_ratio   = record[4];
+      state.normal_ratio    = record[5];
+      state.coefficient     = record[6];
+      state.slip_path       = record[7];
+      state.slip_rate       = record[8];
+      state.dissipation     = record[9];
+      return state;
+    }
+
+
+
+    std::vector<char> to_bytes(const std::vector<ContactState> &states)
+    {
+      std::vector<char> bytes(states.size() * sizeof(Record));
+      for (unsigned int q = 0; q < states.size(); ++q)
+        {
+          const Record record = record_of(states[q]);
+          std::memcpy(&bytes[q * sizeof(Record)], &record, sizeof(Record));
+        }
+      return bytes;
+    }
+
+
+
+    std::vector<ContactState> from_bytes(const std::vector<char> &bytes)
+    {
+      std::vector<ContactState> states(bytes.size() / sizeof(Record));
+      for (unsigned int q = 0; q < states.size(); ++q)
+        {
+          Record record;
+          std::memcpy(&record, &bytes[q * sizeof(Record)], sizeof(Record));
+          states[q] = state_of(record);
+        }
+      return states;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  ContactTransfer<dim>::Directory::Directory(const ContactFace<dim> &contact)
+  {
+    const auto &faces = contact.cell_faces();
+    for (unsigned int i = 0; i < faces.size(); ++i)
+      {
+        const unsigned int level = faces[i].cell->level();
+        const unsigned int index = faces[i].cell->index();
+        if (of_level.size() <= level)
+          of_level.resize(level + 1);
+        if (of_level[level].size() <= index)
+          of_level[level].resize(index + 1, numbers::invalid_unsigned_int);
+        of_level[level][index] = i;
+      }
+  }
+
+
+
+  template <int dim>
+  unsigned int ContactTransfer<dim>::Directory::find(const Cell &cell) const
+  {
+    const unsigned int level = cell->level(), index = cell->index();
+    return level < of_level.size() && index < of_level[level].size() ?
+             of_level[level][index] :
+             numbers::invalid_unsigned_int;
+  }
+
+
+
+  template <int dim>
+  ContactTransfer<dim>::ContactTransfer(Triangulation         &triangulation,
+                                        const BlockParameters &parameters,
+                                        const FrictionLaw     &law)
+    : triangulation(triangulation)
+    , parameters(parameters)
+    , projection(parameters.degree, law)
+  {}
+
+
+
+  template <int dim>
+  bool ContactTransfer<dim>::is_on_face(const Cell &cell) const
+  {
+    const auto face = cell->face(parameters.contact_face);
+    return face->at_boundary() &&
+           face->boundary_id() == parameters.contact_face;
+  }
+
+
+
+  template <int dim>
+  std::array<typename ContactTransfer<dim>::Cell,
+             ContactProjection<dim>::n_children>
+  ContactTransfer<dim>::children_on_face(const Cell &cell) const
+  {
+    std::array<Cell, ContactProjection<dim>::n_children> children;
+    for (unsigned int i = 0; i < children.size(); ++i)
+      children[i] = cell->child(GeometryInfo<dim>::child_cell_on_face(
+        RefinementCase<dim>::isotropic_refinement, parameters.contact_face, i));
+    return children;
+  }
+
+
+
+  template <int dim>
+  typename ContactTransfer<dim>::Bytes
+  ContactTransfer<dim>::pack(const ContactFace<dim> &contact,
+                             const Directory        &directory,
+                             const Cell             &cell,
+                             const Status            status) const
+  {
+    if (!is_on_face(cell))
+      return {};
+    const auto states_of = [&](const Cell &of_cell) {
+      States states;
+      for (const auto &point :
+           contact.cell_faces()[directory.find(of_cell)].points)
+        states.push_back(point.point.committed());
+      return states;
+    };
+
+    if (status != Triangulation::CELL_COARSEN)
+      return to_bytes(states_of(cell));
+    std::array<States, ContactProjection<dim>::n_children> of_children;
+    const auto children = children_on_face(cell);
+    for (unsigned int i = 0; i < children.size(); ++i)
+      of_children[i] = states_of(children[i]);
+    return to_bytes(projection.coarsen(of_children));
+  }
+
+
+
+  template <int dim>
+  void ContactTransfer<dim>::unpack_cell(ContactFace<dim> &contact,
+                                         const Directory  &directory,
+                                         const Cell       &cell,
+                                         const Status      status,
+                                         const States     &states) const
+  {
+    if (states.empty())
+      return;
+    if (status != Triangulation::CELL_REFINE)
+      {
+        contact.set_states(directory.find(cell), states);
+        return;
+      }
+    const auto of_children = projection.refine(states);
+    const auto children    = children_on_face(cell);
+    for (unsigned int i = 0; i < children.size(); ++i)
+      contact.set_states(directory.find(children[i]), of_children[i]);
+  }
+
+
+
+  template <int dim>
+  void ContactTransfer<dim>::attach(const ContactFace<dim> &contact)
+  {
+    const auto directory = std::make_shared<Directory>(contact);
+    handle               = triangulation.register_data_attach(
+      [this, &contact, directory](const Cell &cell, const Status status) {
+        return pack(contact, *directory, cell, status);
+      },
+      /*returns_variable_size_data=*/true);
+  }
+
+
+
+  template <int dim>
+  void ContactTransfer<dim>::unpack(ContactFace<dim> &contact)
+  {
+    const Directory directory(contact);
+    triangulation.notify_ready_to_unpack(
+      handle,
+      [&](const Cell                                         &cell,
+          const Status                                        status,
+          const boost::iterator_range<Bytes::const_iterator> &range) {
+        unpack_cell(contact,
+                    directory,
+                    cell,
+                    status,
+                    from_bytes(Bytes(range.begin(), range.end())));
+      });
+    handle = numbers::invalid_unsigned_int;
+  }
+
+
+
+  // After load() the handles have to be asked for again.
+  template <int dim>
+  void ContactTransfer<dim>::unpack_loaded(ContactFace<dim> &contact)
+  {
+    attach(contact);
+    unpack(contact);
+  }
+
+
+
+  template class ContactTransfer<2>;
+  template class ContactTransfer<3>;
+} // namespace SlipStep
