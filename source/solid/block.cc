@@ -2,17 +2,7 @@
 
 #include <slipstep/utilities/exceptions.h>
 
-#include <deal.II/base/function.h>
-#include <deal.II/base/quadrature_lib.h>
-
-#include <deal.II/dofs/dof_tools.h>
-
 #include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_values.h>
-
-#include <deal.II/grid/grid_generator.h>
-
-#include <deal.II/numerics/vector_tools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,229 +34,7 @@ namespace SlipStep
     , control(control)
   {
     make_grid();
-    setup_unknowns();
-    find_groups_of_unknowns();
-    contact.reinit(dof_handler);
-    assemble_loads();
-    choose_solver();
-  }
-
-
-
-  // @sect3{Mesh and unknowns}
-
-  // The box has one coarse cell per subdivision. Its faces are numbered as
-  // deal.II does (left, right, ...), which is also how the case file's
-  // conditions are stored.
-  template <int dim>
-  void Block<dim>::make_grid()
-  {
-    Point<dim>                upper;
-    std::vector<unsigned int> subdivisions(dim);
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        upper[d]        = parameters.size[d];
-        subdivisions[d] = parameters.subdivisions[d];
-      }
-    GridGenerator::subdivided_hyper_rectangle(
-      triangulation, subdivisions, Point<dim>(), upper, true);
-  }
-
-
-
-  // A rank stores the unknowns of its own cells and of their neighbours. If a
-  // face is flat, every rank that has a part of it also needs the one unknown
-  // to which all others are tied; asking the constraints tells which.
-  template <int dim>
-  void Block<dim>::setup_unknowns()
-  {
-    dof_handler.distribute_dofs(fe);
-    DoFTools::extract_locally_relevant_dofs(dof_handler, relevant_dofs);
-    AffineConstraints<double> probe;
-    prescribe_displacements(Tensor<1, 2>(), probe);
-    std::vector<types::global_dof_index> masters;
-    for (const auto &line : probe.get_lines())
-      for (const auto &entry : line.entries)
-        masters.push_back(entry.first);
-    std::sort(masters.begin(), masters.end());
-    relevant_dofs.add_indices(masters.begin(),
-                              std::unique(masters.begin(), masters.end()));
-    relevant_dofs.compress();
-
-    prescribe_displacements(Tensor<1, 2>(), homogeneous_constraints);
-    for (const auto &line : homogeneous_constraints.get_lines())
-      homogeneous_constraints.set_inhomogeneity(line.index, 0.);
-
-    for (Vector *vector : {&solution,
-                           &old_solution,
-                           &older_solution,
-                           &constant_load,
-                           &unit_pressure_load,
-                           &unbalanced,
-                           &old_unbalanced,
-                           &forces,
-                           &right_hand_side})
-      vector->reinit(dof_handler.locally_owned_dofs(),
-                     relevant_dofs,
-                     communicator);
-  }
-
-
-
-  // @sect3{Supports}
-
-  // Displacements are prescribed in space, but the unknown is relative to the
-  // frame of the drive: along the contact plane the displacement of the frame
-  // is subtracted. For a driven face nothing is left. Where faces meet, the
-  // driven face has the last word.
-  template <int dim>
-  void Block<dim>::prescribe_displacements(
-    const Tensor<1, 2>        &frame,
-    AffineConstraints<double> &constraints) const
-  {
-    constraints.reinit(relevant_dofs);
-    for (const bool driven_pass : {true, false})
-      for (unsigned int f = 0; f < 2 * dim; ++f)
-        {
-          const FaceConditions &face = parameters.faces[f];
-          ComponentMask         mask(dim, false);
-          std::vector<double>   values(dim, 0.);
-          for (unsigned int d = 0; d < dim; ++d)
-            if (!driven_pass && face.is_prescribed[d])
-              {
-                mask.set(d, true);
-                values[d] = face.displacement[d];
-              }
-          for (unsigned int i = 0; i < dim - 1; ++i)
-            {
-              const unsigned int axis = parameters.tangential_axis(i);
-              if (driven_pass && face.is_driven)
-                mask.set(axis, true);
-              values[axis] -= (driven_pass ? 0. : frame[i]);
-            }
-          if (mask.n_selected_components() > 0)
-            VectorTools::interpolate_boundary_values(
-              dof_handler,
-              f,
-              Functions::ConstantFunction<dim>(values),
-              constraints,
-              mask);
-        }
-    make_flat_faces(constraints);
-    constraints.close();
-  }
-
-
-
-  // A face stays flat if its normal displacements all equal one of them.
-  template <int dim>
-  void Block<dim>::make_flat_faces(AffineConstraints<double> &constraints) const
-  {
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      if (parameters.faces[f].is_flat)
-        {
-          ComponentMask mask(dim, false);
-          mask.set(f / 2, true);
-          IndexSet on_face =
-            DoFTools::extract_boundary_dofs(dof_handler, mask, {f});
-          types::global_dof_index master = numbers::invalid_dof_index;
-          for (const auto dof : on_face &dof_handler.locally_owned_dofs())
-            if (!constraints.is_constrained(dof))
-              {
-                master = dof;
-                break;
-              }
-          master = Utilities::MPI::min(master, communicator);
-          for (const auto dof : on_face)
-            if (dof != master && !constraints.is_constrained(dof))
-              {
-                constraints.add_line(dof);
-                constraints.add_entry(dof, master, 1.);
-              }
-        }
-  }
-
-
-
-  // Forces at supported unknowns are reactions; sums over all unknowns of a
-  // component are resultants.
-  template <int dim>
-  void Block<dim>::find_groups_of_unknowns()
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        ComponentMask mask(dim, false);
-        mask.set(d, true);
-        DoFTools::extract_dofs(dof_handler, mask)
-          .fill_index_vector(dofs_of_component[d]);
-      }
-    for (unsigned int d = 0; d < dim; ++d)
-      for (const auto dof : dofs_of_component[d])
-        if (const auto *entries =
-              homogeneous_constraints.get_constraint_entries(dof))
-          if (entries->empty())
-            supported_dofs[d].push_back(dof);
-  }
-
-
-
-  // @sect3{Loads}
-
-  // Tractions are dead loads on the undeformed faces, as small strains allow:
-  // two vectors hold them once and for all, one for what is constant, one for a
-  // pressure of 1 MPa that the programme scales.
-  template <int dim>
-  void Block<dim>::assemble_loads()
-  {
-    FEFaceValues<dim>      fe_values(fe,
-                                contact.quadrature(),
-                                update_values | update_JxW_values |
-                                  update_normal_vectors);
-    dealii::Vector<double> constant(fe.dofs_per_cell), unit(fe.dofs_per_cell);
-    std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary())
-            {
-              const FaceConditions &face =
-                parameters.faces[cell->face(f)->boundary_id()];
-              fe_values.reinit(cell, f);
-              constant = unit = 0.;
-              for (const unsigned int q : fe_values.quadrature_point_indices())
-                for (const unsigned int i : fe_values.dof_indices())
-                  {
-                    const unsigned int d =
-                      fe.system_to_component_index(i).first;
-                    const double phi =
-                      fe_values.shape_value(i, q) * fe_values.JxW(q);
-                    constant(i) += face.traction[d] * phi;
-                    if (face.has_programme_pressure)
-                      unit(i) -= fe_values.normal_vector(q)[d] * phi;
-                  }
-              cell->get_dof_indices(dofs);
-              constant_load.add(dofs, constant);
-              unit_pressure_load.add(dofs, unit);
-            }
-    constant_load.compress(VectorOperation::add);
-    unit_pressure_load.compress(VectorOperation::add);
-  }
-
-
-
-  template <int dim>
-  void Block<dim>::choose_solver()
-  {
-    const SolverType type = parameters.solver != SolverType::automatic ?
-                              parameters.solver :
-                            dof_handler.n_dofs() < 20000 ? SolverType::direct :
-                                                           SolverType::amg;
-    system                = make_assembled_system<dim>(type,
-                                        parameters,
-                                        dof_handler,
-                                        homogeneous_constraints,
-                                        relevant_dofs,
-                                        communicator);
+    setup_system();
   }
 
 
@@ -335,9 +103,11 @@ namespace SlipStep
         const double factor = control.step_size() / old_step;
         solution.sadd(1. + factor, -factor, older_solution);
       }
-    AffineConstraints<double> constraints;
-    prescribe_displacements(loading.displacement, constraints);
-    constraints.distribute(solution);
+    constrain(solution);
+    solution.add(1., prescribed);
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      if (loading.displacement[i] != 0.)
+        solution.add(loading.displacement[i], prescribed_by_frame[i]);
     solution.update_ghost_values();
   }
 
@@ -401,7 +171,7 @@ namespace SlipStep
             return false;
           }
         ++n_newton_total;
-        homogeneous_constraints.distribute(update);
+        constrain(update);
 
         norm = line_search(update, norm);
       }
@@ -512,148 +282,6 @@ namespace SlipStep
     old_solution   = solution;
     old_solution.update_ghost_values();
     old_loading = loading;
-  }
-
-
-
-  // Sum of the entries that belong to each displacement component: because
-  // shape functions sum to one, the resultant of the forces.
-  template <int dim>
-  Tensor<1, dim> Block<dim>::sum_by_component(const Vector &vector) const
-  {
-    Tensor<1, dim> sums;
-    for (unsigned int d = 0; d < dim; ++d)
-      for (const auto dof : dofs_of_component[d])
-        sums[d] += vector(dof);
-    return Utilities::MPI::sum(sums, communicator);
-  }
-
-
-
-  // Reactions and loads do work on displacements in space: those in the frame
-  // plus the motion of the frame. A face that is held in space moves against
-  // the frame, and its reactions do none.
-  template <int dim>
-  void Block<dim>::add_external_work()
-  {
-    const Tensor<1, 2> motion = loading.displacement - old_loading.displacement;
-    Tensor<1, dim>     frame_motion;
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      frame_motion[parameters.tangential_axis(i)] = motion[i];
-    double work = 0.;
-    for (unsigned int d = 0; d < dim; ++d)
-      for (const auto dof : supported_dofs[d])
-        work += 0.5 * (old_unbalanced(dof) + unbalanced(dof)) *
-                (solution(dof) - old_solution(dof) + frame_motion[d]);
-    external_work += Utilities::MPI::sum(work, communicator);
-    old_unbalanced = unbalanced;
-
-    forces = constant_load;
-    forces.add((old_loading.pressure + loading.pressure) / 2.,
-               unit_pressure_load);
-    external_work += forces * solution - forces * old_solution;
-    external_work += sum_by_component(forces) * frame_motion;
-
-    // Global balance: elastic forces have no resultant, so contact forces are
-    // the loads plus all reactions; `unbalanced` holds nothing but reactions.
-    forces = 0.;
-    contact.add_forces(forces);
-    forces.compress(VectorOperation::add);
-    const double normal_load =
-      std::abs(sum_by_component(forces)[parameters.normal_axis()]);
-    forces.add(-1., constant_load, -loading.pressure, unit_pressure_load);
-    for (const auto &line : homogeneous_constraints.get_lines())
-      if (line.entries.empty() &&
-          dof_handler.locally_owned_dofs().is_element(line.index))
-        forces(line.index) -= unbalanced(line.index);
-    if (normal_load > 0.)
-      largest_imbalance =
-        std::max(largest_imbalance,
-                 sum_by_component(forces).norm() / normal_load);
-  }
-
-
-
-  // u . K u / 2. The motion of the frame stores nothing.
-  template <int dim>
-  double Block<dim>::elastic_energy()
-  {
-    forces = 0.;
-    system->add_elastic_forces(solution, forces);
-    forces.compress(VectorOperation::add);
-    return 0.5 * (forces * solution);
-  }
-
-
-
-  // @sect3{When it goes wrong}
-
-  // A block without contact is free to move, so there is nothing left to
-  // compute.
-  template <int dim>
-  void Block<dim>::check_contact(const ContactTotals &totals)
-  {
-    largest_normal_load    = std::max(largest_normal_load, totals.normal_load);
-    contact_share          = totals.area / parameters.nominal_contact_area();
-    smallest_contact_share = std::min(smallest_contact_share, contact_share);
-    if (totals.normal_load <= 1e-6 * largest_normal_load)
-      {
-        std::ostringstream message;
-        message << "no contact pressure is left at t = " << control.time()
-                << " s: the block has come off the plane";
-        throw RunError(message.str());
-      }
-
-    const double smallest_side =
-      *std::min_element(parameters.size.begin(), parameters.size.begin() + dim);
-    const double motion = solution.linfty_norm();
-    if (motion > 0.05 * smallest_side)
-      {
-        std::ostringstream message;
-        message << "points of the block have moved by " << motion
-                << " mm with respect to the drive, which is too much for small "
-                   "strains and rotations";
-        failure = message.str();
-        throw RunError("At t = " + std::to_string(control.time()) + " s " +
-                       reason_of_failure());
-      }
-  }
-
-
-
-  // The state of the contact tells more than the algebra.
-  template <int dim>
-  std::string Block<dim>::reason_of_failure() const
-  {
-    std::ostringstream message;
-    if (largest_normal_load > 0. && contact_share < 0.6)
-      message << "the block tips over: only "
-              << std::round(100. * contact_share)
-              << " % of its face is still in contact (" << failure << ")";
-    else
-      message << failure;
-    return message.str();
-  }
-
-
-
-  template <int dim>
-  void Block<dim>::fill(Summary &summary) const
-  {
-    summary.dimension         = dim;
-    summary.cells             = triangulation.n_global_active_cells();
-    summary.dofs              = dof_handler.n_dofs();
-    summary.ranks             = Utilities::MPI::n_mpi_processes(communicator);
-    summary.steps             = control.n_accepted();
-    summary.rejected_steps    = control.n_rejected();
-    summary.newton_iterations = n_newton_total;
-    summary.linear_iterations = n_linear_total;
-    if (smallest_contact_share < 0.99)
-      summary.warnings = {
-        "part of the contact face lifted off the plane: at worst " +
-        std::to_string(std::lround(100. * smallest_contact_share)) +
-        " % of it stayed in contact (friction turns a block that is high for "
-        "its length)"};
   }
 
 

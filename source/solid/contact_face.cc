@@ -23,10 +23,9 @@ namespace SlipStep
 
 
   template <int dim>
-  FEFaceValues<dim>
-  ContactFace<dim>::make_fe_values(const FiniteElement<dim> &fe) const
+  FEFaceValues<dim> ContactFace<dim>::make_fe_values() const
   {
-    return FEFaceValues<dim>(fe,
+    return FEFaceValues<dim>(dof_handler->get_fe(),
                              face_quadrature,
                              update_values | update_JxW_values |
                                update_quadrature_points);
@@ -39,25 +38,23 @@ namespace SlipStep
   {
     this->dof_handler = &dof_handler;
     faces.clear();
-    FEFaceValues<dim> fe_values = make_fe_values(dof_handler.get_fe());
+    FEFaceValues<dim> fe_values = make_fe_values();
     for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() &&
-              cell->face(f)->boundary_id() == parameters.contact_face)
+      if (cell->is_locally_owned() &&
+          cell->face(parameters.contact_face)->at_boundary())
+        {
+          fe_values.reinit(cell, parameters.contact_face);
+          CellFace cell_face{cell, parameters.contact_face, {}};
+          for (const unsigned int q : fe_values.quadrature_point_indices())
             {
-              fe_values.reinit(cell, f);
-              CellFace cell_face{cell, f, {}};
-              for (const unsigned int q : fe_values.quadrature_point_indices())
-                {
-                  QuadraturePoint point;
-                  point.point    = ContactPoint(law);
-                  point.position = fe_values.quadrature_point(q);
-                  point.JxW      = fe_values.JxW(q);
-                  cell_face.points.push_back(point);
-                }
-              faces.push_back(std::move(cell_face));
+              QuadraturePoint point;
+              point.point    = ContactPoint(law);
+              point.position = fe_values.quadrature_point(q);
+              point.JxW      = fe_values.JxW(q);
+              cell_face.points.push_back(point);
             }
+          faces.push_back(std::move(cell_face));
+        }
   }
 
 
@@ -69,9 +66,9 @@ namespace SlipStep
                                 const double        time_step)
   {
     const FEValuesExtractors::Vector displacements(0);
-    FEFaceValues<dim> fe_values = make_fe_values(dof_handler->get_fe());
-    std::vector<Tensor<1, dim>> values(face_quadrature.size());
-    std::vector<Tensor<1, dim>> old_values(face_quadrature.size());
+    FEFaceValues<dim>                fe_values = make_fe_values();
+    std::vector<Tensor<1, dim>>      values(face_quadrature.size());
+    std::vector<Tensor<1, dim>>      old_values(face_quadrature.size());
 
     const unsigned int normal = parameters.normal_axis();
     const double       sign   = parameters.outward_sign();
@@ -147,7 +144,7 @@ namespace SlipStep
   void ContactFace<dim>::add_forces(Vector &forces) const
   {
     const FiniteElement<dim>            &fe        = dof_handler->get_fe();
-    FEFaceValues<dim>                    fe_values = make_fe_values(fe);
+    FEFaceValues<dim>                    fe_values = make_fe_values();
     dealii::Vector<double>               local(fe.dofs_per_cell);
     std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
     for (const CellFace &cell_face : faces)
@@ -163,6 +160,21 @@ namespace SlipStep
         cell_face.cell->get_dof_indices(dofs);
         forces.add(dofs, local);
       }
+  }
+
+
+
+  template <int dim>
+  ContactTangent<dim> ContactFace<dim>::tangent() const
+  {
+    ContactTangent<dim> tangent;
+    for (const CellFace &cell_face : faces)
+      {
+        tangent.push_back({cell_face.cell, {}});
+        for (const QuadraturePoint &point : cell_face.points)
+          tangent.back().values.push_back(point.tangent);
+      }
+    return tangent;
   }
 
 

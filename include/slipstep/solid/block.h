@@ -82,11 +82,10 @@ namespace SlipStep
   private:
     // Setting up.
     void make_grid();
+    void setup_system();
     void setup_unknowns();
-    void prescribe_displacements(
-      const dealii::Tensor<1, 2>        &frame,
-      dealii::AffineConstraints<double> &constraints) const;
-    void make_flat_faces(dealii::AffineConstraints<double> &constraints) const;
+    void find_supports();
+    void constrain(Vector &displacement) const;
     void find_groups_of_unknowns();
     void assemble_loads();
     void choose_solver();
@@ -112,10 +111,11 @@ namespace SlipStep
 
     // Mesh and unknowns.
     dealii::parallel::distributed::Triangulation<dim> triangulation;
-    const dealii::FESystem<dim>                       fe;
-    dealii::DoFHandler<dim>                           dof_handler;
-    dealii::IndexSet                                  relevant_dofs;
-    dealii::AffineConstraints<double>                 homogeneous_constraints;
+    unsigned int least_level = 0; // that of the subdivisions asked for
+    const dealii::FESystem<dim>       fe;
+    dealii::DoFHandler<dim>           dof_handler;
+    dealii::IndexSet                  relevant;
+    dealii::AffineConstraints<double> homogeneous_constraints;
 
     // Locally owned unknowns by displacement component.
     std::array<std::vector<dealii::types::global_dof_index>, dim>
@@ -123,6 +123,11 @@ namespace SlipStep
     // Those of them whose displacement is prescribed.
     std::array<std::vector<dealii::types::global_dof_index>, dim>
       supported_dofs;
+
+    // Prescribed displacements: constant ones, and those per mm of motion of
+    // the frame in the two tangential directions.
+    Vector                prescribed;
+    std::array<Vector, 2> prescribed_by_frame;
 
     // Contact and linear algebra.
     ContactFace<dim>                    contact;

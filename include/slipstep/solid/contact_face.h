@@ -12,6 +12,7 @@
 #include <slipstep/experiment/history.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/solid/block_parameters.h>
+#include <slipstep/solid/contact_tangent.h>
 
 #include <vector>
 
@@ -91,6 +92,9 @@ namespace SlipStep
     /// which is then to be compressed. Constraints are not applied.
     void add_forces(Vector &forces) const;
 
+    /// Linearisation of the last update.
+    ContactTangent<dim> tangent() const;
+
     /// Of the last update.
     ContactTotals totals(const MPI_Comm &communicator) const;
 
@@ -104,12 +108,9 @@ namespace SlipStep
       return face_quadrature;
     }
 
-    /// Call a worker for every cell face with FEFaceValues of shape functions
-    /// and weights; the displacement components are one vector.
-    dealii::FEFaceValues<dim>
-    make_fe_values(const dealii::FiniteElement<dim> &fe) const;
-
   private:
+    dealii::FEFaceValues<dim> make_fe_values() const;
+
     const BlockParameters          parameters;
     const FrictionLaw             &law;
     const dealii::QGauss<dim - 1>  face_quadrature;

@@ -47,8 +47,8 @@ namespace SlipStep
                         const BlockParameters                   &parameters,
                         const dealii::DoFHandler<dim>           &dof_handler,
                         const dealii::AffineConstraints<double> &constraints,
-                        const dealii::IndexSet                  &relevant_dofs,
-                        const MPI_Comm                          &communicator);
+                        const dealii::IndexSet                  &relevant,
+                        const dealii::Quadrature<dim - 1> &face_quadrature);
 } // namespace SlipStep
 
 #endif

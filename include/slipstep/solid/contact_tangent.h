@@ -1,0 +1,28 @@
+#ifndef slipstep_solid_contact_tangent_h
+#define slipstep_solid_contact_tangent_h
+
+#include <deal.II/base/tensor.h>
+
+#include <deal.II/grid/tria.h>
+
+#include <vector>
+
+namespace SlipStep
+{
+  /// Linearised contact on one cell face of the contact face.
+  template <int dim>
+  struct FaceTangent
+  {
+    /// A locally owned cell.
+    typename dealii::Triangulation<dim>::active_cell_iterator cell;
+    /// d traction on the plane / d displacement at the quadrature points
+    /// [MPa/mm], in the order of the face quadrature; in general unsymmetric.
+    std::vector<dealii::Tensor<2, dim>> values;
+  };
+
+  /// Linearised contact on all locally owned cell faces of the contact face.
+  template <int dim>
+  using ContactTangent = std::vector<FaceTangent<dim>>;
+} // namespace SlipStep
+
+#endif

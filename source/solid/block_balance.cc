@@ -1,0 +1,160 @@
+#include <slipstep/solid/block.h>
+
+#include <slipstep/utilities/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace SlipStep
+{
+  using namespace dealii;
+
+  // Sum of the entries that belong to each displacement component: because
+  // shape functions sum to one, the resultant of the forces.
+  template <int dim>
+  Tensor<1, dim> Block<dim>::sum_by_component(const Vector &vector) const
+  {
+    Tensor<1, dim> sums;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const auto dof : dofs_of_component[d])
+        sums[d] += vector(dof);
+    return Utilities::MPI::sum(sums, communicator);
+  }
+
+
+
+  // Reactions and loads do work on displacements in space: those in the frame
+  // plus the motion of the frame. A face that is held in space moves against
+  // the frame, and its reactions do none.
+  template <int dim>
+  void Block<dim>::add_external_work()
+  {
+    const Tensor<1, 2> motion = loading.displacement - old_loading.displacement;
+    Tensor<1, dim>     frame_motion;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      frame_motion[parameters.tangential_axis(i)] = motion[i];
+    double work = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const auto dof : supported_dofs[d])
+        work += 0.5 * (old_unbalanced(dof) + unbalanced(dof)) *
+                (solution(dof) - old_solution(dof) + frame_motion[d]);
+    external_work += Utilities::MPI::sum(work, communicator);
+    old_unbalanced = unbalanced;
+
+    forces = constant_load;
+    forces.add((old_loading.pressure + loading.pressure) / 2.,
+               unit_pressure_load);
+    external_work += forces * solution - forces * old_solution;
+    external_work += sum_by_component(forces) * frame_motion;
+
+    // Global balance: elastic forces have no resultant, so contact forces are
+    // the loads plus all reactions; `unbalanced` holds nothing but reactions.
+    forces = 0.;
+    contact.add_forces(forces);
+    forces.compress(VectorOperation::add);
+    const double normal_load =
+      std::abs(sum_by_component(forces)[parameters.normal_axis()]);
+    forces.add(-1., constant_load, -loading.pressure, unit_pressure_load);
+    for (const auto &line : homogeneous_constraints.get_lines())
+      if (line.entries.empty() &&
+          dof_handler.locally_owned_dofs().is_element(line.index))
+        forces(line.index) -= unbalanced(line.index);
+    if (normal_load > 0.)
+      largest_imbalance =
+        std::max(largest_imbalance,
+                 sum_by_component(forces).norm() / normal_load);
+  }
+
+
+
+  // u . K u / 2, where K u is what the residual says of it. The motion of the
+  // frame stores nothing.
+  template <int dim>
+  double Block<dim>::elastic_energy()
+  {
+    forces = 0.;
+    contact.add_forces(forces);
+    forces.compress(VectorOperation::add);
+    forces.sadd(-1., 1., unbalanced);
+    forces.add(1., constant_load, loading.pressure, unit_pressure_load);
+    return 0.5 * (forces * solution);
+  }
+
+
+
+  // @sect3{When it goes wrong}
+
+  // A block without contact is free to move, so there is nothing left to
+  // compute.
+  template <int dim>
+  void Block<dim>::check_contact(const ContactTotals &totals)
+  {
+    largest_normal_load    = std::max(largest_normal_load, totals.normal_load);
+    contact_share          = totals.area / parameters.nominal_contact_area();
+    smallest_contact_share = std::min(smallest_contact_share, contact_share);
+    if (totals.normal_load <= 1e-6 * largest_normal_load)
+      {
+        std::ostringstream message;
+        message << "no contact pressure is left at t = " << control.time()
+                << " s: the block has come off the plane";
+        throw RunError(message.str());
+      }
+
+    const double smallest_side =
+      *std::min_element(parameters.size.begin(), parameters.size.begin() + dim);
+    const double motion = solution.linfty_norm();
+    if (motion > 0.05 * smallest_side)
+      {
+        std::ostringstream message;
+        message << "points of the block have moved by " << motion
+                << " mm with respect to the drive, which is too much for small "
+                   "strains and rotations";
+        failure = message.str();
+        throw RunError("At t = " + std::to_string(control.time()) + " s " +
+                       reason_of_failure());
+      }
+  }
+
+
+
+  // The state of the contact tells more than the algebra.
+  template <int dim>
+  std::string Block<dim>::reason_of_failure() const
+  {
+    std::ostringstream message;
+    if (largest_normal_load > 0. && contact_share < 0.6)
+      message << "the block tips over: only "
+              << std::round(100. * contact_share)
+              << " % of its face is still in contact (" << failure << ")";
+    else
+      message << failure;
+    return message.str();
+  }
+
+
+
+  template <int dim>
+  void Block<dim>::fill(Summary &summary) const
+  {
+    summary.dimension         = dim;
+    summary.cells             = triangulation.n_global_active_cells();
+    summary.dofs              = dof_handler.n_dofs();
+    summary.ranks             = Utilities::MPI::n_mpi_processes(communicator);
+    summary.steps             = control.n_accepted();
+    summary.rejected_steps    = control.n_rejected();
+    summary.newton_iterations = n_newton_total;
+    summary.linear_iterations = n_linear_total;
+    if (smallest_contact_share < 0.99)
+      summary.warnings = {
+        "part of the contact face lifted off the plane: at worst " +
+        std::to_string(std::lround(100. * smallest_contact_share)) +
+        " % of it stayed in contact (friction turns a block that is high for "
+        "its length)"};
+  }
+
+
+
+  template class Block<2>;
+  template class Block<3>;
+} // namespace SlipStep

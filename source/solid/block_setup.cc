@@ -1,0 +1,220 @@
+#include <slipstep/solid/block.h>
+
+#include <slipstep/solid/supports.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/fe/fe_values.h>
+
+#include <deal.II/grid/grid_generator.h>
+
+#include <algorithm>
+
+namespace SlipStep
+{
+  using namespace dealii;
+
+  // @sect3{Mesh and unknowns}
+
+  // Geometric multigrid needs coarser meshes: so the subdivisions asked for are
+  // halved as often as all of them are even, and the mesh is refined as often.
+  // Faces are numbered as deal.II does (left, right, ...), which is also how
+  // the case file's conditions are stored.
+  template <int dim>
+  void Block<dim>::make_grid()
+  {
+    Point<dim>                upper;
+    std::vector<unsigned int> subdivisions(dim);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        upper[d]        = parameters.size[d];
+        subdivisions[d] = parameters.subdivisions[d];
+      }
+    const auto is_even = [](const unsigned int n) { return n % 2 == 0; };
+    for (; std::all_of(subdivisions.begin(), subdivisions.end(), is_even);
+         ++least_level)
+      for (unsigned int &n : subdivisions)
+        n /= 2;
+    GridGenerator::subdivided_hyper_rectangle(
+      triangulation, subdivisions, Point<dim>(), upper, true);
+    triangulation.refine_global(least_level);
+  }
+
+
+
+  // All that depends on the mesh. Contact points are fresh and displacements
+  // zero afterwards.
+  template <int dim>
+  void Block<dim>::setup_system()
+  {
+    system.reset();
+    setup_unknowns();
+    find_supports();
+    find_groups_of_unknowns();
+    contact.reinit(dof_handler);
+    assemble_loads();
+    choose_solver();
+  }
+
+
+
+  // A rank stores the unknowns of its own cells and those on which they depend.
+  template <int dim>
+  void Block<dim>::setup_unknowns()
+  {
+    dof_handler.distribute_dofs(fe);
+    relevant = relevant_dofs(parameters, dof_handler);
+    solution.reinit(dof_handler.locally_owned_dofs(), relevant, communicator);
+    for (Vector *vector : {&old_solution,
+                           &older_solution,
+                           &prescribed,
+                           &prescribed_by_frame[0],
+                           &prescribed_by_frame[1],
+                           &constant_load,
+                           &unit_pressure_load,
+                           &unbalanced,
+                           &old_unbalanced,
+                           &forces,
+                           &right_hand_side})
+      vector->reinit(solution);
+  }
+
+
+
+  // @sect3{Supports}
+
+  // Prescribed displacements are linear in the motion of the frame: three
+  // fields, which are zero wherever nothing is constrained, and the homogeneous
+  // constraints say it all.
+  template <int dim>
+  void Block<dim>::find_supports()
+  {
+    const auto prescribed_at = [&](const Tensor<1, 2> &frame, Vector &field) {
+      constrain_displacements(
+        parameters, dof_handler, relevant, frame, homogeneous_constraints);
+      field = 0.;
+      homogeneous_constraints.distribute(field);
+    };
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      {
+        Tensor<1, 2> frame;
+        frame[i] = 1.;
+        prescribed_at(frame, prescribed_by_frame[i]);
+      }
+    prescribed_at(Tensor<1, 2>(), prescribed);
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      prescribed_by_frame[i] -= prescribed;
+    for (const auto &line : homogeneous_constraints.get_lines())
+      homogeneous_constraints.set_inhomogeneity(line.index, 0.);
+  }
+
+
+
+  // Overwrite what is constrained, for the homogeneous constraints.
+  template <int dim>
+  void Block<dim>::constrain(Vector &displacement) const
+  {
+    displacement.update_ghost_values();
+    const IndexSet &owned = dof_handler.locally_owned_dofs();
+    std::vector<std::pair<types::global_dof_index, double>> values;
+    for (const auto &line : homogeneous_constraints.get_lines())
+      if (owned.is_element(line.index))
+        {
+          double value = 0.;
+          for (const auto &entry : line.entries)
+            value += entry.second * displacement(entry.first);
+          values.emplace_back(line.index, value);
+        }
+    displacement.zero_out_ghost_values();
+    for (const auto &entry : values)
+      displacement(entry.first) = entry.second;
+  }
+
+
+
+  // Forces at supported unknowns are reactions; sums over all unknowns of a
+  // component are resultants.
+  template <int dim>
+  void Block<dim>::find_groups_of_unknowns()
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        ComponentMask mask(dim, false);
+        mask.set(d, true);
+        DoFTools::extract_dofs(dof_handler, mask)
+          .fill_index_vector(dofs_of_component[d]);
+      }
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const auto dof : dofs_of_component[d])
+        if (const auto *entries =
+              homogeneous_constraints.get_constraint_entries(dof))
+          if (entries->empty())
+            supported_dofs[d].push_back(dof);
+  }
+
+
+
+  // @sect3{Loads}
+
+  // Tractions are dead loads on the undeformed faces, as small strains allow:
+  // two vectors hold them once and for all, one for what is constant, one for a
+  // pressure of 1 MPa that the programme scales.
+  template <int dim>
+  void Block<dim>::assemble_loads()
+  {
+    FEFaceValues<dim>      fe_values(fe,
+                                contact.quadrature(),
+                                update_values | update_JxW_values |
+                                  update_normal_vectors);
+    dealii::Vector<double> constant(fe.dofs_per_cell), unit(fe.dofs_per_cell);
+    std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary())
+            {
+              const FaceConditions &face =
+                parameters.faces[cell->face(f)->boundary_id()];
+              fe_values.reinit(cell, f);
+              constant = unit = 0.;
+              for (const unsigned int q : fe_values.quadrature_point_indices())
+                for (const unsigned int i : fe_values.dof_indices())
+                  {
+                    const unsigned int d =
+                      fe.system_to_component_index(i).first;
+                    const double phi =
+                      fe_values.shape_value(i, q) * fe_values.JxW(q);
+                    constant(i) += face.traction[d] * phi;
+                    if (face.has_programme_pressure)
+                      unit(i) -= fe_values.normal_vector(q)[d] * phi;
+                  }
+              cell->get_dof_indices(dofs);
+              constant_load.add(dofs, constant);
+              unit_pressure_load.add(dofs, unit);
+            }
+    constant_load.compress(VectorOperation::add);
+    unit_pressure_load.compress(VectorOperation::add);
+  }
+
+
+
+  template <int dim>
+  void Block<dim>::choose_solver()
+  {
+    const SolverType type = parameters.solver != SolverType::automatic ?
+                              parameters.solver :
+                            dof_handler.n_dofs() < 20000 ? SolverType::direct :
+                                                           SolverType::amg;
+    system                = make_assembled_system<dim>(type,
+                                        parameters,
+                                        dof_handler,
+                                        homogeneous_constraints,
+                                        relevant,
+                                        contact.quadrature());
+  }
+
+
+
+  template class Block<2>;
+  template class Block<3>;
+} // namespace SlipStep
