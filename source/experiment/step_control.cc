@@ -27,10 +27,11 @@ namespace SlipStep
     parameters.declare(
       "Time stepping/Tolerance",
       "5e-5",
-      Quantity(Dimension::number, 1e-14, 0.1),
+      Quantity(Dimension::number, 1e-14, 1.),
       "Error of the friction force that one step may make, relative to the "
       "force at full slip, as estimated by the friction law. Between 1e-14 and "
-      "0.1, no unit.");
+      "1, no unit; at 1 practically every step is accepted, which leaves their "
+      "number to the other keys.");
     parameters.declare(
       "Time stepping/Least steps per statement",
       "10",
