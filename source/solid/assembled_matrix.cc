@@ -39,9 +39,8 @@ namespace SlipStep
   template <int dim>
   void AssembledMatrix<dim>::compute_cell_matrices()
   {
-    const double E = parameters.young_modulus, nu = parameters.poisson_ratio;
-    const double lambda = E * nu / ((1. + nu) * (1. - 2. * nu));
-    const double mu     = E / (2. * (1. + nu));
+    const double lambda = parameters.lame_lambda();
+    const double mu     = parameters.shear_modulus();
 
     const FiniteElement<dim>        &fe = dof_handler.get_fe();
     const QGauss<dim>                quadrature(fe.degree + 1);

@@ -30,9 +30,8 @@ namespace SlipStep
     public:
       explicit StressPostprocessor(const BlockParameters &parameters)
         : DataPostprocessorTensor<dim>("stress_MPa", update_gradients)
-        , mu(parameters.young_modulus / (2. * (1. + parameters.poisson_ratio)))
-        , lambda(2. * mu * parameters.poisson_ratio /
-                 (1. - 2. * parameters.poisson_ratio))
+        , mu(parameters.shear_modulus())
+        , lambda(parameters.lame_lambda())
       {}
 
       virtual void evaluate_vector_field(

@@ -212,7 +212,7 @@ namespace SlipStep
     parameters.declare(
       "Block/Degree",
       "1",
-      Integer(1, 4),
+      Integer(1, largest_degree),
       "Polynomial degree of the elements: 1 for Q1, 2 for Q2.");
     parameters.declare("Block/Young modulus",
                        "206 GPa",
@@ -243,12 +243,15 @@ namespace SlipStep
           "programme), 'pressure programme', 'pressure 5 MPa', 'traction 1 0 0 "
           "MPa', 'displacement x 0 mm', 'flat' (same normal displacement "
           "everywhere).");
-    parameters.declare("Block/Solver",
-                       "automatic",
-                       Selection("automatic|direct|amg"),
-                       "Preconditioner of GMRES: 'direct' factorises a recent "
-                       "tangent, 'amg' is algebraic multigrid with rigid-body "
-                       "modes; 'automatic' takes direct below 20000 unknowns.");
+    parameters.declare(
+      "Block/Solver",
+      "automatic",
+      Selection("automatic|multigrid|amg|direct"),
+      "Preconditioner of GMRES: 'multigrid' is geometric, with "
+      "matrix-free products, for meshes that can be coarsened; "
+      "'amg' is algebraic multigrid with rigid-body modes; "
+      "'direct' factorises a recent tangent; 'automatic' takes "
+      "direct below 3000 unknowns, else multigrid.");
     parameters.declare("Block/Newton tolerance",
                        "1e-10",
                        Quantity(Dimension::number, 1e-14, 1e-2),
@@ -393,9 +396,10 @@ namespace SlipStep
           "with e.g. 'press 5.8 MPa in 1 s'");
 
     const std::string solver_name = parameters.text("Block/Solver");
-    solver = (solver_name == "direct" ? SolverType::direct :
-              solver_name == "amg"    ? SolverType::amg :
-                                        SolverType::automatic);
+    solver = (solver_name == "direct"    ? SolverType::direct :
+              solver_name == "amg"       ? SolverType::amg :
+              solver_name == "multigrid" ? SolverType::multigrid :
+                                           SolverType::automatic);
     const std::string fields_name = parameters.text("Output/Fields");
     fields                        = (fields_name == "none" ? FieldOutput::none :
                                      fields_name == "end"  ? FieldOutput::end :

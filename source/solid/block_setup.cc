@@ -201,16 +201,21 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::choose_solver()
   {
-    const SolverType type = parameters.solver != SolverType::automatic ?
-                              parameters.solver :
-                            dof_handler.n_dofs() < 20000 ? SolverType::direct :
-                                                           SolverType::amg;
-    system                = make_assembled_system<dim>(type,
-                                        parameters,
-                                        dof_handler,
-                                        homogeneous_constraints,
-                                        relevant,
-                                        contact.quadrature());
+    SolverType type = parameters.solver;
+    if (type == SolverType::automatic)
+      type = dof_handler.n_dofs() < 3000 ? SolverType::direct :
+                                           SolverType::multigrid;
+    if (type == SolverType::multigrid)
+      system = make_multigrid_system<dim>(parameters,
+                                          dof_handler,
+                                          homogeneous_constraints);
+    else
+      system = make_assembled_system<dim>(type,
+                                          parameters,
+                                          dof_handler,
+                                          homogeneous_constraints,
+                                          relevant,
+                                          contact.quadrature());
   }
 
 

@@ -36,9 +36,9 @@ namespace SlipStep
       virtual void add_elastic_forces(const Vector &displacement,
                                       Vector       &forces) const override;
 
-      virtual void linearise(const ContactFace<dim> &contact) override
+      virtual void linearise(const ContactTangent<dim> &tangent) override
       {
-        matrix.set_contact(contact.tangent());
+        matrix.set_contact(tangent);
       }
 
       virtual unsigned int

@@ -206,14 +206,12 @@ TEST(Newton, converges_quadratically)
   const auto   result   = run_block_case<3>(make_parameters(slide + two_cells));
   unsigned int n_judged = 0;
   for (const auto &norms : result.newton_residuals)
-    for (unsigned int i = 2; i < norms.size(); ++i)
-      // Judged where round-off (and the tolerance of the linear solver) is far
-      // away.
-      if (norms[i] > 1e-10 && norms[i - 1] < 1e-2)
+    for (unsigned int i = 1; i < norms.size(); ++i)
+      // Judged where round-off is far away, and where the linear systems are
+      // solved the better the smaller the residual is.
+      if (norms[i] > 1e-9 && norms[i - 1] < 2e-3)
         {
-          const double order = std::log(norms[i] / norms[i - 1]) /
-                               std::log(norms[i - 1] / norms[i - 2]);
-          EXPECT_GT(order, 1.5);
+          EXPECT_LT(norms[i], 40. * norms[i - 1] * norms[i - 1]);
           ++n_judged;
         }
   EXPECT_GE(n_judged, 1u);

@@ -94,6 +94,7 @@ namespace SlipStep
     void        predict();
     bool        solve_step();
     double      compute_residual();
+    double      linear_tolerance(const double norm) const;
     double      line_search(const Vector &update, const double old_norm);
     void        accept_step(HistoryRow &row);
     std::string reason_of_failure() const;

@@ -32,9 +32,10 @@ namespace SlipStep
   /// How the linear systems are solved.
   enum class SolverType
   {
-    automatic, ///< direct for small blocks, else amg
-    direct,
-    amg
+    automatic, ///< direct for small blocks, else multigrid
+    multigrid,
+    amg,
+    direct
   };
 
   /// When volume and contact-face fields are written.
@@ -48,6 +49,9 @@ namespace SlipStep
   /// The block: a box with lower corner at the origin.
   struct BlockParameters
   {
+    /// Of the elements for which there are solvers.
+    static constexpr unsigned int largest_degree = 3;
+
     unsigned int                dimension = 3;
     std::array<double, 3>       size;          ///< [mm]
     std::array<unsigned int, 3> subdivisions;  ///< cells per direction
@@ -68,6 +72,17 @@ namespace SlipStep
     /// @param programme to check that faces follow what it does
     /// @throws InputError
     BlockParameters(const Parameters &parameters, const Programme &programme);
+
+    double lame_lambda() const ///< [MPa]
+    {
+      return young_modulus * poisson_ratio /
+             ((1. + poisson_ratio) * (1. - 2. * poisson_ratio));
+    }
+
+    double shear_modulus() const ///< [MPa]
+    {
+      return young_modulus / (2. * (1. + poisson_ratio));
+    }
 
     /// Axis normal to the contact plane.
     unsigned int normal_axis() const

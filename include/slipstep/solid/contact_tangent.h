@@ -5,6 +5,8 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <slipstep/solid/block_parameters.h>
+
 #include <vector>
 
 namespace SlipStep
@@ -23,6 +25,14 @@ namespace SlipStep
   /// Linearised contact on all locally owned cell faces of the contact face.
   template <int dim>
   using ContactTangent = std::vector<FaceTangent<dim>>;
+
+  /// Of every point of the face quadrature of a contact cell, the number that
+  /// counts along tangential_axis(0) first: deal.II turns some faces.
+  /// @param n_1d points per direction
+  template <int dim>
+  std::vector<unsigned int>
+  lexicographic_face_points(const unsigned int     n_1d,
+                            const BlockParameters &parameters);
 } // namespace SlipStep
 
 #endif

@@ -27,8 +27,8 @@ namespace SlipStep
     virtual void add_elastic_forces(const Vector &displacement,
                                     Vector       &forces) const = 0;
 
-    /// Take over the tangents at the points of the contact face.
-    virtual void linearise(const ContactFace<dim> &contact) = 0;
+    /// Take over the tangent of the contact face.
+    virtual void linearise(const ContactTangent<dim> &tangent) = 0;
 
     /// Solve (K + contact tangent) x = b, with homogeneous constraints, until
     /// the residual norm is below @p tolerance.
@@ -36,6 +36,12 @@ namespace SlipStep
     /// @throws RunError if that is not reached
     virtual unsigned int
     solve(Vector &x, const Vector &b, const double tolerance) = 0;
+
+    /// Of operator and preconditioner on this rank [bytes]; 0 if not known.
+    virtual std::size_t memory_consumption() const
+    {
+      return 0;
+    }
   };
 
   /// Assembled matrices of Trilinos and GMRES.
@@ -49,6 +55,14 @@ namespace SlipStep
                         const dealii::AffineConstraints<double> &constraints,
                         const dealii::IndexSet                  &relevant,
                         const dealii::Quadrature<dim - 1> &face_quadrature);
+
+  /// Matrix-free products, geometric multigrid and GMRES.
+  /// @param constraints homogeneous
+  template <int dim>
+  std::unique_ptr<TangentSystem<dim>>
+  make_multigrid_system(const BlockParameters                   &parameters,
+                        const dealii::DoFHandler<dim>           &dof_handler,
+                        const dealii::AffineConstraints<double> &constraints);
 } // namespace SlipStep
 
 #endif

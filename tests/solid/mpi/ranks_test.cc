@@ -46,7 +46,7 @@ namespace
 
 TEST(Ranks, agree_in_3d)
 {
-  for (const std::string solver : {"direct", "amg"})
+  for (const std::string solver : {"direct", "amg", "multigrid"})
     compare<3>({{"Loading/Programme", programme},
                 {"Block/Subdivisions", "3, 2, 3"},
                 {"Block/Solver", solver}});
@@ -62,6 +62,18 @@ TEST(Ranks, agree_in_2d_with_quadratic_elements)
      {"Block/Size", "10 mm, 5 mm"},
      {"Block/Subdivisions", "4, 3"},
      {"Block/Degree", "2"}});
+}
+
+
+
+TEST(Ranks, agree_on_the_levels_of_multigrid)
+{
+  // Coarse levels have fewer cells than there are ranks.
+  for (const std::string degree : {"1", "2"})
+    compare<3>({{"Loading/Programme", programme},
+                {"Block/Subdivisions", "4, 4, 4"},
+                {"Block/Degree", degree},
+                {"Block/Solver", "multigrid"}});
 }
 
 

@@ -1,0 +1,482 @@
+#ifndef slipstep_solid_elastic_operator_h
+#define slipstep_solid_elastic_operator_h
+
+// Types in this file depend on the width of VectorizedArray, which may differ
+// from that of the library: include it only where multigrid_system.h is.
+
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/fe/mapping_q1.h>
+
+#include <deal.II/lac/diagonal_matrix.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <deal.II/matrix_free/fe_evaluation.h>
+#include <deal.II/matrix_free/matrix_free.h>
+#include <deal.II/matrix_free/tools.h>
+
+#include <slipstep/solid/block_parameters.h>
+#include <slipstep/solid/contact_tangent.h>
+
+#include <memory>
+
+namespace SlipStep
+{
+  /// Stiffness of the block plus tangent of the contact face, matrix-free.
+  ///
+  /// The contact part is computed together with the cell that owns the face,
+  /// from the same nodal values: constraints, hanging nodes and communication
+  /// come for free. Cells at the contact face share their SIMD batches.
+  /// @tparam Simd names the width
+  template <int dim,
+            int degree,
+            typename Number,
+            typename Simd = dealii::VectorizedArray<Number>>
+  class ElasticOperator : public dealii::Subscriptor
+  {
+  public:
+    using VectorType = dealii::LinearAlgebra::distributed::Vector<Number>;
+    using value_type = Number;
+
+    /// @param constraints homogeneous
+    /// @param with_plain_product whether plain_vmult() is needed
+    ElasticOperator(const BlockParameters                   &parameters,
+                    const dealii::DoFHandler<dim>           &dof_handler,
+                    const dealii::AffineConstraints<Number> &constraints,
+                    const bool with_plain_product);
+
+    void initialize_dof_vector(VectorType        &vector,
+                               const unsigned int index = 0) const
+    {
+      matrix_free.initialize_dof_vector(vector, index);
+    }
+
+    dealii::types::global_dof_index m() const
+    {
+      return matrix_free.get_dof_handler().n_dofs();
+    }
+
+    /// Replace the contact part.
+    /// @param only_symmetric_part as the smoother needs it
+    void set_contact(const ContactTangent<dim> &tangent,
+                     const bool                 only_symmetric_part);
+
+    /// The sum, identity for constrained unknowns.
+    void vmult(VectorType &dst, const VectorType &src) const;
+
+    /// Symmetric up to the contact part, for which it is never asked.
+    void Tvmult(VectorType &dst, const VectorType &src) const
+    {
+      vmult(dst, src);
+    }
+
+    /// Asked for by the interface of PreconditionChebyshev, which never calls
+    /// it when it is given a diagonal.
+    Number el(const unsigned int, const unsigned int) const
+    {
+      AssertThrow(false, dealii::ExcNotImplemented());
+      return 0.;
+    }
+
+    /// Elastic part without constraints; vectors of index 1.
+    void plain_vmult(VectorType &dst, const VectorType &src) const;
+
+    /// Compute the diagonal of the elastic part, once.
+    void compute_elastic_diagonal();
+
+    /// One over the diagonal of the sum; 1 for constrained unknowns.
+    void get_inverse_diagonal(VectorType &inverse) const;
+
+    std::size_t memory_consumption() const
+    {
+      return matrix_free.memory_consumption() +
+             tangents.size() * sizeof(Matrix) +
+             elastic_diagonal.memory_consumption();
+    }
+
+  private:
+    using Data = dealii::MatrixFree<dim, Number, Simd>;
+    using Evaluator =
+      dealii::FEEvaluation<dim, degree, degree + 1, dim, Number, Simd>;
+    using Range  = std::pair<unsigned int, unsigned int>;
+    using Matrix = dealii::Tensor<2, dim, Simd>;
+
+    static constexpr unsigned int n_1d = degree + 1;
+    static constexpr unsigned int n_face =
+      dealii::Utilities::pow(n_1d, dim - 1);
+    using FaceField = std::array<dealii::Tensor<1, dim, Simd>, n_face>;
+
+    void apply_to_cells(const Data &,
+                        VectorType       &dst,
+                        const VectorType &src,
+                        const Range      &range) const;
+    void add_elastic(Evaluator &cell) const;
+    void read_face(const Evaluator &cell, FaceField &values) const;
+    void apply_contact(const unsigned int slot, FaceField &field) const;
+    template <bool transpose>
+    void interpolate(FaceField &field) const;
+
+    void         find_contact_cells();
+    void         find_face_nodes();
+    unsigned int face_node(const unsigned int i) const;
+
+    const BlockParameters parameters;
+    Number                lambda, mu;
+    Data                  matrix_free;
+
+    // Contact: of every batch of cells, the slot of its tangents or
+    // invalid_unsigned_int; of every cell face (in the order of the mesh), slot
+    // and lane. Tangents are times the weight of the point.
+    std::vector<unsigned int>                  slot_of_batch;
+    std::vector<Range>                         place_of_face;
+    unsigned int                               n_slots = 0;
+    dealii::AlignedVector<Matrix>              tangents;
+    std::array<unsigned int, n_face>           face_nodes;
+    std::array<std::array<Number, n_1d>, n_1d> shape; // [point][node]
+    std::vector<unsigned int> lexicographic; // of points of the face quadrature
+
+    VectorType elastic_diagonal;
+  };
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  ElasticOperator<dim, degree, Number, Simd>::ElasticOperator(
+    const BlockParameters                   &parameters,
+    const dealii::DoFHandler<dim>           &dof_handler,
+    const dealii::AffineConstraints<Number> &constraints,
+    const bool                               with_plain_product)
+    : parameters(parameters)
+    , lambda(parameters.lame_lambda())
+    , mu(parameters.shear_modulus())
+  {
+    const auto                   &mesh = dof_handler.get_triangulation();
+    typename Data::AdditionalData settings;
+    settings.tasks_parallel_scheme = Data::AdditionalData::none;
+    settings.mapping_update_flags =
+      dealii::update_gradients | dealii::update_JxW_values;
+    settings.cell_vectorization_category.resize(mesh.n_active_cells());
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        settings.cell_vectorization_category[cell->active_cell_index()] =
+          cell->face(parameters.contact_face)->at_boundary();
+
+    const dealii::AffineConstraints<Number>      none;
+    std::vector<const dealii::DoFHandler<dim> *> dof_handlers{&dof_handler};
+    std::vector<const dealii::AffineConstraints<Number> *> all_constraints{
+      &constraints};
+    if (with_plain_product)
+      {
+        dof_handlers.push_back(&dof_handler);
+        all_constraints.push_back(&none);
+      }
+    matrix_free.reinit(dealii::MappingQ1<dim>(),
+                       dof_handlers,
+                       all_constraints,
+                       std::vector<dealii::QGauss<1>>{dealii::QGauss<1>(n_1d)},
+                       settings);
+    find_contact_cells();
+    find_face_nodes();
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::find_contact_cells()
+  {
+    const unsigned int        face = parameters.contact_face;
+    std::vector<unsigned int> face_of_cell(
+      matrix_free.get_dof_handler().get_triangulation().n_active_cells());
+    unsigned int n_faces = 0;
+    for (const auto &cell :
+         matrix_free.get_dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned() && cell->face(face)->at_boundary())
+        face_of_cell[cell->active_cell_index()] = n_faces++;
+
+    slot_of_batch.assign(matrix_free.n_cell_batches(),
+                         dealii::numbers::invalid_unsigned_int);
+    place_of_face.resize(n_faces);
+    for (unsigned int batch = 0; batch < slot_of_batch.size(); ++batch)
+      for (unsigned int lane = 0;
+           lane < matrix_free.n_active_entries_per_cell_batch(batch);
+           ++lane)
+        {
+          const auto cell = matrix_free.get_cell_iterator(batch, lane);
+          if (!cell->face(face)->at_boundary())
+            continue;
+          if (slot_of_batch[batch] == dealii::numbers::invalid_unsigned_int)
+            slot_of_batch[batch] = n_slots++;
+          place_of_face[face_of_cell[cell->active_cell_index()]] = {
+            slot_of_batch[batch], lane};
+        }
+    tangents.resize(n_slots * n_face);
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::find_face_nodes()
+  {
+    const auto basis = dealii::Polynomials::generate_complete_Lagrange_basis(
+      dealii::QGaussLobatto<1>(n_1d).get_points());
+    const dealii::QGauss<1> points(n_1d);
+    for (unsigned int q = 0; q < n_1d; ++q)
+      for (unsigned int i = 0; i < n_1d; ++i)
+        shape[q][i] = basis[i].value(points.point(q)[0]);
+
+    const unsigned int normal = parameters.normal_axis();
+    for (unsigned int i = 0; i < n_face; ++i)
+      {
+        unsigned int node = parameters.outward_sign() > 0. ?
+                              degree * dealii::Utilities::pow(n_1d, normal) :
+                              0;
+        for (unsigned int d = 0, rest = i; d < dim - 1; ++d, rest /= n_1d)
+          node += rest % n_1d *
+                  dealii::Utilities::pow(n_1d, parameters.tangential_axis(d));
+        face_nodes[i] = node;
+      }
+    lexicographic = lexicographic_face_points<dim>(n_1d, parameters);
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::set_contact(
+    const ContactTangent<dim> &tangent,
+    const bool                 only_symmetric_part)
+  {
+    for (Matrix &matrix : tangents)
+      matrix = Matrix();
+    const dealii::QGauss<dim - 1> quadrature(n_1d);
+    for (unsigned int f = 0; f < tangent.size(); ++f)
+      {
+        const double area =
+          tangent[f].cell->face(parameters.contact_face)->measure();
+        const auto place = place_of_face[f];
+        for (unsigned int q = 0; q < n_face; ++q)
+          {
+            const auto &value = tangent[f].values[q];
+            const auto  used =
+              (only_symmetric_part ? (value + transpose(value)) / 2. : value) *
+              (quadrature.weight(q) * area);
+            Matrix &matrix = tangents[place.first * n_face + lexicographic[q]];
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                matrix[i][j][place.second] = used[i][j];
+          }
+      }
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  void
+  ElasticOperator<dim, degree, Number, Simd>::vmult(VectorType       &dst,
+                                                    const VectorType &src) const
+  {
+    matrix_free.cell_loop(
+      &ElasticOperator::apply_to_cells, this, dst, src, true);
+    for (const unsigned int i : matrix_free.get_constrained_dofs())
+      dst.local_element(i) = src.local_element(i);
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::apply_to_cells(
+    const Data &,
+    VectorType       &dst,
+    const VectorType &src,
+    const Range      &range) const
+  {
+    Evaluator cell(matrix_free);
+    FaceField field;
+    for (unsigned int batch = range.first; batch < range.second; ++batch)
+      {
+        cell.reinit(batch);
+        cell.read_dof_values(src);
+        const unsigned int slot = slot_of_batch[batch];
+        const bool touches      = slot != dealii::numbers::invalid_unsigned_int;
+        if (touches)
+          {
+            read_face(cell, field);
+            apply_contact(slot, field);
+          }
+        add_elastic(cell);
+        if (touches)
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int i = 0; i < n_face; ++i)
+              cell.begin_dof_values()[d * Evaluator::static_dofs_per_component +
+                                      face_nodes[i]] += field[i][d];
+        cell.distribute_local_to_global(dst);
+      }
+  }
+
+
+
+  // sigma = lambda tr(eps) 1 + 2 mu eps, in 2-D plane strain.
+  template <int dim, int degree, typename Number, typename Simd>
+  void
+  ElasticOperator<dim, degree, Number, Simd>::add_elastic(Evaluator &cell) const
+  {
+    cell.evaluate(dealii::EvaluationFlags::gradients);
+    for (unsigned int q = 0; q < Evaluator::static_n_q_points; ++q)
+      {
+        auto       stress   = cell.get_symmetric_gradient(q);
+        const Simd pressure = lambda * trace(stress);
+        stress *= Simd(2 * mu);
+        for (unsigned int d = 0; d < dim; ++d)
+          stress[d][d] += pressure;
+        cell.submit_symmetric_gradient(stress, q);
+      }
+    cell.integrate(dealii::EvaluationFlags::gradients);
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  void
+  ElasticOperator<dim, degree, Number, Simd>::read_face(const Evaluator &cell,
+                                                        FaceField &values) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int i = 0; i < n_face; ++i)
+        values[i][d] =
+          cell.begin_dof_values()[d * Evaluator::static_dofs_per_component +
+                                  face_nodes[i]];
+  }
+
+
+
+  // From nodal displacements to nodal forces.
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::apply_contact(
+    const unsigned int slot,
+    FaceField         &field) const
+  {
+    interpolate<false>(field);
+    for (unsigned int q = 0; q < n_face; ++q)
+      field[q] = tangents[slot * n_face + q] * field[q];
+    interpolate<true>(field);
+  }
+
+
+
+  // Along one direction of the face after the other: from nodes to points, or
+  // transposed.
+  template <int dim, int degree, typename Number, typename Simd>
+  template <bool transpose>
+  void ElasticOperator<dim, degree, Number, Simd>::interpolate(
+    FaceField &field) const
+  {
+    for (unsigned int direction = 0, stride = 1; direction < dim - 1;
+         ++direction, stride *= n_1d)
+      for (unsigned int line = 0; line < n_face / n_1d; ++line)
+        {
+          const unsigned int start = direction == 0 ? line * n_1d : line;
+          std::array<dealii::Tensor<1, dim, Simd>, n_1d> in;
+          for (unsigned int i = 0; i < n_1d; ++i)
+            in[i] = field[start + i * stride];
+          for (unsigned int j = 0; j < n_1d; ++j)
+            {
+              dealii::Tensor<1, dim, Simd> sum;
+              for (unsigned int i = 0; i < n_1d; ++i)
+                sum += Simd(transpose ? shape[i][j] : shape[j][i]) * in[i];
+              field[start + j * stride] = sum;
+            }
+        }
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::plain_vmult(
+    VectorType       &dst,
+    const VectorType &src) const
+  {
+    const std::function<
+      void(const Data &, VectorType &, const VectorType &, const Range &)>
+      apply = [this](const Data &,
+                     VectorType       &dst,
+                     const VectorType &src,
+                     const Range      &range) {
+        Evaluator cell(matrix_free, 1);
+        for (unsigned int batch = range.first; batch < range.second; ++batch)
+          {
+            cell.reinit(batch);
+            cell.read_dof_values(src);
+            add_elastic(cell);
+            cell.distribute_local_to_global(dst);
+          }
+      };
+    matrix_free.cell_loop(apply, dst, src, true);
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::compute_elastic_diagonal()
+  {
+    initialize_dof_vector(elastic_diagonal);
+    const std::function<void(Evaluator &)> apply = [this](Evaluator &cell) {
+      add_elastic(cell);
+    };
+    dealii::MatrixFreeTools::compute_diagonal(matrix_free,
+                                              elastic_diagonal,
+                                              apply);
+  }
+
+
+
+  // Where nodes hang, the share of the contact part is not exact, which is good
+  // enough for a smoother.
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::get_inverse_diagonal(
+    VectorType &inverse) const
+  {
+    inverse = 0.;
+    const std::function<
+      void(const Data &, VectorType &, const VectorType &, const Range &)>
+      add_contact = [this](const Data &,
+                           VectorType &dst,
+                           const VectorType &,
+                           const Range &range) {
+        Evaluator cell(matrix_free);
+        for (unsigned int batch = range.first; batch < range.second; ++batch)
+          {
+            const unsigned int slot = slot_of_batch[batch];
+            if (slot == dealii::numbers::invalid_unsigned_int)
+              continue;
+            cell.reinit(batch);
+            for (unsigned int i = 0; i < Evaluator::static_dofs_per_cell; ++i)
+              cell.begin_dof_values()[i] = Simd();
+            for (unsigned int i = 0; i < n_face; ++i)
+              for (unsigned int q = 0; q < n_face; ++q)
+                {
+                  Number value = 1.;
+                  for (unsigned int d = 0, j = i, p = q; d < dim - 1;
+                       ++d, j /= n_1d, p /= n_1d)
+                    value *= shape[p % n_1d][j % n_1d];
+                  for (unsigned int d = 0; d < dim; ++d)
+                    cell.begin_dof_values()
+                      [d * Evaluator::static_dofs_per_component +
+                       face_nodes[i]] +=
+                      value * value * tangents[slot * n_face + q][d][d];
+                }
+            cell.distribute_local_to_global(dst);
+          }
+      };
+    matrix_free.cell_loop(add_contact, inverse, elastic_diagonal);
+    inverse += elastic_diagonal;
+    for (const unsigned int i : matrix_free.get_constrained_dofs())
+      inverse.local_element(i) = 1.;
+    for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
+      {
+        Number &entry = inverse.local_element(i);
+        entry         = entry > 0. ? 1. / entry : 1.;
+      }
+  }
+} // namespace SlipStep
+
+#endif

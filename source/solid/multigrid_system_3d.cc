@@ -1,0 +1,9 @@
+#include <slipstep/solid/multigrid_system.h>
+
+namespace SlipStep
+{
+  template std::unique_ptr<TangentSystem<3>>
+  make_multigrid_system(const BlockParameters &,
+                        const dealii::DoFHandler<3> &,
+                        const dealii::AffineConstraints<double> &);
+} // namespace SlipStep
