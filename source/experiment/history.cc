@@ -74,24 +74,36 @@ namespace SlipStep
         count("linear_iterations", &Row::linear_iterations)};
       return all;
     }
+
+    constexpr std::size_t most_probes = 99;
+
+    std::string probe_name(const std::size_t i)
+    {
+      return "probe_" + std::to_string(i + 1);
+    }
   } // namespace
 
 
 
-  HistoryWriter::HistoryWriter(const std::filesystem::path &file,
-                               const std::string           &name)
+  HistoryWriter::HistoryWriter(const std::filesystem::path    &file,
+                               const std::string              &name,
+                               const std::vector<std::string> &probes)
     : out(file)
     , file(file)
   {
     if (!out)
       throw InputError(file.string() + ": this file cannot be written");
     out << "# name: " << name << "\n# source: simulated by slipstep\n";
+    for (std::size_t i = 0; i < probes.size(); ++i)
+      out << "# " << probe_name(i) << ": " << probes[i] << '\n';
     const char *separator = "";
     for (const Column &column : columns())
       {
         out << separator << column.name;
         separator = ",";
       }
+    for (std::size_t i = 0; i < probes.size(); ++i)
+      out << ',' << probe_name(i);
     out << '\n' << std::flush;
     if (!out)
       throw RunError(file.string() +
@@ -112,6 +124,8 @@ namespace SlipStep
         line += column.number ? exact_text(column.number(values)) :
                                 std::to_string(column.count(values));
       }
+    for (const double probe : row.probes)
+      line += ',' + exact_text(probe);
     out << line << '\n' << std::flush;
     if (!out)
       {
@@ -132,9 +146,16 @@ namespace SlipStep
     std::vector<std::string> names;
     for (const Column &column : columns())
       names.emplace_back(column.name);
-    const CsvTable table(file, names);
+    std::vector<std::string> probes;
+    for (std::size_t i = 0; i < most_probes; ++i)
+      probes.push_back(probe_name(i));
+    const CsvTable table(file, names, probes);
 
     std::vector<HistoryRow> history(table.size());
+    for (const std::string &probe : probes)
+      if (table.has(probe))
+        for (std::size_t row = 0; row < history.size(); ++row)
+          history[row].probes.push_back(table[probe][row]);
     for (const Column &column : columns())
       {
         const std::vector<double> &values = table[column.name];

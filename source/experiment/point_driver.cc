@@ -56,6 +56,11 @@ namespace SlipStep
     result.rewrite("Loading/Programme", [&](const std::string &text) {
       return relocated_programme(text, parameters.resolve("."), folder);
     });
+    // Written down, what a later setting has made idle would be an error.
+    for (const std::string &key : StepControl::idle_keys(parameters))
+      result.rewrite(key, [&](const std::string &) {
+        return parameters.entry(key).default_value;
+      });
     return result;
   }
 

@@ -32,6 +32,20 @@ namespace SlipStep
 
 
 
+  void write_used_parameters(const Parameters            &parameters,
+                             const std::filesystem::path &folder,
+                             const std::set<std::string> &omitted_sections)
+  {
+    std::ofstream out(folder / "used_parameters.prm");
+    relocated_case(parameters, folder)
+      .print(out, Parameters::Format::prm, omitted_sections);
+    if (!out.flush())
+      throw RunError((folder / "used_parameters.prm").string() +
+                     ": cannot be written (is the disk full?)");
+  }
+
+
+
   RunRecorder::RunRecorder(const Parameters  &parameters,
                            const RunOptions  &options,
                            const std::string &command,
@@ -41,6 +55,7 @@ namespace SlipStep
     : options(options)
     , programme(programme)
     , is_writer(is_writer)
+    , quantities(parse_quantities(parameters, programme))
     , start(ResourceUsage::now())
     , progress(options.quiet || !is_writer, options.label)
     , work(programme)
@@ -51,17 +66,17 @@ namespace SlipStep
     summary.effects   = law.effects();
     if (!is_writer)
       return;
-    std::ofstream out(options.output / "used_parameters.prm");
-    relocated_case(parameters, options.output)
-      .print(out, Parameters::Format::prm, law.inactive_sections());
-    if (!out.flush())
-      throw RunError((options.output / "used_parameters.prm").string() +
-                     ": cannot be written (is the disk full?)");
+    write_used_parameters(parameters, options.output, law.inactive_sections());
     write_summary(options.output / "summary.json", summary);
+    std::vector<std::string> probes;
+    if (command == "run")
+      for (const QuantityOfInterest &probe : probes_among(quantities))
+        probes.push_back(probe.name);
     writer =
       HistoryWriter(options.output / "history.csv",
                     summary.case_name +
-                      (options.label.empty() ? "" : ", " + options.label));
+                      (options.label.empty() ? "" : ", " + options.label),
+                    probes);
   }
 
 
@@ -104,6 +119,8 @@ namespace SlipStep
     summary.status = reason.empty() ? "finished" : "failed";
     summary.reason = reason;
     summarise_history(history, programme, summary);
+    summary.quantities =
+      evaluate_quantities(quantities, programme, history, summary.dimension);
     if (!is_writer)
       return;
     if (reason.empty())

@@ -12,6 +12,9 @@ namespace SlipStep
 {
   namespace
   {
+    const char *const equal_steps_key =
+      "Time stepping/Equal steps per statement";
+
     // The largest number of the series not above the wanted one.
     double round_down(const double wanted)
     {
@@ -44,6 +47,24 @@ namespace SlipStep
       Quantity(Dimension::number, 1e-6, 1e6),
       "Slip in the first step of a slide, relative to the elastic slip at which "
       "the static friction is reached. Between 1e-6 and 1e6, no unit.");
+    parameters.declare(
+      equal_steps_key,
+      "0",
+      dealii::Patterns::Integer(0, 1000000),
+      "Number of equal steps of each statement of the programme, whatever error "
+      "they make: for convergence studies. The keys above are not used then. 0: "
+      "steps are chosen by the tolerance.");
+  }
+
+
+
+  std::vector<std::string> StepControl::idle_keys(const Parameters &parameters)
+  {
+    if (parameters.integer(equal_steps_key) == 0)
+      return {};
+    return {"Time stepping/Tolerance",
+            "Time stepping/Least steps per statement",
+            "Time stepping/First slip"};
   }
 
 
@@ -55,10 +76,19 @@ namespace SlipStep
     , tolerance(parameters.number("Time stepping/Tolerance"))
     , first_slip(parameters.number("Time stepping/First slip"))
     , least_steps(parameters.integer("Time stepping/Least steps per statement"))
+    , equal_steps(parameters.integer(equal_steps_key))
     , elastic_slip_per_pressure(law.static_coefficient() /
                                 law.tangential_stiffness())
     , nominal_strength(law.static_coefficient() * programme.largest_pressure())
   {
+    // What was set later goes before, so that a study can change the mode.
+    for (const std::string &key : idle_keys(parameters))
+      if (parameters.text(key) != parameters.entry(key).default_value &&
+          parameters.layer(key) >= parameters.layer(equal_steps_key))
+        parameters.reject(key,
+                          std::string("it is not used with ") +
+                            equal_steps_key + " = " +
+                            std::to_string(equal_steps));
     start_segment();
   }
 
@@ -96,10 +126,11 @@ namespace SlipStep
     for (const Segment &other : programme.segments())
       if (other.statement == now.statement)
         end_of_statement = other.end_time;
-    largest_step = (end_of_statement - now.start_time) / least_steps;
+    largest_step = (end_of_statement - now.start_time) /
+                   (equal_steps > 0 ? equal_steps : least_steps);
 
     double wanted = largest_step;
-    if (speed > 0. && pressure > 0.)
+    if (equal_steps == 0 && speed > 0. && pressure > 0.)
       wanted =
         std::min(wanted,
                  first_slip * elastic_slip_per_pressure * pressure / speed);
@@ -111,7 +142,9 @@ namespace SlipStep
 
   void StepControl::plan(const double wanted_step)
   {
-    full_step = round_down(std::min(wanted_step, largest_step * (1. + 1e-9)));
+    full_step = equal_steps > 0 ?
+                  std::min(wanted_step, largest_step) :
+                  round_down(std::min(wanted_step, largest_step * (1. + 1e-9)));
 
     // The last two steps of a segment share what is left, so that no tiny one
     // remains.
@@ -152,7 +185,9 @@ namespace SlipStep
     const double ideal =
       0.9 * std::sqrt(tolerance / std::max(relative_error, 1e-30));
     // Written so that an undefined error is refused, too.
-    if (!(relative_error <= 1.5 * tolerance))
+    const double allowed =
+      equal_steps > 0 ? std::numeric_limits<double>::max() : 1.5 * tolerance;
+    if (!(relative_error <= allowed))
       {
         shrink(step * std::max(0.2, std::min(ideal, 0.7)),
                "the friction law asks for a smaller one than the clock "
@@ -170,7 +205,8 @@ namespace SlipStep
     else
       {
         first_of_segment = false;
-        plan(std::max(step, full_step) * std::min(ideal, 2.));
+        plan(equal_steps > 0 ? largest_step :
+                               std::max(step, full_step) * std::min(ideal, 2.));
       }
     return true;
   }

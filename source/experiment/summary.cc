@@ -58,6 +58,11 @@ namespace SlipStep
 
     json to_json(const Summary &summary)
     {
+      json quantities = json::array();
+      for (const QuantityValue &quantity : summary.quantities)
+        quantities.push_back({{"name", quantity.name},
+                              {"value", quantity.value},
+                              {"unit", quantity.unit}});
       json slides = json::array();
       for (const SlideSummary &slide : summary.slides)
         slides.push_back(slide_to_json(slide));
@@ -91,6 +96,7 @@ namespace SlipStep
                 {"dissipated", summary.dissipated},
                 {"balance_error", summary.balance_error}}},
               {"slides", slides},
+              {"quantities", quantities},
               {"warnings", summary.warnings}};
     }
 
@@ -125,6 +131,10 @@ namespace SlipStep
       summary.balance_error     = number(energy, "balance_error");
       for (const json &slide : object.at("slides"))
         summary.slides.push_back(slide_from_json(slide));
+      for (const json &quantity : object.at("quantities"))
+        summary.quantities.push_back({quantity.at("name").get<std::string>(),
+                                      number(quantity, "value"),
+                                      quantity.at("unit").get<std::string>()});
       object.at("warnings").get_to(summary.warnings);
       return summary;
     }

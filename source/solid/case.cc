@@ -3,8 +3,10 @@
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/report.h>
 #include <slipstep/experiment/run_options.h>
+#include <slipstep/experiment/step_control.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/solid/block_parameters.h>
+#include <slipstep/solid/face_probes.h>
 
 #include <unistd.h>
 
@@ -19,6 +21,7 @@ namespace SlipStep
     FrictionLaw::declare_parameters(parameters);
     BlockParameters::declare_parameters(parameters);
     declare_output_parameters(parameters);
+    declare_quantities(parameters);
     declare_report_parameters(parameters);
   }
 
@@ -29,6 +32,8 @@ namespace SlipStep
     const FrictionLaw     law(parameters);
     const Programme       programme = parse_programme(parameters);
     const BlockParameters block(parameters, programme);
+    const StepControl     control(parameters, programme, law);
+    check_probes(parameters, block, parse_quantities(parameters, programme));
     check_report_parameters(parameters);
   }
 

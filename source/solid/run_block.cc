@@ -3,6 +3,7 @@
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/solid/block.h>
+#include <slipstep/solid/face_probes.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <deal.II/base/mpi.h>
@@ -49,13 +50,19 @@ namespace SlipStep
                        StepControl(parameters, programme, law),
                        communicator);
       BlockOutput<dim> output(block_parameters, options.output, communicator);
+      const FaceProbes<dim> probes(block_parameters,
+                                   programme,
+                                   parse_quantities(parameters, programme));
       block.fill(recorder.summary);
 
       std::string reason;
       try
         {
           block.run(&output, [&](const HistoryRow &row) {
-            record_together(recorder, row, communicator);
+            HistoryRow with_probes = row;
+            with_probes.probes =
+              probes.values(block.contact_face(), communicator);
+            record_together(recorder, with_probes, communicator);
           });
         }
       catch (const RunError &error)

@@ -81,7 +81,7 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                        "steps",    "rejected_steps", "newton_iterations",
                        "wall_s",   "cpu_s",          "linear_iterations",
                        "friction", "energy",         "peak_memory_MB",
-                       "slides",   "warnings"});
+                       "slides",   "quantities",     "warnings"});
   has_exactly(object["friction"], {"peak", "at_displacement_mm", "final"});
   has_exactly(object["energy"],
               {"work", "stored", "dissipated", "balance_error"});
@@ -127,6 +127,8 @@ TEST(Summary, ItReadsBack)
   summary.dissipated        = 2.;
   summary.balance_error     = 1e-9;
   summary.slides            = {{1. / 60., pi, 60., 0.12, 0.3, 0.1, 1.3, 0.08}};
+  summary.quantities        = {{"peak coefficient", 0.1 / 3., ""},
+                               {"slip front", std::nan(""), "mm"}};
   summary.warnings          = {"one", "two"};
   write_summary(scratch_file(), summary);
 
@@ -156,6 +158,11 @@ TEST(Summary, ItReadsBack)
   EXPECT_NEAR(back.slides[0].speed, 1. / 60., 1e-17);
   EXPECT_NEAR(back.slides[0].angle, pi, 1e-15);
   EXPECT_EQ(back.slides[0].coefficient, 0.08);
+  ASSERT_EQ(back.quantities.size(), 2u);
+  EXPECT_EQ(back.quantities[0].name, "peak coefficient");
+  EXPECT_EQ(back.quantities[0].value, 0.1 / 3.);
+  EXPECT_TRUE(std::isnan(back.quantities[1].value));
+  EXPECT_EQ(back.quantities[1].unit, "mm");
   EXPECT_EQ(back.warnings, summary.warnings);
 }
 

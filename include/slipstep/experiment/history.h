@@ -41,6 +41,8 @@ namespace SlipStep
     double step_size         = 0.; ///< [s]
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
+    /// Quantities of interest on the contact face, see "Output/Quantities".
+    std::vector<double> probes;
   };
 
   /// Writes history.csv, complete after every row, every number with as many
@@ -50,7 +52,8 @@ namespace SlipStep
   /// displacement_y_mm, friction_y, normal_load_N, tangential_load_N, r_mean,
   /// r_min, r_max, r_s_mean, r_s_min, r_s_max, mu_mean, mu_min, mu_max,
   /// slip_fraction, dissipated_energy_Nmm, stored_energy_Nmm,
-  /// external_work_Nmm, step_s, newton_iterations, linear_iterations.
+  /// external_work_Nmm, step_s, newton_iterations, linear_iterations; then
+  /// probe_1, probe_2, ..., explained by comments.
   /// The first lines are `# key: value` comments, so that the file can be read
   /// back as a measured test.
   class HistoryWriter
@@ -58,9 +61,12 @@ namespace SlipStep
   public:
     HistoryWriter() = default;
 
+    /// @param probes what each of the probes of a row is
     /// @throws InputError if the file cannot be created, RunError if the disk
     ///   is full
-    HistoryWriter(const std::filesystem::path &file, const std::string &name);
+    HistoryWriter(const std::filesystem::path    &file,
+                  const std::string              &name,
+                  const std::vector<std::string> &probes = {});
 
     /// @throws RunError if the row cannot be written (disk full); the file then
     ///   ends with the row before

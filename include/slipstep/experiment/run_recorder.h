@@ -9,7 +9,9 @@
 #include <slipstep/friction/law.h>
 #include <slipstep/utilities/progress.h>
 
+#include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,13 @@ namespace SlipStep
 
     static ResourceUsage now();
   };
+
+  /// Write used_parameters.prm, which can be run again.
+  /// @param omitted_sections not written: values for what is off are errors
+  /// @throws RunError if the disk refuses
+  void write_used_parameters(const Parameters            &parameters,
+                             const std::filesystem::path &folder,
+                             const std::set<std::string> &omitted_sections);
 
   /// Keeps the files of one run: used_parameters.prm from the beginning,
   /// history.csv row by row, summary.json at the beginning and at the end; and
@@ -53,14 +62,16 @@ namespace SlipStep
   private:
     void write(const HistoryRow &row);
 
-    const RunOptions        options;
-    const Programme         programme;
-    const bool              is_writer;
-    const ResourceUsage     start;
-    HistoryWriter           writer;
-    std::vector<HistoryRow> history;
-    Progress                progress;
-    WorkEstimate            work;
+    const RunOptions options;
+    const Programme  programme;
+    const bool       is_writer;
+    /// Evaluated at the end.
+    const std::vector<QuantityOfInterest> quantities;
+    const ResourceUsage                   start;
+    HistoryWriter                         writer;
+    std::vector<HistoryRow>               history;
+    Progress                              progress;
+    WorkEstimate                          work;
   };
 } // namespace SlipStep
 

@@ -5,6 +5,7 @@
 #include <slipstep/friction/law.h>
 
 #include <string>
+#include <vector>
 
 namespace SlipStep
 {
@@ -17,11 +18,18 @@ namespace SlipStep
   /// step starts anew, small enough for the elastic part of the contact. Steps
   /// are taken from a fixed series of numbers (ten per decade), so that
   /// round-off cannot change them.
+  ///
+  /// Alternatively every statement has a stated number of equal steps, whatever
+  /// the error: for studies of convergence.
   class StepControl
   {
   public:
     static void declare_parameters(Parameters &parameters);
 
+    /// The keys that "Equal steps per statement" makes idle.
+    static std::vector<std::string> idle_keys(const Parameters &parameters);
+
+    /// @throws InputError for a value other than the default that is idle
     StepControl(const Parameters  &parameters,
                 const Programme   &programme,
                 const FrictionLaw &law);
@@ -87,6 +95,7 @@ namespace SlipStep
     const double       tolerance;
     const double       first_slip;
     const unsigned int least_steps;
+    const unsigned int equal_steps; ///< per statement, 0 for adaptive ones
     const double       elastic_slip_per_pressure;
     const double       nominal_strength;
 

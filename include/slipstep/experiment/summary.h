@@ -3,6 +3,7 @@
 
 #include <slipstep/experiment/history.h>
 #include <slipstep/experiment/programme.h>
+#include <slipstep/experiment/quantities.h>
 
 #include <filesystem>
 #include <string>
@@ -51,8 +52,9 @@ namespace SlipStep
     double stored            = 0.; ///< [N mm]
     double dissipated        = 0.; ///< [N mm]
     double balance_error     = 0.; ///< relative to work
-    std::vector<SlideSummary> slides;
-    std::vector<std::string>  warnings;
+    std::vector<SlideSummary>  slides;
+    std::vector<QuantityValue> quantities;
+    std::vector<std::string>   warnings;
   };
 
   /// Write atomically (a temporary file renamed into place).

@@ -1,0 +1,264 @@
+#include <slipstep/solid/face_probes.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace SlipStep
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Part of the contact face that a cell covers, along one of its axes.
+    struct Interval
+    {
+      double lower = 0.;
+      double upper = 0.;
+
+      /// Whether a coordinate lies in it, borders included.
+      bool contains(const double x) const
+      {
+        const double round_off = 1e-9 * (upper - lower);
+        return x >= lower - round_off && x <= upper + round_off;
+      }
+
+      double unit_coordinate(const double x) const
+      {
+        return (x - lower) / (upper - lower);
+      }
+    };
+
+
+
+    template <int dim>
+    Interval extent(const typename ContactFace<dim>::CellFace &cell_face,
+                    const unsigned int                         axis)
+    {
+      const auto &face   = cell_face.cell->face(cell_face.face);
+      Interval    result = {face->vertex(0)[axis], face->vertex(0)[axis]};
+      for (unsigned int v = 1; v < face->n_vertices(); ++v)
+        {
+          result.lower = std::min(result.lower, face->vertex(v)[axis]);
+          result.upper = std::max(result.upper, face->vertex(v)[axis]);
+        }
+      return result;
+    }
+
+
+
+    /// At @p x, the Lagrange polynomial that is one at the node nearest to
+    /// @p own and zero at the others.
+    double lagrange(const QGauss<1> &nodes, const double own, const double x)
+    {
+      unsigned int nearest = 0;
+      for (unsigned int i = 1; i < nodes.size(); ++i)
+        if (std::abs(nodes.point(i)[0] - own) <
+            std::abs(nodes.point(nearest)[0] - own))
+          nearest = i;
+      double value = 1.;
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        if (i != nearest)
+          value *= (x - nodes.point(i)[0]) /
+                   (nodes.point(nearest)[0] - nodes.point(i)[0]);
+      return value;
+    }
+  } // namespace
+
+
+
+  void check_probes(const Parameters                      &parameters,
+                    const BlockParameters                 &block,
+                    const std::vector<QuantityOfInterest> &quantities)
+  {
+    const std::string  key    = "Output/Quantities";
+    const unsigned int n_axes = block.dimension - 1;
+    for (const QuantityOfInterest &quantity : quantities)
+      {
+        if (quantity.kind != QuantityOfInterest::Kind::pressure)
+          continue;
+        if (quantity.position.size() != n_axes)
+          parameters.reject(key,
+                            "'" + quantity.name +
+                              "': a point of the face of a "
+                              "block in " +
+                              std::to_string(block.dimension) + "-D has " +
+                              std::to_string(n_axes) +
+                              (n_axes == 1 ? " coordinate" : " coordinates"));
+        for (unsigned int i = 0; i < n_axes; ++i)
+          {
+            const unsigned int axis = block.tangential_axis(i);
+            if (quantity.position[i] >= 0. &&
+                quantity.position[i] <= block.size[axis])
+              continue;
+            std::ostringstream message;
+            message << "'" << quantity.name << "': along "
+                    << "xyz"[axis] << " the contact face reaches from 0 to "
+                    << block.size[axis] << " mm";
+            parameters.reject(key, message.str());
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  FaceProbes<dim>::FaceProbes(const BlockParameters                 &parameters,
+                              const Programme                       &programme,
+                              const std::vector<QuantityOfInterest> &quantities)
+    : parameters(parameters)
+    , probes(probes_among(quantities))
+  {
+    for (const Segment &segment : programme.segments())
+      {
+        const Tensor<1, 2> velocity = segment.end.velocity;
+        if (!(velocity.norm() > 0.))
+          continue;
+        if (dim == 3 && std::abs(velocity[1]) > std::abs(velocity[0]))
+          sliding_axis = 1;
+        slides_backward = velocity[sliding_axis] < 0.;
+        break;
+      }
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  FaceProbes<dim>::values(const ContactFace<dim> &contact,
+                          const MPI_Comm         &communicator) const
+  {
+    std::vector<double> result;
+    for (const QuantityOfInterest &probe : probes)
+      result.push_back(
+        probe.kind == QuantityOfInterest::Kind::pressure ?
+          pressure(contact, probe.position, communicator) :
+          slip_front(contact, probe.loading_ratio, communicator));
+    return result;
+  }
+
+
+
+  template <int dim>
+  double FaceProbes<dim>::pressure(const ContactFace<dim>    &contact,
+                                   const std::vector<double> &position,
+                                   const MPI_Comm &communicator) const
+  {
+    // Sum over the cells that touch the point, and their number.
+    std::array<double, 2> sums{};
+    const QGauss<1>       nodes(static_cast<unsigned int>(
+      std::lround(std::pow(contact.quadrature().size(), 1. / (dim - 1)))));
+    for (const auto &cell_face : contact.cell_faces())
+      {
+        std::array<Interval, dim - 1> extents;
+        bool                          is_here = true;
+        for (unsigned int i = 0; i < dim - 1; ++i)
+          {
+            extents[i] = extent<dim>(cell_face, parameters.tangential_axis(i));
+            is_here    = is_here && extents[i].contains(position[i]);
+          }
+        if (!is_here)
+          continue;
+        double value = 0.;
+        for (const auto &point : cell_face.points)
+          {
+            double weight = point.point.committed().normal_traction;
+            for (unsigned int i = 0; i < dim - 1; ++i)
+              weight *=
+                lagrange(nodes,
+                         extents[i].unit_coordinate(
+                           point.position[parameters.tangential_axis(i)]),
+                         extents[i].unit_coordinate(position[i]));
+            value += weight;
+          }
+        sums[0] += std::max(value, 0.);
+        sums[1] += 1.;
+      }
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        communicator,
+                        ArrayView<double>(sums.data(), sums.size()));
+    return sums[0] / sums[1];
+  }
+
+
+
+  template <int dim>
+  double FaceProbes<dim>::slip_front(const ContactFace<dim> &contact,
+                                     const double            loading_ratio,
+                                     const MPI_Comm         &communicator) const
+  {
+    const unsigned int along = parameters.tangential_axis(sliding_axis);
+    const unsigned int across =
+      dim == 3 ? parameters.tangential_axis(1 - sliding_axis) : along;
+    const double centre = parameters.size[across] / 2.;
+
+    // Pairs (distance from the rear end, loading ratio). In 3-D those points
+    // of every cell on the centre line that lie next to it.
+    using Sample = std::pair<double, double>;
+    std::vector<Sample> samples;
+    for (const auto &cell_face : contact.cell_faces())
+      {
+        double nearest = std::numeric_limits<double>::infinity();
+        if (dim == 3)
+          {
+            if (!extent<dim>(cell_face, across).contains(centre))
+              continue;
+            for (const auto &point : cell_face.points)
+              nearest =
+                std::min(nearest, std::abs(point.position[across] - centre));
+          }
+        for (const auto &point : cell_face.points)
+          {
+            const ContactState &state = point.point.committed();
+            if (state.normal_traction <= 0. ||
+                (dim == 3 && std::abs(point.position[across] - centre) >
+                               nearest + 1e-9 * parameters.size[across]))
+              continue;
+            const double x = point.position[along];
+            samples.emplace_back(slides_backward ? parameters.size[along] - x :
+                                                   x,
+                                 state.loading_ratio);
+          }
+      }
+    std::vector<Sample> all;
+    for (const auto &part : Utilities::MPI::all_gather(communicator, samples))
+      all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end());
+
+    // Points of the two cells beside the line, at the same place, count as one.
+    std::vector<Sample> profile;
+    for (std::size_t i = 0; i < all.size();)
+      {
+        std::size_t n   = 0;
+        double      sum = 0.;
+        for (; i + n < all.size() &&
+               all[i + n].first - all[i].first < 1e-9 * parameters.size[along];
+             ++n)
+          sum += all[i + n].second;
+        profile.emplace_back(all[i].first, sum / n);
+        i += n;
+      }
+
+    for (std::size_t i = 1; i < profile.size(); ++i)
+      {
+        const double before = profile[i - 1].second - loading_ratio;
+        const double after  = profile[i].second - loading_ratio;
+        if ((before < 0.) == (after < 0.))
+          continue;
+        const double distance =
+          profile[i - 1].first +
+          (profile[i].first - profile[i - 1].first) * before / (before - after);
+        return slides_backward ? parameters.size[along] - distance : distance;
+      }
+    return QuantityOfInterest::undefined;
+  }
+
+
+
+  template class FaceProbes<2>;
+  template class FaceProbes<3>;
+} // namespace SlipStep

@@ -1,0 +1,50 @@
+// Quantities of interest of the contact face on all ranks against one rank.
+
+#include "../block_test_tools.h"
+
+#include <slipstep/solid/face_probes.h>
+
+#include <gtest/gtest.h>
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  std::vector<double> probes(const MPI_Comm &communicator)
+  {
+    const Parameters parameters = make_parameters(
+      {{"Loading/Programme",
+        "press 5.8 MPa in 1 s; slide 1 mm/s for 0.0015 mm"},
+       {"Block/Size", "10 mm, 5 mm, 10 mm"},
+       {"Block/Subdivisions", "4, 2, 3"},
+       {"Time stepping/Tolerance", "1e-3"},
+       {"Output/Quantities",
+        "pressure at (5 mm, 2.5 mm); pressure at (9.9 mm, 0.1 mm); slip front "
+        "at r = 0.9"}});
+    const Programme     programme = parse_programme(parameters);
+    std::vector<double> values;
+    const auto          result =
+      run_block_case<3>(parameters, communicator, [&](const Block<3> &block) {
+        values = FaceProbes<3>(BlockParameters(parameters, programme),
+                               programme,
+                               parse_quantities(parameters, programme))
+                   .values(block.contact_face(), communicator);
+      });
+    EXPECT_EQ(result.failure, "");
+    return values;
+  }
+} // namespace
+
+
+
+TEST(Probes, agree_on_any_number_of_ranks)
+{
+  const auto alone = probes(MPI_COMM_SELF), together = probes(MPI_COMM_WORLD);
+  ASSERT_EQ(together.size(), 3u);
+  for (unsigned int i = 0; i < 3; ++i)
+    {
+      EXPECT_TRUE(std::isfinite(alone[i])) << i;
+      EXPECT_NEAR(together[i], alone[i], 1e-7 * std::abs(alone[i])) << i;
+    }
+}
