@@ -8,9 +8,11 @@
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/report.h>
 #include <slipstep/experiment/run_options.h>
+#include <slipstep/experiment/run_recorder.h>
 #include <slipstep/experiment/sweep.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/solid/case.h>
+#include <slipstep/solid/refine_block.h>
 #include <slipstep/solid/run_block.h>
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
@@ -49,14 +51,6 @@ namespace SlipStep
 
 
     // ------------------------------------------------------------- messages
-
-    void warn(const std::vector<std::string> &warnings)
-    {
-      for (const std::string &warning : warnings)
-        std::cerr << "warning: " << warning << std::endl;
-    }
-
-
 
     // The first lines with something in them: deal.II's messages are pages.
     std::string essential_lines(const std::string &text,
@@ -188,135 +182,6 @@ namespace SlipStep
 
 
 
-    // ---------------------------------------------------------------- cases
-
-    Parameters declared_parameters()
-    {
-      Parameters parameters;
-      declare_all_parameters(parameters);
-      return parameters;
-    }
-
-
-
-    void apply_settings(const CommandLine &line, Parameters &parameters)
-    {
-      for (const auto &setting : line.settings)
-        parameters.set(setting.first, setting.second, "--set");
-    }
-
-
-
-    // A case with its complete parameter sets: one per variant, or one.
-    struct Case
-    {
-      Parameters              parameters;
-      std::vector<Variant>    variants;
-      std::vector<Parameters> complete;
-      /// With --variant: the one to run, which is then no sweep.
-      Variant selected;
-
-      bool is_sweep() const
-      {
-        return !variants.empty();
-      }
-    };
-
-
-
-    Variant find_variant(const std::vector<Variant> &variants,
-                         const std::string          &name,
-                         const fs::path             &file)
-    {
-      std::vector<std::string> labels;
-      for (const Variant &variant : variants)
-        {
-          if (variant.label == name || variant.folder == name)
-            return variant;
-          labels.push_back(variant.label);
-        }
-      throw InputError("--variant " + name + ": " + file.string() +
-                       " has no such variant" + did_you_mean(name, labels));
-    }
-
-
-
-    Case read_case(const fs::path &file, const CommandLine &line)
-    {
-      Parameters as_written = declared_parameters();
-      as_written.read(file);
-
-      Case result;
-      result.parameters = as_written;
-      apply_settings(line, result.parameters);
-      result.variants = result.parameters.variants();
-      if (!line.variant.empty())
-        {
-          result.selected   = find_variant(result.variants, line.variant, file);
-          result.parameters = as_written.with_variant(result.selected);
-          apply_settings(line, result.parameters);
-          result.variants.clear();
-        }
-
-      // Options go before variants, which go before the file.
-      for (const Variant &variant : result.variants)
-        {
-          result.complete.push_back(as_written.with_variant(variant));
-          apply_settings(line, result.complete.back());
-        }
-      if (!result.is_sweep())
-        result.complete.push_back(result.parameters);
-      return result;
-    }
-
-
-
-    void check_all(const Case &the_case)
-    {
-      output_folder(the_case.parameters);
-      for (unsigned int i = 0; i < the_case.complete.size(); ++i)
-        try
-          {
-            check_case(the_case.complete[i]);
-          }
-        catch (const InputError &error)
-          {
-            if (!the_case.is_sweep())
-              throw;
-            // A marked column follows in the second line.
-            std::string message = error.what();
-            message.insert(std::min(message.find('\n'), message.size()),
-                           " (variant \"" + the_case.variants[i].label + "\")");
-            throw InputError(message);
-          }
-    }
-
-
-
-    fs::path chosen_output(const Case &the_case, const CommandLine &line)
-    {
-      const fs::path output = line.output.empty() ?
-                                output_folder(the_case.parameters) :
-                                fs::path(line.output).lexically_normal();
-      return the_case.selected.folder.empty() ?
-               output :
-               output / the_case.selected.folder;
-    }
-
-
-
-    void check_output(const Case &the_case, const CommandLine &line)
-    {
-      const fs::path    output = chosen_output(the_case, line);
-      const std::string origin =
-        line.output.empty() ? "Output/Directory" : "--output";
-      check_output_folder(output, origin);
-      for (const Variant &variant : the_case.variants)
-        check_output_folder(output / variant.folder, origin);
-    }
-
-
-
     // ----------------------------------------------------------- run, point
 
     class Runner
@@ -405,7 +270,7 @@ namespace SlipStep
       if (summary.status == "failed")
         throw RunError(summary.reason);
       if (is_first_rank)
-        warn(summary.warnings);
+        print_warnings(summary.warnings);
     }
 
 
@@ -466,19 +331,13 @@ namespace SlipStep
       std::vector<SweepJob> jobs;
       for (const Variant &variant : the_case.variants)
         {
-          SweepJob job;
-          job.label     = variant.label;
-          job.arguments = {fs::read_symlink("/proc/self/exe").string(),
-                           line.command,
-                           line.files.front().string(),
-                           "--child",
-                           "--variant=" + variant.folder,
-                           "--output=" + output.string()};
+          jobs.push_back(child_job(line,
+                                   line.command,
+                                   variant.label,
+                                   output / variant.folder,
+                                   variant.folder));
           for (const std::string &setting : line.settings_as_typed)
-            job.arguments.push_back("--set=" + setting);
-          if (line.quiet)
-            job.arguments.push_back("--quiet");
-          jobs.push_back(job);
+            jobs.back().arguments.push_back("--set=" + setting);
           remove_earlier_results(output / variant.folder);
         }
       const std::vector<int> exit_codes =
@@ -516,12 +375,7 @@ namespace SlipStep
       for (const auto &entry : n_variants_without)
         if (entry.second >= the_case.complete.size())
           unused.insert(entry.first);
-      std::ofstream out(output / "used_parameters.prm");
-      relocated_case(the_case.parameters, output)
-        .print(out, Parameters::Format::prm, unused);
-      if (!out.flush())
-        throw RunError((output / "used_parameters.prm").string() +
-                       ": cannot be written (is the disk full?)");
+      write_used_parameters(the_case.parameters, output, unused);
     }
 
 
@@ -543,7 +397,7 @@ namespace SlipStep
         }
       if (runs.empty())
         return;
-      warn(write_report(output, the_case.parameters, runs));
+      print_warnings(write_report(output, the_case.parameters, runs));
       if (!line.quiet)
         std::cout << result_table(the_case.parameters, runs)
                   << "Report: " << (output / "report.html").string()
@@ -623,6 +477,8 @@ namespace SlipStep
         print_help(std::cout, line.command);
       else if (line.command == "check")
         return check_cases(line);
+      else if (line.command == "refine")
+        return guarded([&]() { return refine_block(line); });
       else if (line.command == "effects")
         return guarded([&]() {
           print_effects(std::cout, line.format == "md");

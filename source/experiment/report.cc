@@ -2,6 +2,7 @@
 
 #include <slipstep/experiment/report_data.h>
 #include <slipstep/experiment/report_figures.h>
+#include <slipstep/experiment/report_html.h>
 #include <slipstep/utilities/figure.h>
 #include <slipstep/utilities/version.h>
 
@@ -61,8 +62,6 @@ namespace SlipStep
 
   namespace
   {
-    using TableLine = std::vector<std::string>;
-
     /// Length in characters, not bytes.
     std::size_t text_width(const std::string &text)
     {
@@ -99,21 +98,6 @@ namespace SlipStep
             }
         }
       return text;
-    }
-
-    std::string html_table(const std::vector<TableLine> &lines,
-                           const std::string            &kind = "numbers")
-    {
-      std::string html = "<div class='scroll'><table class='" + kind + "'>\n";
-      for (std::size_t n = 0; n < lines.size(); ++n)
-        {
-          const std::string cell = n == 0 ? "th" : "td";
-          html += n == 0 ? "<thead><tr>" : "<tr>";
-          for (const std::string &text : lines[n])
-            html += "<" + cell + ">" + html_text(text) + "</" + cell + ">";
-          html += n == 0 ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
-        }
-      return html + "</tbody></table></div>\n";
     }
 
     bool is_reverse(const SlideSummary &slide)
@@ -259,6 +243,25 @@ namespace SlipStep
       return lines;
     }
 
+    /// The quantities of interest of all runs, if the case names any.
+    std::string quantities(const std::vector<RunResults> &runs)
+    {
+      if (runs[0].summary.quantities.empty())
+        return "";
+      std::vector<TableLine> lines = {{"run"}};
+      for (const QuantityValue &quantity : runs[0].summary.quantities)
+        lines[0].push_back(quantity.name + (quantity.unit.empty() ?
+                                              "" :
+                                              " [" + quantity.unit + "]"));
+      for (const RunResults &run : runs)
+        {
+          lines.push_back({run_name(run)});
+          for (const QuantityValue &quantity : run.summary.quantities)
+            lines.back().push_back(short_text(quantity.value, 6));
+        }
+      return "<h2>Quantities of interest</h2>\n" + html_table(lines);
+    }
+
     std::vector<TableLine> effect_lines(const Parameters &parameters,
                                         const RunResults &run)
     {
@@ -386,14 +389,6 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
       return html;
     }
 
-    std::string figure_element(const Picture &picture)
-    {
-      return "<h2>" + html_text(picture.title) + "</h2>\n<figure" +
-             (picture.is_map ? " class='map'" : "") + ">\n" + picture.svg +
-             "<figcaption>" + html_text(picture.caption) +
-             "</figcaption></figure>\n";
-    }
-
     /// All pictures; those of further runs are folded away.
     std::string figures(const std::vector<Picture> &pictures)
     {
@@ -469,6 +464,7 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
                      const Reference                &reference,
                      const std::vector<RunResults>  &runs,
                      const std::vector<Picture>     &pictures,
+                     const std::string              &study,
                      const std::vector<std::string> &warnings)
     {
       const auto         rows  = result_rows(runs, reference);
@@ -480,7 +476,7 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
            << "</title>\n<style>" << style << "</style>\n</head>\n<body>\n<h1>"
            << title << "</h1>\n<p class='headline'>"
            << html_text(headline(rows, reference)) << "</p>\n"
-           << problem_boxes(runs, warnings);
+           << problem_boxes(runs, warnings) << study;
       if (!rows.empty())
         html
           << html_table(result_lines(rows, reference, true))
@@ -490,7 +486,8 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
       if (!runs.empty())
         {
           html << "<h2>Energy</h2>\n"
-               << html_table(energy_lines(runs)) << "<h2>Cost</h2>\n"
+               << html_table(energy_lines(runs)) << quantities(runs)
+               << "<h2>Cost</h2>\n"
                << html_table(cost_lines(runs)) << "<h2>Friction law</h2>\n"
                << html_table(effect_lines(parameters, runs[0]), "values")
                << "<h2>Conditions</h2>\n"
@@ -510,7 +507,8 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
 
   std::vector<std::string> write_report(const std::filesystem::path &folder,
                                         const Parameters            &parameters,
-                                        const std::vector<ReportedRun> &runs)
+                                        const std::vector<ReportedRun> &runs,
+                                        const std::string              &study)
   {
     const Reference             reference(parameters);
     std::vector<std::string>    warnings;
@@ -522,7 +520,7 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
 
     const std::filesystem::path file = folder / "report.html";
     std::ofstream               out(file);
-    out << page(parameters, reference, results, pictures, warnings)
+    out << page(parameters, reference, results, pictures, study, warnings)
         << std::flush;
     if (!out)
       throw RunError(file.string() +

@@ -149,7 +149,9 @@ namespace SlipStep
     // The last two steps of a segment share what is left, so that no tiny one
     // remains.
     const double left = programme.segments()[segment].end_time - begin;
-    if (left <= full_step * (1. + 1e-9))
+    // The sum of many equal steps may miss the end by some round-off.
+    const double round_off = equal_steps > 0 ? 1e-3 : 1e-9;
+    if (left <= full_step * (1. + round_off))
       end = programme.segments()[segment].end_time;
     else if (left < 2. * full_step)
       end = begin + left / 2.;

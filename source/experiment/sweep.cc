@@ -352,6 +352,28 @@ namespace SlipStep
 
 
 
+  SweepJob child_job(const CommandLine           &line,
+                     const std::string           &command,
+                     const std::string           &label,
+                     const std::filesystem::path &output,
+                     const std::string           &variant)
+  {
+    SweepJob job;
+    job.label     = label;
+    job.arguments = {std::filesystem::read_symlink("/proc/self/exe").string(),
+                     command,
+                     line.files.front().string(),
+                     "--child",
+                     "--output=" + output.string()};
+    if (!variant.empty())
+      job.arguments.push_back("--variant=" + variant);
+    if (line.quiet)
+      job.arguments.push_back("--quiet");
+    return job;
+  }
+
+
+
   std::vector<int> run_side_by_side(const std::vector<SweepJob> &jobs,
                                     const std::string           &label,
                                     const bool                   quiet,

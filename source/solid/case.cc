@@ -1,15 +1,19 @@
 #include <slipstep/solid/case.h>
 
 #include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/refinement_study.h>
 #include <slipstep/experiment/report.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/step_control.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/face_probes.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -22,7 +26,124 @@ namespace SlipStep
     BlockParameters::declare_parameters(parameters);
     declare_output_parameters(parameters);
     declare_quantities(parameters);
+    RefinementStudy::declare_parameters(parameters);
     declare_report_parameters(parameters);
+  }
+
+
+
+  Parameters declared_parameters()
+  {
+    Parameters parameters;
+    declare_all_parameters(parameters);
+    return parameters;
+  }
+
+
+
+  void apply_settings(const CommandLine &line, Parameters &parameters)
+  {
+    for (const auto &setting : line.settings)
+      parameters.set(setting.first, setting.second, "--set");
+  }
+
+
+
+  namespace
+  {
+    Variant find_variant(const std::vector<Variant>  &variants,
+                         const std::string           &name,
+                         const std::filesystem::path &file)
+    {
+      std::vector<std::string> labels;
+      for (const Variant &variant : variants)
+        {
+          if (variant.label == name || variant.folder == name)
+            return variant;
+          labels.push_back(variant.label);
+        }
+      throw InputError("--variant " + name + ": " + file.string() +
+                       " has no such variant" + did_you_mean(name, labels));
+    }
+  } // namespace
+
+
+
+  Case read_case(const std::filesystem::path &file, const CommandLine &line)
+  {
+    Parameters as_written = declared_parameters();
+    as_written.read(file);
+
+    Case result;
+    result.parameters = as_written;
+    apply_settings(line, result.parameters);
+    result.variants = result.parameters.variants();
+    if (!line.variant.empty())
+      {
+        result.selected   = find_variant(result.variants, line.variant, file);
+        result.parameters = as_written.with_variant(result.selected);
+        apply_settings(line, result.parameters);
+        result.variants.clear();
+      }
+
+    // Options go before variants, which go before the file.
+    for (const Variant &variant : result.variants)
+      {
+        result.complete.push_back(as_written.with_variant(variant));
+        apply_settings(line, result.complete.back());
+      }
+    if (!result.is_sweep())
+      result.complete.push_back(result.parameters);
+    return result;
+  }
+
+
+
+  void check_all(const Case &the_case)
+  {
+    output_folder(the_case.parameters);
+    for (unsigned int i = 0; i < the_case.complete.size(); ++i)
+      try
+        {
+          check_case(the_case.complete[i]);
+        }
+      catch (const InputError &error)
+        {
+          if (!the_case.is_sweep())
+            throw;
+          // A marked column follows in the second line.
+          std::string message = error.what();
+          message.insert(std::min(message.find('\n'), message.size()),
+                         " (variant \"" + the_case.variants[i].label + "\")");
+          throw InputError(message);
+        }
+  }
+
+
+
+  std::filesystem::path chosen_output(const Case        &the_case,
+                                      const CommandLine &line)
+  {
+    const std::filesystem::path output =
+      line.output.empty() ?
+        output_folder(the_case.parameters) :
+        std::filesystem::path(line.output).lexically_normal();
+    // A child is told its own folder.
+    return the_case.selected.folder.empty() || line.is_child ?
+             output :
+             output / the_case.selected.folder;
+  }
+
+
+
+  void check_output(const Case &the_case, const CommandLine &line)
+  {
+    const std::filesystem::path output = chosen_output(the_case, line);
+    const std::string           origin =
+      line.output.empty() ? "Output/Directory" : "--output";
+    check_output_folder(output, origin);
+    for (const Variant &variant : the_case.variants)
+      check_output_folder(output / variant.folder, origin);
   }
 
 
@@ -35,6 +156,12 @@ namespace SlipStep
     const StepControl     control(parameters, programme, law);
     check_probes(parameters, block, parse_quantities(parameters, programme));
     check_report_parameters(parameters);
+    for (const std::string &path : parameters.paths("Refinement study/"))
+      if (parameters.text(path) != parameters.entry(path).default_value)
+        {
+          const RefinementStudy study(parameters);
+          break;
+        }
   }
 
 

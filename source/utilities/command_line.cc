@@ -8,6 +8,7 @@
 #include <boost/program_options.hpp>
 
 #include <algorithm>
+#include <iostream>
 #include <limits>
 
 namespace SlipStep
@@ -47,6 +48,19 @@ namespace SlipStep
          "CASE.prm",
          "the same law and loading on one contact point",
          "Like run, but without block and mesh: a matter of seconds.\n",
+         1,
+         1,
+         {"set", "output", "variant", "quiet"},
+         {}},
+        {"refine",
+         "CASE.prm",
+         "study the convergence with mesh and time step",
+         "Runs the case on the meshes and with the time steps of its section\n"
+         "\"Refinement study\", each in a process of its own, and compares the\n"
+         "quantities of interest (Output/Quantities): tables on the screen,\n"
+         "refinement.csv, and pictures of the error over unknowns and CPU time\n"
+         "in report.html. A run that fails is reported; the others go on. Of a\n"
+         "sweep, choose one member with --variant.\n",
          1,
          1,
          {"set", "output", "variant", "quiet"},
@@ -341,6 +355,14 @@ namespace SlipStep
     out << '\n'
         << visible_options(name)
         << "\nExit code: 0 done, 1 the run failed, 2 the input is wrong.\n";
+  }
+
+
+
+  void print_warnings(const std::vector<std::string> &warnings)
+  {
+    for (const std::string &warning : warnings)
+      std::cerr << "warning: " << warning << std::endl;
   }
 
 

@@ -48,7 +48,7 @@ namespace
         if (line.compare(0, expect.size(), expect) == 0)
           result.expected.push_back(line.substr(expect.size()));
         if (line.compare(0, command.size(), command) == 0)
-          for (const char *name : {"run", "point"})
+          for (const char *name : {"run", "point", "refine"})
             if (line.find(name) != std::string::npos)
               result.commands.push_back(name);
         if (line.find("# <- here") != std::string::npos)

@@ -28,10 +28,12 @@ namespace SlipStep
   /// and the data and gnuplot scripts behind each picture into
   /// `<folder>/report/`. Without gnuplot the data and scripts are still written
   /// and a warning is returned.
+  /// @param study HTML about all runs together, shown first
   /// @return warnings for the user
   std::vector<std::string> write_report(const std::filesystem::path &folder,
                                         const Parameters            &parameters,
-                                        const std::vector<ReportedRun> &runs);
+                                        const std::vector<ReportedRun> &runs,
+                                        const std::string &study = "");
 
   /// The table printed at the end: one row per slide and run: speed, peak,
   /// kinetic coefficient, reference, difference in %.

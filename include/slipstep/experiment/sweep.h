@@ -1,7 +1,10 @@
 #ifndef slipstep_experiment_sweep_h
 #define slipstep_experiment_sweep_h
 
+#include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/parameters.h>
+
+#include <filesystem>
 
 #include <string>
 #include <vector>
@@ -14,6 +17,16 @@ namespace SlipStep
     std::string              label;
     std::vector<std::string> arguments; ///< the first is the executable
   };
+
+  /// This program once more, for one run of many; options --set are to be
+  /// added.
+  /// @param output folder of the run
+  /// @param variant of the case, or ""
+  SweepJob child_job(const CommandLine           &line,
+                     const std::string           &command,
+                     const std::string           &label,
+                     const std::filesystem::path &output,
+                     const std::string           &variant);
 
   /// Run the jobs as child processes, side by side on the cores, and show one
   /// progress for all. What a child writes to stderr is passed on with its

@@ -1,13 +1,54 @@
 #ifndef slipstep_solid_case_h
 #define slipstep_solid_case_h
 
+#include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/parameters.h>
+
+#include <filesystem>
+#include <vector>
 
 namespace SlipStep
 {
   /// Declare the parameters of all rooms, in the order in which they are
   /// printed.
   void declare_all_parameters(Parameters &parameters);
+
+  /// All parameters with their defaults.
+  Parameters declared_parameters();
+
+  /// Take over the options --set.
+  /// @throws InputError
+  void apply_settings(const CommandLine &line, Parameters &parameters);
+
+  /// A case with its complete parameter sets: one per variant, or one.
+  struct Case
+  {
+    Parameters              parameters;
+    std::vector<Variant>    variants;
+    std::vector<Parameters> complete;
+    /// With --variant: the one to run, which is then no sweep.
+    Variant selected;
+
+    bool is_sweep() const
+    {
+      return !variants.empty();
+    }
+  };
+
+  /// @throws InputError
+  Case read_case(const std::filesystem::path &file, const CommandLine &line);
+
+  /// check_case() for all runs of a case.
+  /// @throws InputError naming the variant
+  void check_all(const Case &the_case);
+
+  /// Where the results of a case go; of one variant, its own folder.
+  std::filesystem::path chosen_output(const Case        &the_case,
+                                      const CommandLine &line);
+
+  /// check_output_folder() for all runs of a case.
+  /// @throws InputError
+  void check_output(const Case &the_case, const CommandLine &line);
 
   /// Read everything that a case says as run() and point() would, without
   /// computing.

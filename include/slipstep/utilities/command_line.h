@@ -36,6 +36,9 @@ namespace SlipStep
   /// @param command "" for the program's help
   void print_help(std::ostream &out, const std::string &command);
 
+  /// Tell the user on stderr, a line each.
+  void print_warnings(const std::vector<std::string> &warnings);
+
   /// "slipstep 0.1.0 (1a2b3c4)".
   std::string version_text();
 } // namespace SlipStep

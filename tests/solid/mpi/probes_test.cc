@@ -15,7 +15,10 @@ namespace
   {
     const Parameters parameters = make_parameters(
       {{"Loading/Programme",
-        "press 5.8 MPa in 1 s; slide 1 mm/s for 0.0015 mm"},
+        "press 5.8 MPa in 1 s; slide 1 mm/s for 0.0001 mm"},
+       {"Friction/Effects", ""},
+       {"Friction/Normal stiffness", "1e6"},
+       {"Friction/Tangential stiffness", "1e6"},
        {"Block/Size", "10 mm, 5 mm, 10 mm"},
        {"Block/Subdivisions", "4, 2, 3"},
        {"Time stepping/Tolerance", "1e-3"},

@@ -1,0 +1,81 @@
+#ifndef slipstep_experiment_refinement_study_h
+#define slipstep_experiment_refinement_study_h
+
+#include <slipstep/experiment/summary.h>
+#include <slipstep/utilities/parameters.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace SlipStep
+{
+  /// One run of a study: the case with a mesh or a time step of its own.
+  struct StudyRun
+  {
+    std::string label;  ///< "uniform 2", "equal steps 100"
+    std::string folder; ///< the same without blanks
+    /// Pairs (path, value) in which it differs from the case.
+    std::vector<std::pair<std::string, std::string>> settings;
+  };
+
+  /// Runs of increasing fineness.
+  struct StudySequence
+  {
+    enum class Kind
+    {
+      uniform,
+      adaptive,
+      time_step
+    };
+
+    Kind                  kind;
+    std::string           name; ///< "uniform", "adaptive", "equal steps"
+    std::vector<StudyRun> runs;
+  };
+
+  /// `slipstep refine`: which runs section "Refinement study" asks for.
+  class RefinementStudy
+  {
+  public:
+    static void declare_parameters(Parameters &parameters);
+
+    /// @throws InputError if there is nothing to study, or no reference
+    explicit RefinementStudy(const Parameters &parameters);
+
+    const std::vector<StudySequence> &sequences() const
+    {
+      return sequence_list;
+    }
+
+    /// The finer run that meshes are compared with, or none (label "").
+    const StudyRun &mesh_reference() const
+    {
+      return mesh_reference_run;
+    }
+
+    /// The same for time steps.
+    const StudyRun &time_reference() const
+    {
+      return time_reference_run;
+    }
+
+    /// All runs, references included, each once.
+    std::vector<StudyRun> runs() const;
+
+  private:
+    void add_uniform(const Parameters &parameters);
+    void add_time_steps(const Parameters &parameters);
+    void read_references(const Parameters &parameters);
+
+    std::vector<StudySequence> sequence_list;
+    StudyRun                   mesh_reference_run, time_reference_run;
+  };
+
+
+  /// The complete parameters of a run of a study.
+  Parameters parameters_of(const StudyRun &run, const Parameters &parameters);
+} // namespace SlipStep
+
+#endif

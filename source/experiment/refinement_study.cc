@@ -1,0 +1,261 @@
+#include <slipstep/experiment/refinement_study.h>
+
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace SlipStep
+{
+  namespace
+  {
+    const std::string section      = "Refinement study/";
+    const std::string time_section = "Time stepping/";
+
+    /// A kind of time steps: how a study names it, and the key that it varies.
+    struct StepKind
+    {
+      std::string name;
+      std::string key;
+    };
+
+    const std::vector<StepKind> step_kinds = {
+      {"equal steps", time_section + "Equal steps per statement"},
+      {"tolerance", time_section + "Tolerance"}};
+
+    std::string folder_name(std::string label)
+    {
+      for (char &c : label)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' &&
+            c != '-')
+          c = '_';
+      return label;
+    }
+
+    StudyRun
+    make_run(const std::string                                      &label,
+             const std::vector<std::pair<std::string, std::string>> &settings)
+    {
+      return {label, folder_name(label), settings};
+    }
+
+    /// The block's own mesh with the cells halved so many times.
+    StudyRun uniform_mesh(const Parameters  &parameters,
+                          const unsigned int level)
+    {
+      std::string subdivisions;
+      for (const std::string &cells : parameters.list("Block/Subdivisions"))
+        subdivisions +=
+          (subdivisions.empty() ? "" : ", ") +
+          std::to_string(dealii::Utilities::string_to_int(cells) << level);
+      return make_run("uniform " + std::to_string(level),
+                      {{"Block/Subdivisions", subdivisions}});
+    }
+
+    /// Say what is wrong with a value, as Parameters::set would.
+    void check_value(const Parameters  &parameters,
+                     const std::string &study_key,
+                     const std::string &key,
+                     const std::string &value)
+    {
+      try
+        {
+          parameters.check(key, value, "");
+        }
+      catch (const InputError &error)
+        {
+          parameters.reject(study_key, error.what());
+        }
+    }
+
+    /// "equal steps 50, 100, 200"
+    StudySequence read_time_steps(const Parameters  &parameters,
+                                  const std::string &study_key)
+    {
+      const std::string text = parameters.text(study_key);
+      for (const StepKind &kind : step_kinds)
+        {
+          if (text.rfind(kind.name + " ", 0) != 0)
+            continue;
+          StudySequence sequence;
+          sequence.kind = StudySequence::Kind::time_step;
+          sequence.name = kind.name;
+          for (const std::string &value : dealii::Utilities::split_string_list(
+                 text.substr(kind.name.size()), ','))
+            {
+              check_value(parameters, study_key, kind.key, value);
+              sequence.runs.push_back(
+                make_run(kind.name + " " + value, {{kind.key, value}}));
+            }
+          return sequence;
+        }
+      parameters.reject(study_key,
+                        "write the kind of steps and a list, e.g. 'equal steps "
+                        "50, 100, 200' or 'tolerance 1e-3, 1e-4, 1e-5'");
+    }
+
+    bool is_richardson(const std::string &text)
+    {
+      return text == "Richardson";
+    }
+  } // namespace
+
+
+
+  void RefinementStudy::declare_parameters(Parameters &parameters)
+  {
+    using namespace dealii::Patterns;
+    parameters.declare(
+      section + "Uniform meshes",
+      "4",
+      Integer(0, 12),
+      "For `slipstep refine`: number of uniform meshes. The first, 'uniform 0', "
+      "is that of section Block, each further one has twice as many cells in "
+      "every direction. 0 to 12; Richardson needs 3.");
+    parameters.declare(
+      section + "Mesh reference",
+      "Richardson",
+      Anything(),
+      "What the meshes are compared with: 'Richardson' extrapolates the last "
+      "three uniform ones with the order they show; 'uniform <number>' is a "
+      "finer run of its own.");
+    parameters.declare(
+      section + "Time steps",
+      "",
+      Anything(),
+      "Sequence of time steps on the mesh of section Block: 'equal steps 50, "
+      "100, 200' (see Time stepping/Equal steps per statement) or 'tolerance "
+      "1e-3, 1e-4, 1e-5', coarse to fine. Empty: none.");
+    parameters.declare(
+      section + "Time reference",
+      "Richardson",
+      Anything(),
+      "The same for time steps: 'Richardson', or a finer run, e.g. 'equal "
+      "steps 800'.");
+  }
+
+
+
+  RefinementStudy::RefinementStudy(const Parameters &parameters)
+  {
+    if (parameters.text("Output/Quantities").empty())
+      parameters.reject("Output/Quantities",
+                        "a refinement study needs quantities of interest, e.g. "
+                        "'friction force at 0.005 mm; peak coefficient'");
+    add_uniform(parameters);
+    add_time_steps(parameters);
+    if (sequence_list.empty())
+      parameters.reject(section + "Uniform meshes",
+                        "there is nothing to study: no meshes and no time "
+                        "steps");
+    read_references(parameters);
+  }
+
+
+
+  void RefinementStudy::add_uniform(const Parameters &parameters)
+  {
+    const unsigned int n = parameters.integer(section + "Uniform meshes");
+    StudySequence      sequence{StudySequence::Kind::uniform, "uniform", {}};
+    for (unsigned int level = 0; level < n; ++level)
+      sequence.runs.push_back(uniform_mesh(parameters, level));
+    if (n > 0)
+      sequence_list.push_back(sequence);
+  }
+
+
+
+  void RefinementStudy::add_time_steps(const Parameters &parameters)
+  {
+    const std::string key = section + "Time steps";
+    if (!parameters.text(key).empty())
+      sequence_list.push_back(read_time_steps(parameters, key));
+  }
+
+
+
+  void RefinementStudy::read_references(const Parameters &parameters)
+  {
+    const auto sequence_of = [this](const StudySequence::Kind kind) {
+      return std::find_if(sequence_list.begin(),
+                          sequence_list.end(),
+                          [kind](const StudySequence &sequence) {
+                            return sequence.kind == kind;
+                          });
+    };
+    const auto uniform    = sequence_of(StudySequence::Kind::uniform);
+    const auto time_step  = sequence_of(StudySequence::Kind::time_step);
+    const bool has_meshes = uniform != sequence_list.end();
+
+    const std::string mesh_key  = section + "Mesh reference";
+    const std::string mesh_text = parameters.text(mesh_key);
+    if (has_meshes && is_richardson(mesh_text))
+      {
+        if (uniform->runs.size() < 3)
+          parameters.reject(section + "Uniform meshes",
+                            "the reference by Richardson extrapolation needs "
+                            "3 meshes");
+      }
+    else if (has_meshes)
+      {
+        const std::string word = "uniform ";
+        const std::string rest =
+          mesh_text.substr(std::min(word.size(), mesh_text.size()));
+        if (mesh_text.rfind(word, 0) != 0 || rest.empty() ||
+            rest.find_first_not_of("0123456789") != std::string::npos ||
+            std::stoul(rest) > 12)
+          parameters.reject(mesh_key,
+                            "allowed are 'Richardson' and 'uniform <number>'" +
+                              did_you_mean(mesh_text, {"Richardson"}));
+        mesh_reference_run = uniform_mesh(parameters, std::stoul(rest));
+      }
+
+    const std::string time_key = section + "Time reference";
+    if (time_step == sequence_list.end())
+      return;
+    if (!is_richardson(parameters.text(time_key)))
+      {
+        const StudySequence finer = read_time_steps(parameters, time_key);
+        if (finer.runs.size() != 1)
+          parameters.reject(time_key, "this is one run: give one number");
+        time_reference_run = finer.runs.front();
+      }
+    else if (time_step->runs.size() < 3)
+      parameters.reject(section + "Time steps",
+                        "the reference by Richardson extrapolation needs 3 "
+                        "steps");
+  }
+
+
+
+  std::vector<StudyRun> RefinementStudy::runs() const
+  {
+    std::vector<StudyRun> result;
+    const auto            add = [&result](const StudyRun &run) {
+      if (!run.label.empty() &&
+          std::none_of(result.begin(), result.end(), [&](const auto &other) {
+            return other.folder == run.folder;
+          }))
+        result.push_back(run);
+    };
+    for (const StudySequence &sequence : sequence_list)
+      for (const StudyRun &run : sequence.runs)
+        add(run);
+    add(mesh_reference_run);
+    add(time_reference_run);
+    return result;
+  }
+
+
+
+  Parameters parameters_of(const StudyRun &run, const Parameters &parameters)
+  {
+    Parameters result = parameters;
+    for (const auto &setting : run.settings)
+      result.set(setting.first, setting.second, run.label);
+    return result;
+  }
+} // namespace SlipStep

@@ -1,0 +1,130 @@
+#include <slipstep/solid/refine_block.h>
+
+#include <slipstep/experiment/refinement_study.h>
+#include <slipstep/experiment/report.h>
+#include <slipstep/experiment/run_options.h>
+#include <slipstep/experiment/run_recorder.h>
+#include <slipstep/experiment/study_results.h>
+#include <slipstep/experiment/sweep.h>
+#include <slipstep/solid/case.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/process.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace SlipStep
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    // Checks all runs before the first is started.
+    void check_study(const RefinementStudy &study, const Parameters &parameters)
+    {
+      for (const StudyRun &run : study.runs())
+        try
+          {
+            const Parameters complete = parameters_of(run, parameters);
+            check_case(complete);
+            check_memory(complete, 1);
+          }
+        catch (const InputError &error)
+          {
+            throw InputError(std::string(error.what()) + " (run \"" +
+                             run.label + "\")");
+          }
+    }
+
+
+
+    std::vector<SweepJob> study_jobs(const RefinementStudy &study,
+                                     const CommandLine     &line,
+                                     const std::string     &variant,
+                                     const fs::path        &output)
+    {
+      std::vector<SweepJob> jobs;
+      for (const StudyRun &run : study.runs())
+        {
+          SweepJob job =
+            child_job(line, "run", run.label, output / run.folder, variant);
+          for (const auto &setting : run.settings)
+            job.arguments.push_back("--set=" + setting.first + "=" +
+                                    setting.second);
+          // What the study varies goes before what the user has set.
+          for (const auto &typed : line.settings)
+            if (std::none_of(run.settings.begin(),
+                             run.settings.end(),
+                             [&](const auto &setting) {
+                               return setting.first == typed.first;
+                             }))
+              job.arguments.push_back("--set=" + typed.first + "=" +
+                                      typed.second);
+          jobs.push_back(job);
+          remove_earlier_results(output / run.folder);
+        }
+      // The longest first, so that the cores are busy to the end.
+      std::reverse(jobs.begin(), jobs.end());
+      return jobs;
+    }
+
+
+
+    void report_study(const RefinementStudy &study,
+                      const Parameters      &parameters,
+                      const fs::path        &output,
+                      const bool             quiet)
+    {
+      const auto curves = study_curves(study, output);
+      write_study_csv(output / "refinement.csv", curves);
+      std::vector<ReportedRun> runs;
+      for (const StudyRun &run : study.runs())
+        if (fs::exists(output / run.folder / "history.csv"))
+          runs.push_back({run.label, output / run.folder});
+      if (runs.empty())
+        return;
+      fs::create_directories(output / "report");
+      std::vector<std::string> warnings;
+      const auto pictures = draw_study(output / "report", curves, warnings);
+      print_warnings(warnings);
+      print_warnings(
+        write_report(output, parameters, runs, study_html(curves, pictures)));
+      if (!quiet)
+        std::cout << study_tables(curves)
+                  << "\nReport: " << (output / "report.html").string()
+                  << std::endl;
+    }
+  } // namespace
+
+
+
+  int refine_block(const CommandLine &line)
+  {
+    if (is_under_mpirun())
+      throw InputError("slipstep refine starts its runs by itself: call it "
+                       "without mpirun");
+    const Case the_case = read_case(line.files.front(), line);
+    if (the_case.is_sweep())
+      throw InputError("slipstep refine studies one run, but " +
+                       line.files.front().string() +
+                       " is a sweep: choose a member with --variant \"" +
+                       the_case.variants.front().label + "\"");
+    const RefinementStudy study(the_case.parameters);
+    check_study(study, the_case.parameters);
+    const fs::path output = chosen_output(the_case, line);
+    check_output_folder(output,
+                        line.output.empty() ? "Output/Directory" : "--output");
+
+    create_output_folder(output);
+    remove_earlier_results(output);
+    write_used_parameters(the_case.parameters,
+                          output,
+                          FrictionLaw(the_case.parameters).inactive_sections());
+    const std::vector<int> exit_codes = run_side_by_side(
+      study_jobs(study, line, the_case.selected.folder, output),
+      the_case.parameters.case_file().stem().string(),
+      line.quiet);
+    report_study(study, the_case.parameters, output, line.quiet);
+    return *std::max_element(exit_codes.begin(), exit_codes.end());
+  }
+} // namespace SlipStep

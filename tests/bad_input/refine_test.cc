@@ -1,0 +1,175 @@
+// slipstep refine, from the command line to its files.
+
+#include <slipstep/experiment/summary.h>
+#include <slipstep/utilities/csv.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+#include <sstream>
+
+#include "slipstep_process.h"
+
+using namespace SlipStep;
+
+namespace
+{
+  // The strip of tests/solid/refinement_test.cc.
+  const double exact_force = 206e3 * 1e-3 * 0.00002 * std::tanh(3.);
+
+  const std::string strip =
+    "set Loading/Programme = press 1 MPa in 1 s; slide 1 mm/s for 0.00002 mm\n"
+    "set Output/Quantities = friction force at 0.00002 mm; pressure at 1.5 mm\n"
+    "set Output/Fields = none\n"
+    "set Time stepping/Equal steps per statement = 1\n"
+    "subsection Friction\n"
+    "  set Effects =\n"
+    "  set Static coefficient = 0.9\n"
+    "  set Tangential stiffness = 206\n"
+    "  set Normal stiffness = 1e6\n"
+    "end\n"
+    "subsection Block\n"
+    "  set Dimension = 2\n"
+    "  set Size = 3 mm, 0.001 mm\n"
+    "  set Subdivisions = 4, 1\n"
+    "  set Poisson ratio = 0\n"
+    "  set Faces/top = pressure programme; flat\n"
+    "  set Faces/right = drive\n"
+    "end\n"
+    "set Refinement study/Uniform meshes = 3\n";
+
+  std::string cell(const std::string &line, const unsigned int n)
+  {
+    std::istringstream in(line);
+    std::string        text;
+    for (unsigned int i = 0; i <= n; ++i)
+      std::getline(in, text, ',');
+    return text;
+  }
+
+  // A row of refinement.csv.
+  std::string row(const std::string &csv,
+                  const std::string &run,
+                  const std::string &quantity)
+  {
+    std::istringstream in(csv);
+    for (std::string line; std::getline(in, line);)
+      if (line.find("\"" + run + "\"") != std::string::npos &&
+          line.find("\"" + quantity + "\"") != std::string::npos)
+        return line;
+    return "";
+  }
+} // namespace
+
+
+
+TEST(Refine, finds_order_and_limit)
+{
+  const SlipstepProcess process;
+  process.write("strip.prm", strip);
+  const auto result = process.run({"refine", "strip.prm"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_TRUE(std::regex_search(
+    result.out,
+    std::regex("friction force at 0.00002 mm \\[N/mm\\], uniform: "
+               "reference .* \\(Richardson, order (1.9|2)")))
+    << result.out;
+  EXPECT_NE(result.out.find("report.html"), std::string::npos);
+
+  const std::string csv    = process.read("output/strip/refinement.csv");
+  const std::string force  = "friction force at 0.00002 mm";
+  const std::string finest = row(csv, "uniform 2", force);
+  EXPECT_EQ(cell(finest, 2), "finished") << csv;
+  EXPECT_EQ(cell(finest, 4), std::to_string(2 * 17 * 5));
+  EXPECT_NEAR(std::stod(cell(finest, 10)), exact_force, 1e-2 * exact_force);
+  EXPECT_NEAR(std::stod(cell(finest, 11)), exact_force, 1e-3 * exact_force);
+  EXPECT_NEAR(std::stod(cell(finest, 13)), 2., 0.2);
+  EXPECT_GT(std::stod(cell(row(csv, "uniform 0", force), 12)),
+            10. * std::stod(cell(finest, 12)));
+  // It is the same on all meshes: no order, and that is said.
+  EXPECT_NE(result.out.find("because the last two values agree"),
+            std::string::npos);
+
+  const Summary summary =
+    read_summary(process.folder() / "output/strip/uniform_1/summary.json");
+  ASSERT_EQ(summary.quantities.size(), 2u);
+  EXPECT_EQ(summary.quantities[0].name, force);
+  EXPECT_EQ(summary.quantities[0].unit, "N/mm");
+  EXPECT_GT(summary.cpu_time, 0.);
+  EXPECT_NE(process.read("output/strip/report.html").find("Convergence of the"),
+            std::string::npos);
+}
+
+
+
+TEST(Refine, time_steps_against_a_finer_run)
+{
+  const SlipstepProcess process;
+  process.write("strip.prm", strip);
+  const auto result =
+    process.run({"refine",
+                 "strip.prm",
+                 "--quiet",
+                 "--output=here",
+                 "--set=Friction/Effects=overstress",
+                 "--set=Friction/overstress/Viscosity=1e3",
+                 "--set=Friction/Static coefficient=0.002",
+                 "--set=Refinement study/Uniform meshes=0",
+                 "--set=Refinement study/Time steps=equal steps 20, 40",
+                 "--set=Refinement study/Time reference=equal steps 640"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "");
+  const std::string csv   = process.read("here/refinement.csv");
+  const std::string force = "friction force at 0.00002 mm";
+  const std::string fine  = row(csv, "equal steps 40", force);
+  EXPECT_EQ(cell(fine, 5), "80") << csv;
+  EXPECT_NEAR(std::stod(cell(fine, 13)), 1., 0.25) << csv;
+}
+
+
+
+// One mesh cannot write its files; the others go on.
+TEST(Refine, reports_a_run_that_fails)
+{
+  const SlipstepProcess process;
+  process.write("strip.prm", strip);
+  std::filesystem::create_directories(process.folder() / "output/strip");
+  process.write("output/strip/used_parameters.prm", "");
+  process.write("output/strip/uniform_1", "in the way");
+  const auto result = process.run({"refine", "strip.prm"});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_TRUE(std::regex_search(result.out,
+                                std::regex("uniform 1 failed: .*summary.json")))
+    << result.out;
+  const std::string csv   = process.read("output/strip/refinement.csv");
+  const std::string force = "friction force at 0.00002 mm";
+  EXPECT_EQ(cell(row(csv, "uniform 1", force), 2), "failed");
+  EXPECT_EQ(cell(row(csv, "uniform 2", force), 2), "finished");
+}
+
+
+
+TEST(Refine, refuses_a_sweep_but_takes_a_member)
+{
+  const SlipstepProcess process;
+  process.write("strip.prm",
+                strip + "subsection Sweep\n  set Key = Block/Degree\n"
+                        "  set Values = 1, 2\nend\n");
+  const auto refused = process.run({"refine", "strip.prm"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("choose a member with --variant"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
+
+  const auto taken =
+    process.run({"refine", "strip.prm", "--variant=Degree 2", "--quiet"});
+  ASSERT_EQ(taken.exit_code, 0) << taken.err;
+  const std::string csv = process.read("output/strip/Degree_2/refinement.csv");
+  EXPECT_NEAR(
+    std::stod(cell(row(csv, "uniform 1", "friction force at 0.00002 mm"), 13)),
+    4.,
+    0.3)
+    << csv;
+}
