@@ -47,7 +47,7 @@ namespace
       c.n_refinements,
       c.n_local,
       MPI_COMM_WORLD);
-    const double n = problem.dof_handler.n_dofs();
+    const double       n       = problem.dof_handler.n_dofs();
     const MPI_Comm     world   = MPI_COMM_WORLD;
     const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(world);
 
