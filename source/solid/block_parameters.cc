@@ -420,6 +420,10 @@ namespace SlipStep
 
   double BlockParameters::least_memory() const
   {
+    // Mesh, vectors and matrix-free data of a run took 500 bytes per unknown of
+    // Q2 elements, and more of Q1.
+    if (solver_for(n_unknowns()) == SolverType::multigrid)
+      return n_unknowns() * 400. / 1e6;
     // An unknown is coupled with those of 2^dim cells; in the interior of cells
     // of higher degree with fewer, hence the half.
     const double couplings =

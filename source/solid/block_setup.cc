@@ -201,10 +201,7 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::choose_solver()
   {
-    SolverType type = parameters.solver;
-    if (type == SolverType::automatic)
-      type = dof_handler.n_dofs() < 3000 ? SolverType::direct :
-                                           SolverType::multigrid;
+    const SolverType type = parameters.solver_for(dof_handler.n_dofs());
     if (type == SolverType::multigrid)
       system = make_multigrid_system<dim>(parameters,
                                           dof_handler,

@@ -107,7 +107,15 @@ namespace SlipStep
     /// overflow.
     double n_unknowns() const;
 
-    /// Memory [MB] that the stiffness matrix alone takes: less cannot do.
+    /// The solver that 'automatic' means for so many unknowns.
+    SolverType solver_for(const double n_unknowns) const
+    {
+      return solver != SolverType::automatic ? solver :
+             n_unknowns < 3000               ? SolverType::direct :
+                                               SolverType::multigrid;
+    }
+
+    /// Memory [MB] that the chosen solver needs at the very least.
     double least_memory() const;
 
     /// Area of the contact face [mm^2], in 2-D per mm of thickness.
