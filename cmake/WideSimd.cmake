@@ -66,9 +66,11 @@ else()
   list(APPEND SLIPSTEP_SIMD_OPTIONS "-I${folder}")
   if(slipstep_simd_width EQUAL 512)
     # The compiler warns about its own header of intrinsics.
+    set(SLIPSTEP_PROCESSOR "avx512f")
     list(APPEND SLIPSTEP_SIMD_OPTIONS -march=x86-64-v4 -mprefer-vector-width=512
          -Wno-maybe-uninitialized -Wno-uninitialized)
   elseif(slipstep_simd_width EQUAL 256)
+    set(SLIPSTEP_PROCESSOR "avx2")
     list(APPEND SLIPSTEP_SIMD_OPTIONS -march=x86-64-v3)
   endif()
   message(STATUS "Matrix-free units: SIMD of ${slipstep_simd_width} bits")

@@ -82,8 +82,26 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // A program built on one machine may be started on an older one.
+    void check_processor()
+    {
+#ifdef SLIPSTEP_PROCESSOR
+      if (!__builtin_cpu_supports(SLIPSTEP_PROCESSOR))
+        throw RunError("this program was built for processors with " +
+                       std::string(SLIPSTEP_PROCESSOR) +
+                       ", which this machine has not got: configure it with "
+                       "-DSLIPSTEP_SIMD=128");
+#endif
+    }
+  } // namespace
+
+
+
   Summary run_block(const Parameters &parameters, const RunOptions &options)
   {
+    check_processor();
     const FrictionLaw     law(parameters);
     const Programme       programme = parse_programme(parameters);
     const BlockParameters block_parameters(parameters, programme);
