@@ -16,7 +16,7 @@ using namespace SlipStep::Testing;
 
 namespace
 {
-  struct Case
+  struct Setup
   {
     unsigned int   degree        = 2;
     unsigned int   n_refinements = 3;
@@ -32,7 +32,8 @@ namespace
     return ResourceUsage::now().cpu_time;
   }
 
-  void measure(const Case &c, const SolverType type, const double most_unknowns)
+  void
+  measure(const Setup &c, const SolverType type, const double most_unknowns)
   {
     const double n_lines =
       c.degree * c.coarse_cells * std::pow(2., c.n_refinements) + 1.;
@@ -116,7 +117,7 @@ int main(int argc, char *argv[])
     for (const unsigned int refinements : {3, 4, 5, 6})
       for (const unsigned int coarse_cells : {1, 3})
         {
-          Case c;
+          Setup c;
           c.degree        = degree;
           c.n_refinements = refinements + 1 - degree - coarse_cells / 3 + 1;
           c.coarse_cells  = coarse_cells;
@@ -127,7 +128,7 @@ int main(int argc, char *argv[])
   for (const auto pattern : {ContactPattern::stick, ContactPattern::mixed})
     for (const double stiffness : {1e4, 1e5, 1e6})
       {
-        Case c;
+        Setup c;
         c.n_refinements = 4;
         c.pattern       = pattern;
         c.stiffness     = stiffness;
@@ -136,7 +137,7 @@ int main(int argc, char *argv[])
   // Hanging nodes.
   for (const unsigned int n_local : {1, 2, 3})
     {
-      Case c;
+      Setup c;
       c.n_local       = n_local;
       c.n_refinements = 4;
       c.pattern       = ContactPattern::mixed;
@@ -145,7 +146,7 @@ int main(int argc, char *argv[])
   // Flat cells.
   for (const double height : {10. / 2., 10. / 3.})
     {
-      Case c;
+      Setup c;
       c.height        = height;
       c.n_refinements = 4;
       c.pattern       = ContactPattern::mixed;
