@@ -7,6 +7,11 @@
 #include <deal.II/numerics/vector_tools.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace SlipStep
 {
@@ -83,7 +88,85 @@ namespace SlipStep
                 }
           }
     }
+    using Line =
+      std::tuple<types::global_dof_index,
+                 double,
+                 std::vector<std::pair<types::global_dof_index, double>>>;
+
+    std::vector<Line>
+    lines_of(const std::vector<types::global_dof_index> &indices,
+             const AffineConstraints<double>            &constraints)
+    {
+      std::vector<Line> lines;
+      for (const auto index : indices)
+        if (constraints.is_constrained(index))
+          lines.emplace_back(index,
+                             constraints.get_inhomogeneity(index),
+                             *constraints.get_constraint_entries(index));
+      return lines;
+    }
+
+
+
+    // A hanging node may depend on a node which itself hangs on a cell that
+    // this rank does not see: what constrains an unknown is known to its owner
+    // only.
+    template <int dim>
+    void ask_owners(const DoFHandler<dim>     &dof_handler,
+                    AffineConstraints<double> &constraints)
+    {
+      const MPI_Comm  communicator = dof_handler.get_communicator();
+      const IndexSet &owned        = dof_handler.locally_owned_dofs();
+      std::set<types::global_dof_index> asked;
+      for (;;)
+        {
+          IndexSet to_ask(owned.size());
+          for (const auto &line : constraints.get_lines())
+            for (const auto &entry : line.entries)
+              if (!owned.is_element(entry.first) &&
+                  constraints.get_local_lines().is_element(entry.first) &&
+                  !constraints.is_constrained(entry.first) &&
+                  asked.insert(entry.first).second)
+                to_ask.add_index(entry.first);
+          if (Utilities::MPI::max(to_ask.n_elements(), communicator) == 0)
+            return;
+
+          const auto owners =
+            Utilities::MPI::compute_index_owner(owned, to_ask, communicator);
+          std::map<unsigned int, std::vector<types::global_dof_index>>
+                       questions;
+          unsigned int i = 0;
+          for (const auto index : to_ask)
+            questions[owners[i++]].push_back(index);
+          std::map<unsigned int, std::vector<Line>> answers;
+          for (const auto &question :
+               Utilities::MPI::some_to_some(communicator, questions))
+            answers[question.first] = lines_of(question.second, constraints);
+          for (const auto &answer :
+               Utilities::MPI::some_to_some(communicator, answers))
+            for (const Line &line : answer.second)
+              {
+                constraints.add_line(std::get<0>(line));
+                constraints.add_entries(std::get<0>(line), std::get<2>(line));
+                constraints.set_inhomogeneity(std::get<0>(line),
+                                              std::get<1>(line));
+              }
+        }
+    }
   } // namespace
+
+
+
+  template <int dim>
+  void constrain_hanging_nodes(const DoFHandler<dim>     &dof_handler,
+                               const IndexSet            &relevant,
+                               AffineConstraints<double> &constraints)
+  {
+    constraints.reinit(relevant);
+    DoFTools::make_hanging_node_constraints(dof_handler, constraints);
+    ask_owners(dof_handler, constraints);
+    constraints.close();
+  }
 
 
 
@@ -98,31 +181,58 @@ namespace SlipStep
     DoFTools::make_hanging_node_constraints(dof_handler, constraints);
     prescribe(parameters, dof_handler, frame, constraints);
     flatten(parameters, dof_handler, constraints);
+    ask_owners(dof_handler, constraints);
     constraints.close();
   }
 
 
 
+  void move_to_masters(const AffineConstraints<double>            &constraints,
+                       LinearAlgebra::distributed::Vector<double> &forces)
+  {
+    const IndexSet owned = forces.locally_owned_elements();
+    for (const auto &line : constraints.get_lines())
+      if (owned.is_element(line.index))
+        {
+          const double value = forces(line.index);
+          forces(line.index) = 0.;
+          for (const auto &entry : line.entries)
+            forces(entry.first) += entry.second * value;
+        }
+    forces.compress(VectorOperation::add);
+  }
+
+
+
   // Every rank that has a part of a flat face needs the one unknown to which
-  // all others are tied; asking the constraints tells which.
+  // all others are tied, and whoever has a hanging node those on which it
+  // depends; asking the constraints tells which.
   template <int dim>
   IndexSet relevant_dofs(const BlockParameters &parameters,
                          const DoFHandler<dim> &dof_handler)
   {
     IndexSet relevant;
     DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-    AffineConstraints<double> probe;
-    constrain_displacements(
-      parameters, dof_handler, relevant, Tensor<1, 2>(), probe);
-    std::vector<types::global_dof_index> masters;
-    for (const auto &line : probe.get_lines())
-      for (const auto &entry : line.entries)
-        masters.push_back(entry.first);
-    std::sort(masters.begin(), masters.end());
-    relevant.add_indices(masters.begin(),
-                         std::unique(masters.begin(), masters.end()));
-    relevant.compress();
-    return relevant;
+    for (;;)
+      {
+        AffineConstraints<double> all, hanging;
+        constrain_displacements(
+          parameters, dof_handler, relevant, Tensor<1, 2>(), all);
+        constrain_hanging_nodes(dof_handler, relevant, hanging);
+        std::vector<types::global_dof_index> masters;
+        for (const auto *constraints : {&all, &hanging})
+          for (const auto &line : constraints->get_lines())
+            for (const auto &entry : line.entries)
+              if (!relevant.is_element(entry.first))
+                masters.push_back(entry.first);
+        if (Utilities::MPI::max(masters.size(),
+                                dof_handler.get_communicator()) == 0)
+          return relevant;
+        std::sort(masters.begin(), masters.end());
+        relevant.add_indices(masters.begin(),
+                             std::unique(masters.begin(), masters.end()));
+        relevant.compress();
+      }
   }
 
 
@@ -131,6 +241,12 @@ namespace SlipStep
                                   const DoFHandler<2> &);
   template IndexSet relevant_dofs(const BlockParameters &,
                                   const DoFHandler<3> &);
+  template void     constrain_hanging_nodes(const DoFHandler<2> &,
+                                            const IndexSet &,
+                                            AffineConstraints<double> &);
+  template void     constrain_hanging_nodes(const DoFHandler<3> &,
+                                            const IndexSet &,
+                                            AffineConstraints<double> &);
   template void     constrain_displacements(const BlockParameters &,
                                             const DoFHandler<2> &,
                                             const IndexSet &,

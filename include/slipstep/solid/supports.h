@@ -4,16 +4,32 @@
 #include <deal.II/dofs/dof_handler.h>
 
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/la_parallel_vector.h>
 
 #include <slipstep/solid/block_parameters.h>
 
 namespace SlipStep
 {
   /// Unknowns that this rank must know: those of its own cells and their
-  /// neighbours, and those to which the points of flat faces are tied.
+  /// neighbours, and those to which hanging nodes and the points of flat faces
+  /// are tied.
   template <int dim>
   dealii::IndexSet relevant_dofs(const BlockParameters         &parameters,
                                  const dealii::DoFHandler<dim> &dof_handler);
+
+  /// Hanging nodes only. Closed.
+  /// @param relevant from relevant_dofs()
+  template <int dim>
+  void constrain_hanging_nodes(const dealii::DoFHandler<dim>     &dof_handler,
+                               const dealii::IndexSet            &relevant,
+                               dealii::AffineConstraints<double> &constraints);
+
+  /// Move forces from tied unknowns to those on which they depend, by the
+  /// principle of virtual work. Forces at fixed unknowns vanish.
+  /// @param forces compressed; ghosted as relevant_dofs() says
+  void
+  move_to_masters(const dealii::AffineConstraints<double> &constraints,
+                  dealii::LinearAlgebra::distributed::Vector<double> &forces);
 
   /// Everything that ties displacements: hanging nodes, prescribed values and
   /// flat faces. Closed.
