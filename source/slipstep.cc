@@ -232,9 +232,10 @@ namespace SlipStep
     RunOptions Runner::options(const unsigned int number) const
     {
       RunOptions result;
-      result.quiet  = line.quiet || !is_first_rank;
-      result.output = output;
-      result.label  = the_case.selected.label;
+      result.quiet             = line.quiet || !is_first_rank;
+      result.output            = output;
+      result.label             = the_case.selected.label;
+      result.inactive_sections = inactive_sections(the_case.complete[number]);
       if (the_case.is_sweep())
         {
           result.label = the_case.variants[number].label;
@@ -352,7 +353,7 @@ namespace SlipStep
 
     // The sweep as a whole, re-runnable. Values for an effect that is off would
     // be an error: its section is left out if it is off in all variants, or in
-    // one that takes its effects from the case.
+    // one that takes its effects from the case. The same holds for adaptivity.
     void Runner::write_case_parameters() const
     {
       create_output_folder(output);
@@ -360,16 +361,21 @@ namespace SlipStep
       for (unsigned int i = 0; i < the_case.complete.size(); ++i)
         {
           const auto &overrides = the_case.variants[i].overrides;
-          const bool  has_own_effects =
-            std::any_of(overrides.begin(),
-                        overrides.end(),
-                        [](const auto &own) {
-                          return own.path == "Friction/Effects";
-                        });
+          const auto  has_own   = [&](const std::string &path) {
+            return std::any_of(overrides.begin(),
+                               overrides.end(),
+                               [&](const auto &own) {
+                                 return own.path == path;
+                               });
+          };
           for (const std::string &section :
-               FrictionLaw(the_case.complete[i]).inactive_sections())
+               inactive_sections(the_case.complete[i]))
             n_variants_without[section] +=
-              has_own_effects ? 1 : the_case.complete.size();
+              has_own(section.compare(0, 6, "Block/") == 0 ?
+                        "Block/Refinement" :
+                        "Friction/Effects") ?
+                1 :
+                the_case.complete.size();
         }
       std::set<std::string> unused;
       for (const auto &entry : n_variants_without)
@@ -445,7 +451,7 @@ namespace SlipStep
                        line.format == "md"   ? Parameters::Format::markdown :
                                                Parameters::Format::prm,
                        {},
-                       FrictionLaw(parameters).inactive_sections());
+                       inactive_sections(parameters));
       return done;
     }
 

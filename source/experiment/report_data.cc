@@ -22,6 +22,7 @@ namespace SlipStep
                                                    "y_mm",
                                                    "cell_size_x_mm",
                                                    "cell_size_y_mm",
+                                                   "area_mm2",
                                                    "pressure_MPa",
                                                    "slip_mm"};
 

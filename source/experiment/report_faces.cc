@@ -33,9 +33,15 @@ namespace SlipStep
         std::max(std::abs(range.lower), std::abs(range.upper));
       if (range.width() < 0.02 * size)
         {
-          double mean = 0.;
-          for (const double value : face[column])
-            mean += value / face.size();
+          // Cells differ in size.
+          const auto &areas = face["area_mm2"];
+          double      mean = 0., area = 0.;
+          for (std::size_t i = 0; i < face.size(); ++i)
+            {
+              mean += areas[i] * face[column][i];
+              area += areas[i];
+            }
+          mean /= area;
           field.offset = mean;
           field.factor = 1e3;
           field.label  = name + " − " + short_text(mean, 5) + " " + unit +

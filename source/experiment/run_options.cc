@@ -103,7 +103,8 @@ namespace SlipStep
   void remove_earlier_results(const fs::path &folder)
   {
     std::error_code error;
-    for (const char *name : {"history.csv", "summary.json", "report.html"})
+    for (const char *name :
+         {"history.csv", "summary.json", "report.html", "refinement.csv"})
       fs::remove(folder / name, error);
   }
 } // namespace SlipStep

@@ -66,7 +66,10 @@ namespace SlipStep
     summary.effects   = law.effects();
     if (!is_writer)
       return;
-    write_used_parameters(parameters, options.output, law.inactive_sections());
+    std::set<std::string> inactive = law.inactive_sections();
+    inactive.insert(options.inactive_sections.begin(),
+                    options.inactive_sections.end());
+    write_used_parameters(parameters, options.output, inactive);
     write_summary(options.output / "summary.json", summary);
     std::vector<std::string> probes;
     if (command == "run")
@@ -101,6 +104,8 @@ namespace SlipStep
       text << 1e3 * row.displacement << " µm";
     else
       text << std::round(1e3 * row.displacement) / 1e3 << " mm";
+    if (!note.empty())
+      text << ", " << note;
     progress.update(work.share_done(row.time), text.str());
   }
 

@@ -179,17 +179,32 @@ namespace SlipStep
 
 
 
-  bool StepControl::accept(const double error, const double strength)
+  double StepControl::relative_error(const double error,
+                                     const double strength) const
   {
-    const double relative_error =
-      error / std::max({strength, nominal_strength, 1e-300});
-    const double step = step_size();
-    const double ideal =
-      0.9 * std::sqrt(tolerance / std::max(relative_error, 1e-30));
-    // Written so that an undefined error is refused, too.
+    return error / std::max({strength, nominal_strength, 1e-300});
+  }
+
+
+
+  // Written so that an undefined error is refused, too.
+  bool StepControl::would_accept(const double error,
+                                 const double strength) const
+  {
     const double allowed =
       equal_steps > 0 ? std::numeric_limits<double>::max() : 1.5 * tolerance;
-    if (!(relative_error <= allowed))
+    return relative_error(error, strength) <= allowed;
+  }
+
+
+
+  bool StepControl::accept(const double error, const double strength)
+  {
+    const double step = step_size();
+    const double ideal =
+      0.9 *
+      std::sqrt(tolerance / std::max(relative_error(error, strength), 1e-30));
+    if (!would_accept(error, strength))
       {
         shrink(step * std::max(0.2, std::min(ideal, 0.7)),
                "the friction law asks for a smaller one than the clock "

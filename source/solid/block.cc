@@ -1,5 +1,6 @@
 #include <slipstep/solid/block.h>
 
+#include <slipstep/solid/supports.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <deal.II/fe/fe_q.h>
@@ -32,6 +33,7 @@ namespace SlipStep
     , dof_handler(triangulation)
     , contact(parameters, law)
     , control(control)
+    , marker(parameters)
   {
     make_grid();
     setup_system();
@@ -41,10 +43,11 @@ namespace SlipStep
 
   // @sect3{The programme, step by step}
 
-  // Every step ends in one of three ways: Newton's method fails and the step is
+  // Every step ends in one of four ways: Newton's method fails and the step is
   // cut; the friction law finds the step too coarse and it is repeated smaller;
-  // or it is accepted, the contact points commit their states, and the
-  // displacements move one place back.
+  // the solution asks for a finer mesh and the step is repeated on it; or it is
+  // accepted, the contact points commit their states, and the displacements
+  // move one place back.
   template <int dim>
   void Block<dim>::run(BlockOutput<dim>                              *output,
                        const std::function<void(const HistoryRow &)> &observe)
@@ -52,7 +55,8 @@ namespace SlipStep
     old_loading = programme.at(0.);
     while (!control.is_finished())
       {
-        loading = programme.at(control.end_of_step());
+        loading    = programme.at(control.end_of_step());
+        trial_step = control.step_size();
         predict();
         if (!solve_step())
           {
@@ -64,7 +68,11 @@ namespace SlipStep
         const ContactTotals totals    = contact.totals(communicator);
         const double        step_size = control.step_size();
         const double        area      = std::max(totals.area, 1e-300);
-        if (!control.accept(totals.error / area, totals.limit_load / area))
+        const double        error     = totals.error / area;
+        const double        strength  = totals.limit_load / area;
+        if (control.would_accept(error, strength) && adapt_to_trial(output))
+          continue;
+        if (!control.accept(error, strength))
           {
             solution = old_solution;
             continue;
@@ -85,6 +93,7 @@ namespace SlipStep
                                row.time,
                                control.is_first_of_statement(),
                                control.is_finished());
+        adapt_after_step(output);
       }
   }
 
@@ -103,6 +112,14 @@ namespace SlipStep
         const double factor = control.step_size() / old_step;
         solution.sadd(1. + factor, -factor, older_solution);
       }
+    impose_displacements();
+  }
+
+
+
+  template <int dim>
+  void Block<dim>::impose_displacements()
+  {
     constrain(solution);
     solution.add(1., prescribed);
     for (unsigned int i = 0; i < dim - 1; ++i)
@@ -213,8 +230,9 @@ namespace SlipStep
 
 
   // Internal minus external forces. They are summed first for all unknowns,
-  // supported or not, since the sums over supports are their reactions. For
-  // Newton's method the entries of constrained unknowns are then moved to the
+  // supported or not, since the sums over supports are their reactions; forces
+  // at hanging nodes belong to the nodes on which they hang. For Newton's
+  // method the entries of all constrained unknowns are then moved to the
   // unknowns that they depend on.
   template <int dim>
   double Block<dim>::compute_residual()
@@ -222,7 +240,7 @@ namespace SlipStep
     contact.update(solution,
                    old_solution,
                    loading.displacement - old_loading.displacement,
-                   control.step_size());
+                   trial_step);
     unbalanced = 0.;
     contact.add_forces(unbalanced);
     unbalanced.compress(VectorOperation::add);
@@ -231,6 +249,7 @@ namespace SlipStep
     system->add_elastic_forces(solution, unbalanced);
     unbalanced.compress(VectorOperation::add);
     unbalanced.add(-1., constant_load, -loading.pressure, unit_pressure_load);
+    move_to_masters(hanging_constraints, unbalanced);
     force_scale =
       std::max({force_scale,
                 constant_load.l2_norm(),
@@ -239,15 +258,7 @@ namespace SlipStep
 
     right_hand_side = 0.;
     right_hand_side.add(-1., unbalanced);
-    for (const auto &line : homogeneous_constraints.get_lines())
-      if (dof_handler.locally_owned_dofs().is_element(line.index))
-        {
-          const double value = -unbalanced(line.index);
-          right_hand_side(line.index) -= value;
-          for (const auto &entry : line.entries)
-            right_hand_side(entry.first) += entry.second * value;
-        }
-    right_hand_side.compress(VectorOperation::add);
+    move_to_masters(homogeneous_constraints, right_hand_side);
     return right_hand_side.l2_norm();
   }
 

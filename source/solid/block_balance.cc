@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace SlipStep
@@ -145,12 +146,28 @@ namespace SlipStep
     summary.rejected_steps    = control.n_rejected();
     summary.newton_iterations = n_newton_total;
     summary.linear_iterations = n_linear_total;
+    summary.warnings.clear();
     if (smallest_contact_share < 0.99)
-      summary.warnings = {
+      summary.warnings.push_back(
         "part of the contact face lifted off the plane: at worst " +
         std::to_string(std::lround(100. * smallest_contact_share)) +
         " % of it stayed in contact (friction turns a block that is high for "
-        "its length)"};
+        "its length)");
+    if (most_cells_wanted > 0.)
+      summary.warnings.push_back(
+        "the mesh reached the limit set in section Block/Adaptivity: at worst " +
+        std::to_string(std::llround(most_cells_wanted)) +
+        " more cells were wanted than are allowed");
+    if (largest_jump > 1e-3)
+      {
+        std::ostringstream message;
+        message << "the friction force jumped by up to " << std::setprecision(2)
+                << 100. * largest_jump
+                << " % when the mesh changed (see refinement.csv); a smaller "
+                   "'Tolerance' in section Block/Adaptivity or more "
+                   "subdivisions make it smoother";
+        summary.warnings.push_back(message.str());
+      }
   }
 
 

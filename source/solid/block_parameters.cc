@@ -209,6 +209,7 @@ namespace SlipStep
                        "4, 4, 4",
                        List(Integer(1, 100000), 2, 3),
                        "Number of cells along x, y (and z). 1 or more each.");
+    RefinementParameters::declare_parameters(parameters);
     parameters.declare(
       "Block/Degree",
       "1",
@@ -276,6 +277,7 @@ namespace SlipStep
   BlockParameters::BlockParameters(const Parameters &parameters,
                                    const Programme  &programme)
     : dimension(parameters.integer("Block/Dimension"))
+    , refinement(parameters)
     , degree(parameters.integer("Block/Degree"))
     , young_modulus(parameters.number("Block/Young modulus"))
     , poisson_ratio(parameters.number("Block/Poisson ratio"))
@@ -305,7 +307,14 @@ namespace SlipStep
         message << "these are " << n_unknowns()
                 << " unknowns, more than the program can number; take fewer "
                    "cells";
-        parameters.reject("Block/Subdivisions", message.str());
+        parameters.reject(key_of_cells(), message.str());
+      }
+    if (refinement.type == RefinementType::adaptive &&
+        n_cells() > refinement.most_cells)
+      {
+        std::ostringstream message;
+        message << "the subdivisions alone are " << n_cells() << " cells";
+        parameters.reject("Block/Adaptivity/Most cells", message.str());
       }
 
     unsigned int n_contact = 0, n_driven = 0, n_pressed = 0;
@@ -408,28 +417,49 @@ namespace SlipStep
 
 
 
-  double BlockParameters::n_unknowns() const
+  double BlockParameters::n_cells() const
   {
-    double n = dimension;
+    double n = 1.;
     for (unsigned int d = 0; d < dimension; ++d)
-      n *= 1. + static_cast<double>(degree) * subdivisions[d];
+      n *= static_cast<double>(refinement.initial_cells_per_subdivision()) *
+           subdivisions[d];
     return n;
   }
 
 
 
-  double BlockParameters::least_memory() const
+  double BlockParameters::n_unknowns() const
+  {
+    double n = dimension;
+    for (unsigned int d = 0; d < dimension; ++d)
+      n *= 1. + static_cast<double>(degree) *
+                  refinement.initial_cells_per_subdivision() * subdivisions[d];
+    return n;
+  }
+
+
+
+  double BlockParameters::least_memory(const double n_unknowns) const
   {
     // Mesh, vectors and matrix-free data of a run took 500 bytes per unknown of
     // Q2 elements, and more of Q1.
-    if (solver_for(n_unknowns()) == SolverType::multigrid)
-      return n_unknowns() * 400. / 1e6;
+    if (solver_for(n_unknowns) == SolverType::multigrid)
+      return n_unknowns * 400. / 1e6;
     // An unknown is coupled with those of 2^dim cells; in the interior of cells
     // of higher degree with fewer, hence the half.
     const double couplings =
       0.5 * dimension * std::pow(2. * degree + 1., dimension);
-    return n_unknowns() * couplings *
+    return n_unknowns * couplings *
            (sizeof(double) + sizeof(dealii::types::global_dof_index)) / 1e6;
+  }
+
+
+
+  std::string BlockParameters::key_of_cells() const
+  {
+    return refinement.initial_cells_per_subdivision() > 1 ?
+             "Block/Refinement" :
+             "Block/Subdivisions";
   }
 
 

@@ -37,7 +37,10 @@ namespace SlipStep
         n /= 2;
     GridGenerator::subdivided_hyper_rectangle(
       triangulation, subdivisions, Point<dim>(), upper, true);
-    triangulation.refine_global(least_level);
+    triangulation.refine_global(
+      least_level + (parameters.refinement.type == RefinementType::uniform ?
+                       parameters.refinement.levels :
+                       0));
   }
 
 
@@ -64,6 +67,7 @@ namespace SlipStep
   {
     dof_handler.distribute_dofs(fe);
     relevant = relevant_dofs(parameters, dof_handler);
+    constrain_hanging_nodes(dof_handler, relevant, hanging_constraints);
     solution.reinit(dof_handler.locally_owned_dofs(), relevant, communicator);
     for (Vector *vector : {&old_solution,
                            &older_solution,
@@ -139,6 +143,8 @@ namespace SlipStep
   {
     for (unsigned int d = 0; d < dim; ++d)
       {
+        dofs_of_component[d].clear();
+        supported_dofs[d].clear();
         ComponentMask mask(dim, false);
         mask.set(d, true);
         DoFTools::extract_dofs(dof_handler, mask)

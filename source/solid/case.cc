@@ -32,6 +32,15 @@ namespace SlipStep
 
 
 
+  std::set<std::string> inactive_sections(const Parameters &parameters)
+  {
+    auto sections = FrictionLaw(parameters).inactive_sections();
+    sections.merge(RefinementParameters::inactive_sections(parameters));
+    return sections;
+  }
+
+
+
   Parameters declared_parameters()
   {
     Parameters parameters;
@@ -179,6 +188,6 @@ namespace SlipStep
             << " unknowns need at least " << block.least_memory() / 1e3
             << " GB of memory, more than the " << installed / 1e3
             << " GB of this machine; take fewer cells";
-    parameters.reject("Block/Subdivisions", message.str());
+    parameters.reject(block.key_of_cells(), message.str());
   }
 } // namespace SlipStep

@@ -129,6 +129,16 @@ namespace SlipStep
 
 
   template <int dim>
+  void ContactFace<dim>::revert()
+  {
+    for (CellFace &cell_face : faces)
+      for (QuadraturePoint &point : cell_face.points)
+        point.point.revert();
+  }
+
+
+
+  template <int dim>
   void ContactFace<dim>::set_states(const unsigned int               index,
                                     const std::vector<ContactState> &states)
   {

@@ -119,7 +119,7 @@ namespace SlipStep
     remove_earlier_results(output);
     write_used_parameters(the_case.parameters,
                           output,
-                          FrictionLaw(the_case.parameters).inactive_sections());
+                          inactive_sections(the_case.parameters));
     const std::vector<int> exit_codes = run_side_by_side(
       study_jobs(study, line, the_case.selected.folder, output),
       the_case.parameters.case_file().stem().string(),

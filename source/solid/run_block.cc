@@ -59,6 +59,8 @@ namespace SlipStep
       try
         {
           block.run(&output, [&](const HistoryRow &row) {
+            if (block_parameters.refinement.type == RefinementType::adaptive)
+              recorder.note = std::to_string(block.n_cells()) + " cells";
             HistoryRow with_probes = row;
             with_probes.probes =
               probes.values(block.contact_face(), communicator);

@@ -4,6 +4,7 @@
 #include <slipstep/utilities/parameters.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ namespace SlipStep
     bool quiet = false;
     /// Of the variant, or "" for a single run.
     std::string label;
+    /// Sections to leave out of used_parameters.prm, because giving values
+    /// there would be an error; those of the law need not be named.
+    std::set<std::string> inactive_sections;
   };
 
   /// Declares section "Output": the folder.

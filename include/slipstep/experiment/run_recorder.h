@@ -59,6 +59,9 @@ namespace SlipStep
     /// To be filled with what only the driver knows.
     Summary summary;
 
+    /// What else the progress shall say, e.g. "1200 cells".
+    std::string note;
+
   private:
     void write(const HistoryRow &row);
 

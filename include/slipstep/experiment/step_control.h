@@ -63,6 +63,9 @@ namespace SlipStep
     /// Whether the step is the first of a statement of the programme.
     bool is_first_of_statement() const;
 
+    /// What accept() would answer.
+    bool would_accept(const double error, const double strength) const;
+
     /// Judge a step by the estimated error of the friction traction: go on to
     /// the next and return true, or ask for the same again, smaller, and return
     /// false.
@@ -87,6 +90,8 @@ namespace SlipStep
     }
 
   private:
+    double relative_error(const double error, const double strength) const;
+
     void start_segment();
     void plan(const double wanted_step);
     void shrink(const double wanted_step, const std::string &reason);

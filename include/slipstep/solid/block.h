@@ -16,6 +16,8 @@
 #include <slipstep/solid/block_output.h>
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/contact_face.h>
+#include <slipstep/solid/mesh_change.h>
+#include <slipstep/solid/mesh_marker.h>
 #include <slipstep/solid/tangent_system.h>
 
 #include <functional>
@@ -60,6 +62,22 @@ namespace SlipStep
     /// Cells, unknowns and iterations so far.
     void fill(Summary &summary) const;
 
+    dealii::types::global_cell_index n_cells() const
+    {
+      return triangulation.n_global_active_cells();
+    }
+
+    const dealii::DoFHandler<dim> &unknowns() const
+    {
+      return dof_handler;
+    }
+
+    /// What the mesh did so far.
+    const std::vector<MeshChange> &changes_of_mesh() const
+    {
+      return mesh_changes;
+    }
+
     const ContactFace<dim> &contact_face() const
     {
       return contact;
@@ -90,8 +108,19 @@ namespace SlipStep
     void assemble_loads();
     void choose_solver();
 
+    // Another mesh during the run.
+    bool        adapt_to_trial(BlockOutput<dim> *output);
+    void        adapt_after_step(BlockOutput<dim> *output);
+    MarkedCells mark_cells();
+    void        change_mesh(const MarkedCells &marked,
+                            const bool         repeats_step,
+                            BlockOutput<dim>  *output);
+    void        transfer_to_new_mesh();
+    bool        find_equilibrium_at_start();
+
     // One time step.
     void        predict();
+    void        impose_displacements();
     bool        solve_step();
     double      compute_residual();
     double      linear_tolerance(const double norm) const;
@@ -116,6 +145,7 @@ namespace SlipStep
     const dealii::FESystem<dim>       fe;
     dealii::DoFHandler<dim>           dof_handler;
     dealii::IndexSet                  relevant;
+    dealii::AffineConstraints<double> hanging_constraints;
     dealii::AffineConstraints<double> homogeneous_constraints;
 
     // Locally owned unknowns by displacement component.
@@ -145,7 +175,8 @@ namespace SlipStep
     Vector      solution;
     Vector      old_solution;
     Vector      older_solution;
-    double      old_step = 0.;
+    double      old_step   = 0.;
+    double      trial_step = 0.; // [s]
     Loading     old_loading, loading;
 
     // Newton's method.
@@ -158,6 +189,17 @@ namespace SlipStep
     unsigned int        n_newton = 0, n_linear = 0;
     unsigned long long  n_newton_total = 0, n_linear_total = 0;
     std::string         failure;
+
+    // Adaptivity.
+    MeshMarker<dim> marker;
+    MarkedCells     last_marked;
+    bool            is_marked         = false;
+    unsigned int    n_repeats         = 0; // of the present step
+    unsigned int    steps_since_check = 0;
+    double          most_cells_wanted = 0.; // beyond the limit
+    double          largest_jump      = 0.; // of the force, relative
+
+    std::vector<MeshChange> mesh_changes;
 
     // Bookkeeping.
     double external_work          = 0.;

@@ -4,8 +4,10 @@
 #include <deal.II/base/data_out_base.h>
 
 #include <slipstep/solid/contact_face.h>
+#include <slipstep/solid/mesh_change.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +38,9 @@ namespace SlipStep
                       const bool                     is_end_of_statement,
                       const bool                     is_end);
 
+    /// Add a line to refinement.csv.
+    void write_mesh_change(const MeshChange &change);
+
     /// Write contact_face.csv (all ranks take part).
     void write_contact_table(const ContactFace<dim> &contact) const;
 
@@ -55,6 +60,7 @@ namespace SlipStep
     const MPI_Comm              communicator;
     const unsigned int          rank;
     unsigned int                n_written = 0;
+    std::ofstream               mesh_changes;
 
     std::vector<std::pair<double, std::string>> volume_files, contact_files;
   };

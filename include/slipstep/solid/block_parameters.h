@@ -4,6 +4,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <slipstep/experiment/programme.h>
+#include <slipstep/solid/refinement_parameters.h>
 #include <slipstep/utilities/parameters.h>
 
 #include <array>
@@ -55,6 +56,7 @@ namespace SlipStep
     unsigned int                dimension = 3;
     std::array<double, 3>       size;          ///< [mm]
     std::array<unsigned int, 3> subdivisions;  ///< cells per direction
+    RefinementParameters        refinement;    ///< of the subdivisions
     unsigned int                degree = 1;    ///< of the elements
     double                      young_modulus; ///< [MPa]
     double                      poisson_ratio;
@@ -103,8 +105,11 @@ namespace SlipStep
       return i < normal_axis() ? i : i + 1;
     }
 
-    /// Number of unknown displacements; exact, but as a number that cannot
-    /// overflow.
+    /// Number of cells at the beginning.
+    double n_cells() const;
+
+    /// Number of unknown displacements at the beginning; exact, but as a number
+    /// that cannot overflow.
     double n_unknowns() const;
 
     /// The solver that 'automatic' means for so many unknowns.
@@ -116,7 +121,15 @@ namespace SlipStep
     }
 
     /// Memory [MB] that the chosen solver needs at the very least.
-    double least_memory() const;
+    double least_memory() const
+    {
+      return least_memory(n_unknowns());
+    }
+
+    double least_memory(const double n_unknowns) const;
+
+    /// The key that decides how many cells there are.
+    std::string key_of_cells() const;
 
     /// Area of the contact face [mm^2], in 2-D per mm of thickness.
     double nominal_contact_area() const;

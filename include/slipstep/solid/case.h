@@ -5,6 +5,8 @@
 #include <slipstep/utilities/parameters.h>
 
 #include <filesystem>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace SlipStep
@@ -49,6 +51,11 @@ namespace SlipStep
   /// check_output_folder() for all runs of a case.
   /// @throws InputError
   void check_output(const Case &the_case, const CommandLine &line);
+
+  /// Sections that mean nothing in a case, e.g. of effects that are off: values
+  /// given there would be errors.
+  /// @throws InputError
+  std::set<std::string> inactive_sections(const Parameters &parameters);
 
   /// Read everything that a case says as run() and point() would, without
   /// computing.

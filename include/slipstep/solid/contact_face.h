@@ -82,6 +82,9 @@ namespace SlipStep
 
     void commit();
 
+    /// Forget the last update.
+    void revert();
+
     /// Replace the committed states of a face of a cell.
     /// @param index in cell_faces()
     /// @param states one per quadrature point
@@ -101,6 +104,11 @@ namespace SlipStep
     const std::vector<CellFace> &cell_faces() const
     {
       return faces;
+    }
+
+    const FrictionLaw &friction_law() const
+    {
+      return law;
     }
 
     const dealii::Quadrature<dim - 1> &quadrature() const

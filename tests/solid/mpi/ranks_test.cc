@@ -85,3 +85,42 @@ TEST(Ranks, agree_with_a_flat_face)
               {"Block/Subdivisions", "3, 3, 2"},
               {"Block/Faces/top", "pressure programme; drive; flat"}});
 }
+
+
+
+// Meshes with hanging nodes on several levels, supports and histories that move
+// from rank to rank.
+TEST(Ranks, agree_on_adaptive_meshes)
+{
+  const Settings few_steps = {{"Loading/Programme",
+                               "press 5.8 MPa in 1 s; slide 1 mm/s for 0.003 "
+                               "mm"}};
+  compare<3>(few_steps +
+             Settings{{"Block/Subdivisions", "3, 2, 1"},
+                      {"Block/Faces/top", "pressure programme; flat"},
+                      {"Block/Faces/left", "drive"},
+                      {"Block/Refinement", "adaptive 3"},
+                      {"Block/Adaptivity/Tolerance", "1e-3"},
+                      {"Block/Adaptivity/Most cells", "90"},
+                      {"Block/Adaptivity/Beyond the limit", "warn"}});
+  compare<2>(few_steps + Settings{{"Block/Dimension", "2"},
+                                  {"Block/Size", "10 mm, 5 mm"},
+                                  {"Block/Subdivisions", "4, 3"},
+                                  {"Block/Degree", "2"},
+                                  {"Block/Refinement", "adaptive 3"},
+                                  {"Block/Adaptivity/Tolerance", "0.02"}});
+}
+
+
+
+// Most ranks have nothing to do, at first or ever.
+TEST(Ranks, more_than_cells)
+{
+  const Settings one_cell = {{"Loading/Programme",
+                              "press 5.8 MPa in 1 s; slide 1 mm/s for 0.003 "
+                              "mm"},
+                             {"Block/Subdivisions", "1, 1, 1"}};
+  compare<3>(one_cell);
+  compare<3>(one_cell + Settings{{"Block/Refinement", "adaptive 1"},
+                                 {"Block/Adaptivity/Tolerance", "0.001"}});
+}

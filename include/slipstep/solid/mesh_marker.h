@@ -1,0 +1,59 @@
+#ifndef slipstep_solid_mesh_marker_h
+#define slipstep_solid_mesh_marker_h
+
+#include <deal.II/distributed/tria.h>
+
+#include <slipstep/solid/block_parameters.h>
+
+#include <vector>
+
+namespace SlipStep
+{
+  /// What a mesh should change, counted over all ranks.
+  struct MarkedCells
+  {
+    dealii::types::global_cell_index n_refined = 0;
+    /// Parents that take the place of their children.
+    dealii::types::global_cell_index n_merged = 0;
+    /// Estimated error relative to the energy norm.
+    double error = 0.;
+    /// Cells wanted beyond the limit; 0 if it is not reached.
+    double n_too_many = 0.;
+  };
+
+  /// Decides which cells are refined or merged.
+  ///
+  /// If the estimated error is more than the tolerance, all cells shall have
+  /// about the same error: a cell of N is refined if its squared error is more
+  /// than tolerance^2 |u|^2 / N, where |u| is the energy norm. This is not done
+  /// for a few cells that hold next to nothing of the error. A cell is merged
+  /// with its siblings if the parent, with 2^(p+d/2) times their error, stays
+  /// well below the bound, so that the mesh does not flutter.
+  template <int dim>
+  class MeshMarker
+  {
+  public:
+    explicit MeshMarker(const BlockParameters &parameters);
+
+    /// Set the flags of a mesh, instead of those it has.
+    /// @param squared_errors by active cell index [N mm]
+    /// @param squared_norm of the solution in the energy norm [N mm]
+    /// @param n_unknowns on this mesh
+    /// @param least_level below which nothing is merged
+    /// @throws RunError if the limit is passed and the case says "stop"
+    MarkedCells
+    mark(dealii::parallel::distributed::Triangulation<dim> &triangulation,
+         const std::vector<double>                         &squared_errors,
+         const double                                       squared_norm,
+         const double                                       n_unknowns,
+         const unsigned int                                 least_level) const;
+
+  private:
+    double most_cells(const double n_cells, const double n_unknowns) const;
+
+    const BlockParameters       parameters;
+    const RefinementParameters &refinement;
+  };
+} // namespace SlipStep
+
+#endif
