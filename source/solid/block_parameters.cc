@@ -251,8 +251,8 @@ namespace SlipStep
       "Preconditioner of GMRES: 'multigrid' is geometric, with "
       "matrix-free products, for meshes that can be coarsened; "
       "'amg' is algebraic multigrid with rigid-body modes; "
-      "'direct' factorises a recent tangent; 'automatic' takes "
-      "direct below 3000 unknowns, else multigrid.");
+      "'direct' factorises a recent tangent, on one process; "
+      "'automatic' takes direct below 3000 unknowns, else multigrid.");
     parameters.declare("Block/Newton tolerance",
                        "1e-10",
                        Quantity(Dimension::number, 1e-14, 1e-2),

@@ -9,7 +9,14 @@
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_solver.h>
 
+#include <Amesos.h>
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Import.h>
+#include <Epetra_LinearProblem.h>
+#include <Epetra_Map.h>
+#include <Epetra_MpiComm.h>
 #include <Epetra_MultiVector.h>
+#include <Epetra_Vector.h>
 
 #include <map>
 
@@ -19,27 +26,92 @@ namespace SlipStep
 
   namespace
   {
+    // All rows are gathered on the first rank and factorised there: shared
+    // among several, the order of MUMPS' sums depends on which message comes
+    // first, and no run could be repeated bit for bit.
     class DirectPreconditioner : public Preconditioner
     {
     public:
       virtual void
       initialize(const TrilinosWrappers::SparseMatrix &matrix) override
       {
-        solver = std::make_unique<TrilinosWrappers::SolverDirect>(
-          control,
-          TrilinosWrappers::SolverDirect::AdditionalData(false,
-                                                         "Amesos_Mumps"));
-        solver->initialize(matrix);
+        const Epetra_CrsMatrix &distributed = matrix.trilinos_matrix();
+        const Epetra_Comm      &comm        = distributed.Comm();
+        const int               n           = distributed.NumGlobalRows();
+        is_first_rank                       = comm.MyPID() == 0;
+        const Epetra_Map on_first_rank(n, is_first_rank ? n : 0, 0, comm);
+        to_first_rank =
+          std::make_unique<Epetra_Import>(on_first_rank, distributed.RowMap());
+        Epetra_CrsMatrix gathered(Copy, on_first_rank, 0);
+        gathered.Import(distributed, *to_first_rank, Insert);
+        gathered.FillComplete();
+        check(comm, is_first_rank ? factorise(gathered) : 0);
       }
 
       virtual void vmult(Vector &x, const Vector &b) const override
       {
-        solver->solve(x, b);
+        const Epetra_BlockMap &map = to_first_rank->SourceMap();
+        Epetra_Vector          distributed_x(View, map, x.begin());
+        const Epetra_Vector    distributed_b(View,
+                                          map,
+                                          const_cast<double *>(b.begin()));
+        Epetra_Vector          gathered_x(to_first_rank->TargetMap());
+        Epetra_Vector          gathered_b(to_first_rank->TargetMap());
+        gathered_b.Import(distributed_b, *to_first_rank, Insert);
+        int error = 0;
+        if (is_first_rank)
+          {
+            Epetra_Vector own_x(View, own->RowMap(), gathered_x.Values());
+            Epetra_Vector own_b(View, own->RowMap(), gathered_b.Values());
+            problem.SetLHS(&own_x);
+            problem.SetRHS(&own_b);
+            error = solver->Solve();
+          }
+        check(map.Comm(), error);
+        distributed_x.Export(gathered_x, *to_first_rank, Insert);
       }
 
     private:
-      mutable SolverControl                           control;
-      std::unique_ptr<TrilinosWrappers::SolverDirect> solver;
+      // The same matrix without knowledge of other ranks.
+      int factorise(const Epetra_CrsMatrix &gathered)
+      {
+        solver.reset();
+        const int n = gathered.NumMyRows();
+        own         = std::make_unique<Epetra_CrsMatrix>(
+          Copy,
+          Epetra_Map(n, 0, Epetra_MpiComm(MPI_COMM_SELF)),
+          gathered.MaxNumEntries());
+        std::vector<int>    columns(gathered.MaxNumEntries());
+        std::vector<double> values(gathered.MaxNumEntries());
+        for (int row = 0; row < n; ++row)
+          {
+            int n_entries = 0;
+            gathered.ExtractGlobalRowCopy(
+              row, columns.size(), n_entries, values.data(), columns.data());
+            own->InsertGlobalValues(row,
+                                    n_entries,
+                                    values.data(),
+                                    columns.data());
+          }
+        own->FillComplete();
+        problem.SetOperator(own.get());
+        solver.reset(Amesos().Create("Amesos_Mumps", problem));
+        const int error = solver->SymbolicFactorization();
+        return error == 0 ? solver->NumericFactorization() : error;
+      }
+
+      static void check(const Epetra_Comm &comm, int error)
+      {
+        comm.Broadcast(&error, 1, 0);
+        AssertThrow(error == 0,
+                    TrilinosWrappers::SolverDirect::ExcTrilinosError(error));
+      }
+
+      bool                               is_first_rank = true;
+      std::unique_ptr<Epetra_Import>     to_first_rank;
+      std::unique_ptr<Epetra_CrsMatrix>  own;
+      mutable Epetra_LinearProblem       problem;
+      std::unique_ptr<Amesos_BaseSolver> solver;
     };
 
 
