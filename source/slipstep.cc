@@ -5,6 +5,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/report.h>
 #include <slipstep/experiment/run_options.h>
@@ -182,6 +183,17 @@ namespace SlipStep
 
 
 
+    // The signal that any rank has caught.
+    int agreed_signal()
+    {
+      return dealii::Utilities::MPI::job_supports_mpi() ?
+               dealii::Utilities::MPI::max(SignalGuard::caught(),
+                                           MPI_COMM_WORLD) :
+               SignalGuard::caught();
+    }
+
+
+
     // ----------------------------------------------------------- run, point
 
     class Runner
@@ -198,6 +210,10 @@ namespace SlipStep
 
       void run_one(const unsigned int number);
 
+      void look_for_earlier_runs();
+
+      bool is_to_run(const unsigned int number);
+
       void write_case_parameters() const;
 
       void report();
@@ -208,6 +224,8 @@ namespace SlipStep
       const bool        is_first_rank;
       Case              the_case;
       fs::path          output;
+      // With --resume: what there is of every run.
+      std::vector<EarlierRun> earlier;
     };
 
 
@@ -225,6 +243,9 @@ namespace SlipStep
       output = chosen_output(the_case, line);
       if (!line.is_child)
         check_output(the_case, line);
+      earlier.assign(the_case.complete.size(), EarlierRun::none);
+      if (line.resume)
+        look_for_earlier_runs();
     }
 
 
@@ -233,6 +254,7 @@ namespace SlipStep
     {
       RunOptions result;
       result.quiet             = line.quiet || !is_first_rank;
+      result.resume            = line.resume;
       result.output            = output;
       result.label             = the_case.selected.label;
       result.inactive_sections = inactive_sections(the_case.complete[number]);
@@ -258,11 +280,40 @@ namespace SlipStep
 
 
 
+    void Runner::look_for_earlier_runs()
+    {
+      Parameters declared;
+      declare_all_parameters(declared);
+      for (unsigned int i = 0; i < the_case.complete.size(); ++i)
+        earlier[i] = find_earlier_run(options(i).output,
+                                      the_case.complete[i],
+                                      declared,
+                                      line.command);
+    }
+
+
+
+    // A finished run is kept.
+    bool Runner::is_to_run(const unsigned int number)
+    {
+      if (earlier[number] != EarlierRun::finished)
+        return true;
+      const RunOptions run_options = options(number);
+      if (!run_options.quiet)
+        std::cout << (run_options.label.empty() ? "" : run_options.label + ": ")
+                  << "Finished earlier: the results are kept." << std::endl;
+      return false;
+    }
+
+
+
     void Runner::run_one(const unsigned int number)
     {
+      if (!is_to_run(number))
+        return;
       const RunOptions run_options = options(number);
       create_output_folder(run_options.output);
-      if (is_first_rank)
+      if (is_first_rank && earlier[number] == EarlierRun::none)
         remove_earlier_results(run_options.output);
       const Summary summary =
         line.command == "run" ?
@@ -280,15 +331,16 @@ namespace SlipStep
     {
       if (the_case.is_sweep() && is_first_rank && !line.is_child)
         write_case_parameters();
-      Outcome worst;
-      // Ranks that stop in different steps would wait for each other.
-      std::unique_ptr<SignalGuard> guard;
-      if (n_launched() == 1)
-        guard = std::make_unique<SignalGuard>();
-      for (unsigned int i = 0;
-           i < the_case.complete.size() && SignalGuard::caught() == 0;
-           ++i)
+      Outcome           worst;
+      const SignalGuard guard;
+      for (unsigned int i = 0; i < the_case.complete.size(); ++i)
         {
+          // The ranks must stop together.
+          if (const int signal = agreed_signal())
+            {
+              SignalGuard::share(signal);
+              break;
+            }
           Outcome outcome = guarded([&]() {
             run_one(i);
             return done;
@@ -305,7 +357,11 @@ namespace SlipStep
           if (outcome.exit_code > worst.exit_code)
             worst = outcome;
         }
-      if (is_first_rank && !line.is_child && SignalGuard::caught() == 0)
+      // A case that is refused leaves everything as it is.
+      const bool is_refused =
+        worst.exit_code == input_wrong && !the_case.is_sweep();
+      if (is_first_rank && !line.is_child && !is_refused &&
+          SignalGuard::caught() == 0)
         {
           // After a failure the reason counts, not a report that cannot be.
           const Outcome reported = guarded([this]() {
@@ -330,8 +386,11 @@ namespace SlipStep
       create_output_folder(output);
       write_case_parameters();
       std::vector<SweepJob> jobs;
-      for (const Variant &variant : the_case.variants)
+      for (unsigned int i = 0; i < the_case.variants.size(); ++i)
         {
+          if (!is_to_run(i))
+            continue;
+          const Variant &variant = the_case.variants[i];
           jobs.push_back(child_job(line,
                                    line.command,
                                    variant.label,
@@ -339,14 +398,19 @@ namespace SlipStep
                                    variant.folder));
           for (const std::string &setting : line.settings_as_typed)
             jobs.back().arguments.push_back("--set=" + setting);
-          remove_earlier_results(output / variant.folder);
+          if (line.resume)
+            jobs.back().arguments.push_back("--resume");
+          if (earlier[i] == EarlierRun::none)
+            remove_earlier_results(output / variant.folder);
         }
       const std::vector<int> exit_codes =
         run_side_by_side(jobs,
                          the_case.parameters.case_file().stem().string(),
                          line.quiet);
       report();
-      return *std::max_element(exit_codes.begin(), exit_codes.end());
+      return exit_codes.empty() ?
+               done :
+               *std::max_element(exit_codes.begin(), exit_codes.end());
     }
 
 
@@ -512,6 +576,9 @@ int main(int argc, char **argv)
 {
   // A file that grows too large is a failed write, reported as such.
   std::signal(SIGXFSZ, SIG_IGN);
+  // A wish for a checkpoint does no harm where there is none; children inherit
+  // this until they can listen.
+  std::signal(SIGUSR1, SIG_IGN);
   dealii::deal_II_exceptions::disable_abort_on_exception();
   dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
   SlipStep::Outcome outcome = SlipStep::dispatch(argc, argv);

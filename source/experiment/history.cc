@@ -113,6 +113,20 @@ namespace SlipStep
 
 
 
+  HistoryWriter::HistoryWriter(const std::filesystem::path &file,
+                               const std::uintmax_t         bytes)
+    : file(file)
+    , size(bytes)
+  {
+    std::error_code error;
+    std::filesystem::resize_file(file, bytes, error);
+    out.open(file, std::ios::app);
+    if (error || !out)
+      throw RunError(file.string() + ": this file cannot be continued");
+  }
+
+
+
   void HistoryWriter::write(const HistoryRow &row)
   {
     HistoryRow  values = row;

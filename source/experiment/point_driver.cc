@@ -1,6 +1,7 @@
 #include <slipstep/experiment/point_driver.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/process.h>
 #include <slipstep/experiment/run_recorder.h>
 
 #include <cmath>
@@ -139,12 +140,17 @@ namespace SlipStep
     const FrictionLaw law(parameters);
     const Programme   programme = parse_programme(parameters);
     RunRecorder       recorder(parameters, options, "point", law, programme);
+    if (options.resume)
+      recorder.announce(
+        "A contact point writes no checkpoints: the run starts anew.");
     try
       {
         const StepControl control(parameters, programme, law);
         recorder.summary.rejected_steps =
           drive_point(law, programme, control, [&](const HistoryRow &row) {
             recorder.record(row);
+            if (SignalGuard::caught() != 0)
+              throw RunError(SignalGuard::in_words());
             ++recorder.summary.newton_iterations;
           });
         recorder.finish();

@@ -1,6 +1,7 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
+#include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/utilities/exceptions.h>
 
@@ -106,5 +107,6 @@ namespace SlipStep
     for (const char *name :
          {"history.csv", "summary.json", "report.html", "refinement.csv"})
       fs::remove(folder / name, error);
+    CheckpointStore(folder).remove();
   }
 } // namespace SlipStep

@@ -2,16 +2,17 @@
 
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/process.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iomanip>
+#include <iostream>
 #include <sstream>
 
 namespace SlipStep
@@ -46,12 +47,13 @@ namespace SlipStep
 
 
 
-  RunRecorder::RunRecorder(const Parameters  &parameters,
-                           const RunOptions  &options,
-                           const std::string &command,
-                           const FrictionLaw &law,
-                           const Programme   &programme,
-                           const bool         is_writer)
+  RunRecorder::RunRecorder(const Parameters         &parameters,
+                           const RunOptions         &options,
+                           const std::string        &command,
+                           const FrictionLaw        &law,
+                           const Programme          &programme,
+                           const bool                is_writer,
+                           const CheckpointManifest *resumed)
     : options(options)
     , programme(programme)
     , is_writer(is_writer)
@@ -64,6 +66,13 @@ namespace SlipStep
     summary.label     = options.label;
     summary.command   = command;
     summary.effects   = law.effects();
+    if (resumed != nullptr)
+      {
+        summary.sessions    = resumed->sessions + 1;
+        earlier.wall_time   = resumed->wall_time;
+        earlier.cpu_time    = resumed->cpu_time;
+        earlier.peak_memory = resumed->peak_memory;
+      }
     if (!is_writer)
       return;
     std::set<std::string> inactive = law.inactive_sections();
@@ -75,22 +84,68 @@ namespace SlipStep
     if (command == "run")
       for (const QuantityOfInterest &probe : probes_among(quantities))
         probes.push_back(probe.name);
-    writer =
-      HistoryWriter(options.output / "history.csv",
-                    summary.case_name +
-                      (options.label.empty() ? "" : ", " + options.label),
-                    probes);
+    const std::filesystem::path file = options.output / "history.csv";
+    if (resumed == nullptr)
+      {
+        writer =
+          HistoryWriter(file,
+                        summary.case_name +
+                          (options.label.empty() ? "" : ", " + options.label),
+                        probes);
+        return;
+      }
+    writer            = HistoryWriter(file, resumed->history.bytes);
+    history           = read_history(file);
+    double share_done = 0.;
+    for (const HistoryRow &row : history)
+      share_done = work.share_done(row.time);
+    progress.start_at(share_done);
   }
 
 
 
   void RunRecorder::record(const HistoryRow &row)
   {
+    if (!is_writer)
+      return;
     history.push_back(row);
-    if (is_writer)
-      write(row);
-    if (SignalGuard::caught() != 0)
-      throw RunError(SignalGuard::in_words());
+    write(row);
+  }
+
+
+
+  void RunRecorder::fill(CheckpointManifest &manifest,
+                         const double        cpu_time,
+                         const double        peak_memory) const
+  {
+    manifest.history =
+      seal_file(options.output / "history.csv", writer.bytes());
+    manifest.sessions = summary.sessions;
+    manifest.wall_time =
+      earlier.wall_time + ResourceUsage::now().wall_time - start.wall_time;
+    manifest.cpu_time    = earlier.cpu_time + cpu_time;
+    manifest.peak_memory = std::max(earlier.peak_memory, peak_memory);
+  }
+
+
+
+  void RunRecorder::announce(const std::string &text)
+  {
+    if (options.quiet || !is_writer)
+      return;
+    progress.clear();
+    std::cout << text << std::endl;
+  }
+
+
+
+  void RunRecorder::warn(const std::string &text)
+  {
+    if (!is_writer)
+      return;
+    progress.clear();
+    std::cerr << "warning: " << text << std::endl;
+    warnings.push_back(text);
   }
 
 
@@ -114,15 +169,17 @@ namespace SlipStep
   void RunRecorder::finish(const std::string &reason)
   {
     const ResourceUsage end = ResourceUsage::now();
-    summary.wall_time       = end.wall_time - start.wall_time;
+    summary.wall_time = earlier.wall_time + end.wall_time - start.wall_time;
     // A driver on many ranks has filled in their sums.
     if (summary.cpu_time == 0.)
       summary.cpu_time = end.cpu_time - start.cpu_time;
     if (summary.peak_memory == 0.)
       summary.peak_memory = end.peak_memory;
-    summary.steps  = history.size();
-    summary.status = reason.empty() ? "finished" : "failed";
-    summary.reason = reason;
+    summary.cpu_time += earlier.cpu_time;
+    summary.peak_memory = std::max(summary.peak_memory, earlier.peak_memory);
+    summary.steps       = history.size();
+    summary.status      = reason.empty() ? "finished" : "failed";
+    summary.reason      = reason;
     summarise_history(history, programme, summary);
     summary.quantities =
       evaluate_quantities(quantities, programme, history, summary.dimension);
@@ -130,6 +187,11 @@ namespace SlipStep
       return;
     if (reason.empty())
       progress.finish();
-    write_summary(options.output / "summary.json", summary);
+    // The caller prints those of the summary; these were printed at once.
+    Summary complete = summary;
+    complete.warnings.insert(complete.warnings.begin(),
+                             warnings.begin(),
+                             warnings.end());
+    write_summary(options.output / "summary.json", complete);
   }
 } // namespace SlipStep

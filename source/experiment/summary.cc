@@ -83,6 +83,7 @@ namespace SlipStep
               {"rejected_steps", summary.rejected_steps},
               {"newton_iterations", summary.newton_iterations},
               {"linear_iterations", summary.linear_iterations},
+              {"sessions", summary.sessions},
               {"wall_s", summary.wall_time},
               {"cpu_s", summary.cpu_time},
               {"peak_memory_MB", summary.peak_memory},
@@ -117,6 +118,8 @@ namespace SlipStep
       object.at("rejected_steps").get_to(summary.rejected_steps);
       object.at("newton_iterations").get_to(summary.newton_iterations);
       object.at("linear_iterations").get_to(summary.linear_iterations);
+      // Older files have none.
+      summary.sessions          = object.value("sessions", 1u);
       summary.wall_time         = number(object, "wall_s");
       summary.cpu_time          = number(object, "cpu_s");
       summary.peak_memory       = number(object, "peak_memory_MB");

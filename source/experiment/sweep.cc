@@ -191,6 +191,9 @@ namespace SlipStep
       while (n_finished < jobs.size() && SignalGuard::caught() == 0)
         {
           start_children();
+          if (SignalGuard::take_checkpoint_request())
+            for (const Child &child : children)
+              kill(child.pid, SIGUSR1);
           listen();
           bury_the_dead();
           show_progress();
@@ -337,13 +340,13 @@ namespace SlipStep
       progress.clear();
       for (const Child &child : children)
         kill(child.pid, SIGTERM);
-      // They complete their files after the present step, if that is soon.
+      // They write a checkpoint after the present step, if that is soon.
       const auto start = std::chrono::steady_clock::now();
       for (const Child &child : children)
         while (waitpid(child.pid, nullptr, WNOHANG) == 0)
           {
             if (std::chrono::steady_clock::now() - start >
-                std::chrono::seconds(5))
+                std::chrono::seconds(30))
               kill(child.pid, SIGKILL);
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
           }
@@ -393,7 +396,9 @@ namespace SlipStep
     if (SignalGuard::caught() != 0)
       {
         std::cerr << SignalGuard::in_words()
-                  << "; what was computed so far is kept" << std::endl;
+                  << "; what was computed so far is kept, and the "
+                     "same command with --resume goes on"
+                  << std::endl;
         SignalGuard::obey();
       }
     return exit_codes;

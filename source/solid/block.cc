@@ -28,7 +28,10 @@ namespace SlipStep
     : parameters(parameters)
     , programme(programme)
     , communicator(communicator)
-    , triangulation(communicator)
+    , triangulation(communicator,
+                    Triangulation<dim>::none,
+                    parallel::distributed::Triangulation<
+                      dim>::mesh_reconstruction_after_repartitioning)
     , fe(FE_Q<dim>(parameters.degree), dim)
     , dof_handler(triangulation)
     , contact(parameters, law)
@@ -50,9 +53,10 @@ namespace SlipStep
   // move one place back.
   template <int dim>
   void Block<dim>::run(BlockOutput<dim>                              *output,
-                       const std::function<void(const HistoryRow &)> &observe)
+                       const std::function<void(const HistoryRow &)> &observe,
+                       const std::function<void()> &between_steps)
   {
-    old_loading = programme.at(0.);
+    old_loading = programme.at(control.time());
     while (!control.is_finished())
       {
         loading    = programme.at(control.end_of_step());
@@ -94,6 +98,8 @@ namespace SlipStep
                                control.is_first_of_statement(),
                                control.is_finished());
         adapt_after_step(output);
+        if (between_steps)
+          between_steps();
       }
   }
 

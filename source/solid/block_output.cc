@@ -270,37 +270,38 @@ namespace SlipStep
 
   // A full disk hits one rank only: all must stop together.
   template <int dim>
-  void BlockOutput<dim>::write_mesh_change(const MeshChange &change)
+  void BlockOutput<dim>::write_mesh_changes(
+    const std::vector<MeshChange> &changes) const
   {
-    const auto file = folder / "refinement.csv";
+    const auto   file       = folder / "refinement.csv";
+    unsigned int has_failed = 0;
     if (rank == 0)
       {
-        if (!mesh_changes.is_open())
+        std::ofstream out(file);
+        out << "time_s,repeats_step,refined,merged,cells,dofs,"
+               "estimated_error,tangential_load_N,dissipated_energy_Nmm,"
+               "load_jump,dissipation_jump,equilibrium_load_jump,"
+               "equilibrium_dissipation_jump\n";
+        for (const MeshChange &change : changes)
           {
-            mesh_changes.open(file);
-            mesh_changes
-              << "time_s,repeats_step,refined,merged,cells,dofs,"
-                 "estimated_error,tangential_load_N,dissipated_energy_Nmm,"
-                 "load_jump,dissipation_jump,equilibrium_load_jump,"
-                 "equilibrium_dissipation_jump\n";
+            out << exact_text(change.time) << ',' << change.repeats_step << ','
+                << change.n_refined << ',' << change.n_merged << ','
+                << change.n_cells << ',' << change.n_unknowns;
+            for (const double value : {change.error,
+                                       change.tangential_load,
+                                       change.dissipated,
+                                       change.load_jump,
+                                       change.dissipation_jump,
+                                       change.equilibrium_load_jump,
+                                       change.equilibrium_dissipation_jump})
+              out << ',' << exact_text(value);
+            out << '\n';
           }
-        mesh_changes << exact_text(change.time) << ',' << change.repeats_step
-                     << ',' << change.n_refined << ',' << change.n_merged << ','
-                     << change.n_cells << ',' << change.n_unknowns;
-        for (const double value : {change.error,
-                                   change.tangential_load,
-                                   change.dissipated,
-                                   change.load_jump,
-                                   change.dissipation_jump,
-                                   change.equilibrium_load_jump,
-                                   change.equilibrium_dissipation_jump})
-          mesh_changes << ',' << exact_text(value);
-        mesh_changes << '\n' << std::flush;
+        out.flush();
+        has_failed = out.fail() ? 1 : 0;
       }
-    const unsigned int has_failed = mesh_changes.fail() ? 1 : 0;
     if (Utilities::MPI::max(has_failed, communicator) > 0)
-      throw RunError(file.string() +
-                     ": a row cannot be written (is the disk full?)");
+      throw RunError(file.string() + ": cannot be written (is the disk full?)");
   }
 
 

@@ -136,7 +136,7 @@ namespace SlipStep
       std::max({largest_jump, change.load_jump, change.equilibrium_load_jump});
     mesh_changes.push_back(change);
     if (output != nullptr)
-      output->write_mesh_change(change);
+      output->write_mesh_changes(mesh_changes);
   }
 
 

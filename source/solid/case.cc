@@ -1,5 +1,6 @@
 #include <slipstep/solid/case.h>
 
+#include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/refinement_study.h>
 #include <slipstep/experiment/report.h>
@@ -27,6 +28,7 @@ namespace SlipStep
     declare_output_parameters(parameters);
     declare_quantities(parameters);
     RefinementStudy::declare_parameters(parameters);
+    declare_checkpoint_parameters(parameters);
     declare_report_parameters(parameters);
   }
 

@@ -139,6 +139,20 @@ namespace SlipStep
 
 
   template <int dim>
+  void ContactFace<dim>::restore(const unsigned int     face,
+                                 const unsigned int     q,
+                                 const QuadraturePoint &earlier)
+  {
+    QuadraturePoint &point   = faces[face].points[q];
+    QuadraturePoint  changed = earlier;
+    changed.position         = point.position;
+    changed.JxW              = point.JxW;
+    point                    = changed;
+  }
+
+
+
+  template <int dim>
   void ContactFace<dim>::set_states(const unsigned int               index,
                                     const std::vector<ContactState> &states)
   {

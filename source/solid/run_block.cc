@@ -4,6 +4,7 @@
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/solid/block.h>
 #include <slipstep/solid/face_probes.h>
+#include <slipstep/solid/run_checkpoints.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <deal.II/base/mpi.h>
@@ -14,7 +15,7 @@ namespace SlipStep
 
   namespace
   {
-    // A full disk or a signal may hit one rank only: all must stop together.
+    // A full disk hits one rank only: all must stop together.
     void record_together(RunRecorder      &recorder,
                          const HistoryRow &row,
                          const MPI_Comm   &communicator)
@@ -41,6 +42,7 @@ namespace SlipStep
                       const RunOptions      &options,
                       const FrictionLaw     &law,
                       const Programme       &programme,
+                      RunCheckpoints        &checkpoints,
                       RunRecorder           &recorder)
     {
       const MPI_Comm   communicator = MPI_COMM_WORLD;
@@ -53,19 +55,23 @@ namespace SlipStep
       const FaceProbes<dim> probes(block_parameters,
                                    programme,
                                    parse_quantities(parameters, programme));
+      checkpoints.resume(block, output, recorder);
       block.fill(recorder.summary);
 
       std::string reason;
       try
         {
-          block.run(&output, [&](const HistoryRow &row) {
-            if (block_parameters.refinement.type == RefinementType::adaptive)
-              recorder.note = std::to_string(block.n_cells()) + " cells";
-            HistoryRow with_probes = row;
-            with_probes.probes =
-              probes.values(block.contact_face(), communicator);
-            record_together(recorder, with_probes, communicator);
-          });
+          block.run(
+            &output,
+            [&](const HistoryRow &row) {
+              if (block_parameters.refinement.type == RefinementType::adaptive)
+                recorder.note = std::to_string(block.n_cells()) + " cells";
+              HistoryRow with_probes = row;
+              with_probes.probes =
+                probes.values(block.contact_face(), communicator);
+              record_together(recorder, with_probes, communicator);
+            },
+            [&]() { checkpoints.write_if_due(block, output, recorder); });
         }
       catch (const RunError &error)
         {
@@ -79,6 +85,8 @@ namespace SlipStep
       recorder.summary.peak_memory =
         Utilities::MPI::sum(usage.peak_memory, communicator);
       recorder.finish(reason);
+      if (reason.empty())
+        checkpoints.remove();
     }
   } // namespace
 
@@ -107,18 +115,33 @@ namespace SlipStep
     const FrictionLaw     law(parameters);
     const Programme       programme = parse_programme(parameters);
     const BlockParameters block_parameters(parameters, programme);
+    RunCheckpoints        checkpoints(parameters,
+                               options.output,
+                               options.resume,
+                               MPI_COMM_WORLD);
     RunRecorder           recorder(parameters,
                          options,
                          "run",
                          law,
                          programme,
-                         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
+                         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0,
+                         checkpoints.found());
     if (block_parameters.dimension == 2)
-      run_block_in<2>(
-        block_parameters, parameters, options, law, programme, recorder);
+      run_block_in<2>(block_parameters,
+                      parameters,
+                      options,
+                      law,
+                      programme,
+                      checkpoints,
+                      recorder);
     else
-      run_block_in<3>(
-        block_parameters, parameters, options, law, programme, recorder);
+      run_block_in<3>(block_parameters,
+                      parameters,
+                      options,
+                      law,
+                      programme,
+                      checkpoints,
+                      recorder);
     return recorder.summary;
   }
 } // namespace SlipStep

@@ -38,11 +38,26 @@ namespace SlipStep
 
       virtual void linearise(const ContactTangent<dim> &tangent) override
       {
+        present = tangent;
         matrix.set_contact(tangent);
       }
 
       virtual unsigned int
       solve(Vector &x, const Vector &b, const double tolerance) override;
+
+      virtual PreconditionerOrigin<dim> preconditioner_origin() const override
+      {
+        return preconditioner_is_usable ? origin : PreconditionerOrigin<dim>();
+      }
+
+      virtual void
+      make_preconditioner(const PreconditionerOrigin<dim> &earlier) override
+      {
+        matrix.set_contact(earlier.tangent);
+        preconditioner->initialize(matrix.matrix());
+        origin                   = earlier;
+        preconditioner_is_usable = true;
+      }
 
     private:
       const DoFHandler<dim> &dof_handler;
@@ -50,7 +65,8 @@ namespace SlipStep
 
       std::unique_ptr<Preconditioner> preconditioner;
       bool                            preconditioner_is_usable = false;
-      unsigned int                    n_iterations_when_fresh  = 0;
+      PreconditionerOrigin<dim>       origin;
+      ContactTangent<dim>             present; // in the matrix
     };
 
 
@@ -83,10 +99,8 @@ namespace SlipStep
     {
       Vector     residual(b);
       const auto iterate = [&]() {
-        SolverControl control(preconditioner_is_usable ?
-                                n_iterations_when_fresh + 10 :
-                                200,
-                              tolerance);
+        SolverControl control(
+          preconditioner_is_usable ? origin.n_iterations + 10 : 200, tolerance);
         SolverGMRES<Vector> solver(
           control, typename SolverGMRES<Vector>::AdditionalData(50, true));
         x = 0.;
@@ -114,9 +128,9 @@ namespace SlipStep
       try
         {
           preconditioner->initialize(matrix.matrix());
-          n_iterations_when_fresh  = iterate();
+          origin                   = {present, iterate(), true};
           preconditioner_is_usable = true;
-          return n_iterations_when_fresh;
+          return origin.n_iterations;
         }
       catch (const SolverControl::NoConvergence &failure)
         {

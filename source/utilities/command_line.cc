@@ -39,18 +39,22 @@ namespace SlipStep
          "CASE.prm",
          "simulate the block with finite elements",
          "Runs the case, or all its variants side by side on the cores. On\n"
-         "several processes: mpirun -np N slipstep run CASE.prm\n",
+         "several processes: mpirun -np N slipstep run CASE.prm\n"
+         "Checkpoints are written at times (Checkpoint/Every), on SIGUSR1, and\n"
+         "when the run is stopped (SIGTERM, Ctrl-C); --resume goes on from\n"
+         "there and keeps the variants that are finished.\n",
          1,
          1,
-         {"set", "output", "variant", "quiet"},
+         {"set", "output", "variant", "resume", "quiet"},
          {}},
         {"point",
          "CASE.prm",
          "the same law and loading on one contact point",
-         "Like run, but without block and mesh: a matter of seconds.\n",
+         "Like run, but without block and mesh: a matter of seconds, and no\n"
+         "checkpoints. --resume keeps the variants that are finished.\n",
          1,
          1,
-         {"set", "output", "variant", "quiet"},
+         {"set", "output", "variant", "resume", "quiet"},
          {}},
         {"refine",
          "CASE.prm",
@@ -144,6 +148,7 @@ namespace SlipStep
          "only this member of the case's sweep")
         ("format", po::value<std::string>()->value_name("NAME"),
          "of the list: prm, json, md (parameters); text, md (effects)")
+        ("resume", "go on where an earlier run of the case was stopped")
         ("quiet", "print errors and warnings only")
         ("help", "this text")
         ("version", "version of the program");
@@ -286,6 +291,7 @@ namespace SlipStep
     line.format            = text("format");
     line.variant           = text("variant");
     line.quiet             = values.count("quiet") > 0;
+    line.resume            = values.count("resume") > 0;
     line.is_child          = values.count("child") > 0;
     line.version           = values.count("version") > 0;
     line.help              = values.count("help") > 0;

@@ -18,6 +18,15 @@ namespace SlipStep
 
 
 
+    volatile std::sig_atomic_t checkpoint_request = 0;
+
+    void remember_request(const int)
+    {
+      checkpoint_request = 1;
+    }
+
+
+
     unsigned int
     number_in_environment(const std::initializer_list<const char *> &names,
                           const unsigned int                         otherwise)
@@ -70,6 +79,9 @@ namespace SlipStep
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, &old_interrupt);
     sigaction(SIGTERM, &action, &old_terminate);
+    action.sa_handler = remember_request;
+    action.sa_flags   = SA_RESTART;
+    sigaction(SIGUSR1, &action, &old_user);
   }
 
 
@@ -78,6 +90,7 @@ namespace SlipStep
   {
     sigaction(SIGINT, &old_interrupt, nullptr);
     sigaction(SIGTERM, &old_terminate, nullptr);
+    sigaction(SIGUSR1, &old_user, nullptr);
   }
 
 
@@ -85,6 +98,23 @@ namespace SlipStep
   int SignalGuard::caught()
   {
     return caught_signal;
+  }
+
+
+
+  void SignalGuard::share(const int signal)
+  {
+    caught_signal = signal;
+  }
+
+
+
+  bool SignalGuard::take_checkpoint_request()
+  {
+    if (checkpoint_request == 0)
+      return false;
+    checkpoint_request = 0;
+    return true;
   }
 
 

@@ -103,6 +103,13 @@ namespace SlipStep
 
 
 
+  void Progress::start_at(const double fraction)
+  {
+    first_fraction = last_fraction = fraction;
+  }
+
+
+
   void Progress::print(const double fraction, const std::string &text)
   {
     const double spent =
@@ -111,8 +118,9 @@ namespace SlipStep
       percentage(fraction) + (label.empty() ? "" : label + ": ") + text;
     std::string end;
     // The first instants say nothing about the rest.
-    if (fraction > 0.005 && fraction < 1. && spent > 0.5)
-      end = ", about " + duration_in_words(spent * (1. - fraction) / fraction) +
+    const double done = fraction - first_fraction;
+    if (done > 0.005 && fraction < 1. && spent > 0.5)
+      end = ", about " + duration_in_words(spent * (1. - fraction) / done) +
             " left";
     if (is_live)
       {

@@ -68,9 +68,20 @@ namespace SlipStep
                   const std::string              &name,
                   const std::vector<std::string> &probes = {});
 
+    /// Continue a file, which is cut after its first @p bytes.
+    /// @throws RunError if that fails
+    HistoryWriter(const std::filesystem::path &file,
+                  const std::uintmax_t         bytes);
+
     /// @throws RunError if the row cannot be written (disk full); the file then
     ///   ends with the row before
     void write(const HistoryRow &row);
+
+    /// Size of the file, with all complete rows.
+    std::uintmax_t bytes() const
+    {
+      return size;
+    }
 
   private:
     std::ofstream         out;

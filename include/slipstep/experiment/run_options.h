@@ -22,6 +22,8 @@ namespace SlipStep
     /// Sections to leave out of used_parameters.prm, because giving values
     /// there would be an error; those of the law need not be named.
     std::set<std::string> inactive_sections;
+    /// Go on from the checkpoint in the output folder.
+    bool resume = false;
   };
 
   /// Declares section "Output": the folder.
@@ -44,8 +46,8 @@ namespace SlipStep
   /// @throws InputError if that fails
   void create_output_folder(const std::filesystem::path &folder);
 
-  /// Remove the history, summary and report of an earlier run, so that a run
-  /// that fails early does not seem to have written them.
+  /// Remove the history, summary, report and checkpoints of an earlier run, so
+  /// that a run that fails early does not seem to have written them.
   void remove_earlier_results(const std::filesystem::path &folder);
 } // namespace SlipStep
 

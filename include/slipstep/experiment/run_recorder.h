@@ -1,6 +1,7 @@
 #ifndef slipstep_experiment_run_recorder_h
 #define slipstep_experiment_run_recorder_h
 
+#include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/history.h>
 #include <slipstep/experiment/programme.h>
 #include <slipstep/experiment/run_options.h>
@@ -42,16 +43,33 @@ namespace SlipStep
   public:
     /// @param is_writer false on all ranks but one: then nothing is written or
     ///   shown
-    RunRecorder(const Parameters  &parameters,
-                const RunOptions  &options,
-                const std::string &command,
-                const FrictionLaw &law,
-                const Programme   &programme,
-                const bool         is_writer = true);
+    /// @param resumed the checkpoint from which the run goes on, if it does: the
+    ///   history goes back to there
+    RunRecorder(const Parameters         &parameters,
+                const RunOptions         &options,
+                const std::string        &command,
+                const FrictionLaw        &law,
+                const Programme          &programme,
+                const bool                is_writer = true,
+                const CheckpointManifest *resumed   = nullptr);
 
     /// A step was made.
-    /// @throws RunError if a SignalGuard has caught a signal
     void record(const HistoryRow &row);
+
+    /// Tell what a checkpoint has to know: the history, and the resources used
+    /// by all sessions. The writer only.
+    /// @param cpu_time of this session, all ranks [s]
+    /// @param peak_memory of this session, all ranks [MB]
+    /// @throws RunError if the history cannot be forced onto the disk
+    void fill(CheckpointManifest &manifest,
+              const double        cpu_time,
+              const double        peak_memory) const;
+
+    /// Say something now, unless the run is quiet.
+    void announce(const std::string &text);
+
+    /// Warn now, and in the summary.
+    void warn(const std::string &text);
 
     /// The run is over, with a reason if it failed. Completes the summary.
     void finish(const std::string &reason = "");
@@ -71,6 +89,8 @@ namespace SlipStep
     /// Evaluated at the end.
     const std::vector<QuantityOfInterest> quantities;
     const ResourceUsage                   start;
+    ResourceUsage                         earlier; ///< sessions
+    std::vector<std::string>              warnings;
     HistoryWriter                         writer;
     std::vector<HistoryRow>               history;
     Progress                              progress;

@@ -89,6 +89,15 @@ namespace SlipStep
       return rejected;
     }
 
+    /// Where it is, for boost::serialization; what the case says is not part of
+    /// it.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &segment &begin &end &largest_step &first_step &full_step
+        &first_of_segment &accepted &rejected;
+    }
+
   private:
     double relative_error(const double error, const double strength) const;
 

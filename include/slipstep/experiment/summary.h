@@ -26,6 +26,10 @@ namespace SlipStep
   };
 
   /// The content of summary.json.
+  ///
+  /// Of a resumed run, times add up what led to the result: sessions up to the
+  /// checkpoint from which the next one went on, and the last one. Work that
+  /// was lost between a checkpoint and the end of a session is not in them.
   struct Summary
   {
     std::string              case_name;
@@ -42,16 +46,17 @@ namespace SlipStep
     unsigned int             rejected_steps    = 0;
     unsigned long long       newton_iterations = 0;
     unsigned long long       linear_iterations = 0;
-    double                   wall_time         = 0.; ///< [s]
-    double                   cpu_time          = 0.; ///< [s], all ranks
-    double                   peak_memory       = 0.; ///< [MB], all ranks
-    double                   peak_friction     = 0.; ///< largest magnitude
-    double peak_displacement = 0.; ///< of the drive, there [mm]
-    double final_friction    = 0.; ///< along the last direction of motion
-    double work              = 0.; ///< [N mm]
-    double stored            = 0.; ///< [N mm]
-    double dissipated        = 0.; ///< [N mm]
-    double balance_error     = 0.; ///< relative to work
+    unsigned int             sessions          = 1;  ///< 1 + resumptions
+    double                   wall_time         = 0.; ///< [s], all sessions
+    double                   cpu_time    = 0.; ///< [s], all sessions and ranks
+    double                   peak_memory = 0.; ///< [MB], all ranks
+    double                   peak_friction = 0.; ///< largest magnitude
+    double peak_displacement               = 0.; ///< of the drive, there [mm]
+    double final_friction = 0.; ///< along the last direction of motion
+    double work           = 0.; ///< [N mm]
+    double stored         = 0.; ///< [N mm]
+    double dissipated     = 0.; ///< [N mm]
+    double balance_error  = 0.; ///< relative to work
     std::vector<SlideSummary>  slides;
     std::vector<QuantityValue> quantities;
     std::vector<std::string>   warnings;

@@ -27,6 +27,14 @@ namespace SlipStep
     double slip_rate = 0.;
     /// Energy dissipated per area [MPa mm].
     double dissipation = 0.;
+
+    /// All of it, for boost::serialization.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &traction &normal_traction &strength &loading_ratio &normal_ratio
+        &coefficient &slip_path &slip_rate &dissipation;
+    }
   };
 
   /// What a step of a contact point answers, with its exact linearisation.
@@ -91,6 +99,13 @@ namespace SlipStep
     const ContactState &trial() const
     {
       return trial_state;
+    }
+
+    /// Both states, for boost::serialization.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &committed_state &trial_state;
     }
 
   private:

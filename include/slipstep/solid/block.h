@@ -20,6 +20,7 @@
 #include <slipstep/solid/mesh_marker.h>
 #include <slipstep/solid/tangent_system.h>
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -55,9 +56,37 @@ namespace SlipStep
     /// Go through the programme.
     /// @param output where fields are written, or nullptr for none
     /// @param observe called on all ranks with the row of every accepted step
+    /// @param between_steps called on all ranks when all of a step is done: the
+    ///   moment to save()
     /// @throws RunError with the reason if the programme cannot be finished
     void run(BlockOutput<dim>                              *output,
-             const std::function<void(const HistoryRow &)> &observe);
+             const std::function<void(const HistoryRow &)> &observe,
+             const std::function<void()>                   &between_steps = {});
+
+    /// Save what is needed to go on after the last step: every rank writes
+    /// `cells.<rank>` (mesh, displacements, contact states), one also `block`.
+    /// @return the names of the files this rank wrote
+    /// @throws RunError if the disk refuses; not on all ranks alike
+    std::vector<std::string> save(const std::filesystem::path &folder) const;
+
+    /// Take over what save() wrote, on any number of ranks; run() then goes on
+    /// as if nothing had happened.
+    /// @param n_files the number of ranks that wrote it
+    /// @return whether the cells are distributed as they were, so that results
+    ///   are the same bit for bit
+    /// @throws InputError if it does not fit this block
+    bool load(const std::filesystem::path &folder, const unsigned int n_files);
+
+    /// Numbers that go with the state, for boost::serialization; vectors and
+    /// contact points are the matter of save() and load().
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &control &old_step &n_newton_total &n_linear_total &external_work
+        &largest_imbalance &largest_normal_load &contact_share
+          &smallest_contact_share &steps_since_check &most_cells_wanted
+            &largest_jump &mesh_changes;
+    }
 
     /// Cells, unknowns and iterations so far.
     void fill(Summary &summary) const;
@@ -76,6 +105,11 @@ namespace SlipStep
     const std::vector<MeshChange> &changes_of_mesh() const
     {
       return mesh_changes;
+    }
+
+    const StepControl &step_control() const
+    {
+      return control;
     }
 
     const ContactFace<dim> &contact_face() const
@@ -127,6 +161,12 @@ namespace SlipStep
     double      line_search(const Vector &update, const double old_norm);
     void        accept_step(HistoryRow &row);
     std::string reason_of_failure() const;
+
+    // Checkpoints.
+    void restore_mesh(const std::filesystem::path &folder,
+                      const unsigned int           n_files);
+    void restore_cells(const std::filesystem::path &folder,
+                       const unsigned int           n_files);
 
     // What an accepted step did to the energy and to the balance of forces.
     void                   add_external_work();

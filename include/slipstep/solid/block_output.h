@@ -38,11 +38,19 @@ namespace SlipStep
                       const bool                     is_end_of_statement,
                       const bool                     is_end);
 
-    /// Add a line to refinement.csv.
-    void write_mesh_change(const MeshChange &change);
+    /// Write refinement.csv anew, with all changes so far (all ranks take
+    /// part).
+    void write_mesh_changes(const std::vector<MeshChange> &changes) const;
 
     /// Write contact_face.csv (all ranks take part).
     void write_contact_table(const ContactFace<dim> &contact) const;
+
+    /// Which files have been written, for boost::serialization.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &n_written &volume_files &contact_files;
+    }
 
   private:
     void write_volume(const dealii::DoFHandler<dim> &dof_handler,
@@ -60,7 +68,6 @@ namespace SlipStep
     const MPI_Comm              communicator;
     const unsigned int          rank;
     unsigned int                n_written = 0;
-    std::ofstream               mesh_changes;
 
     std::vector<std::pair<double, std::string>> volume_files, contact_files;
   };

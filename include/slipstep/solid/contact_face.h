@@ -56,6 +56,13 @@ namespace SlipStep
       dealii::Tensor<2, dim> tangent;    ///< d force / d displacement [MPa/mm]
       double                 error = 0.; ///< of the tangential traction [MPa]
       bool                   slips = false;
+
+      /// All but position and weight, for boost::serialization.
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &point &force &tangent &error &slips;
+      }
     };
 
     struct CellFace
@@ -84,6 +91,13 @@ namespace SlipStep
 
     /// Forget the last update.
     void revert();
+
+    /// Put a point back into an earlier state; position and weight stay.
+    /// @param face index in cell_faces()
+    /// @param q quadrature point of the face
+    void restore(const unsigned int     face,
+                 const unsigned int     q,
+                 const QuadraturePoint &earlier);
 
     /// Replace the committed states of a face of a cell.
     /// @param index in cell_faces()

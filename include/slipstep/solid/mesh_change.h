@@ -25,6 +25,15 @@ namespace SlipStep
     /// differs by what the old mesh was too stiff.
     double equilibrium_load_jump        = 0.;
     double equilibrium_dissipation_jump = 0.;
+
+    /// For boost::serialization.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &time &repeats_step &n_refined &n_merged &n_cells &n_unknowns
+        &error &tangential_load &dissipated &load_jump &dissipation_jump
+          &equilibrium_load_jump &equilibrium_dissipation_jump;
+    }
   };
 } // namespace SlipStep
 

@@ -9,6 +9,17 @@
 
 namespace SlipStep
 {
+  /// What a preconditioner that outlives its Newton step was made of, so that
+  /// the very same can be made again.
+  template <int dim>
+  struct PreconditionerOrigin
+  {
+    ContactTangent<dim> tangent;
+    /// Iterations that it took with its own tangent.
+    unsigned int n_iterations = 0;
+    bool         exists       = false;
+  };
+
   /// The linear algebra of a Newton step: all that the time stepping needs to
   /// know of matrices and preconditioners.
   ///
@@ -42,6 +53,17 @@ namespace SlipStep
     {
       return 0;
     }
+
+    /// What later solutions owe to earlier ones: nothing, in a system that
+    /// depends on the last tangent only.
+    virtual PreconditionerOrigin<dim> preconditioner_origin() const
+    {
+      return {};
+    }
+
+    /// Make the preconditioner again that preconditioner_origin() told of.
+    virtual void make_preconditioner(const PreconditionerOrigin<dim> &)
+    {}
   };
 
   /// Assembled matrices of Trilinos and GMRES.

@@ -22,6 +22,8 @@ namespace SlipStep
     std::string              format; ///< "" = the command's default
     std::string              variant;
     bool                     quiet = false;
+    /// Go on where an earlier run was stopped.
+    bool resume = false;
     /// Started by the sweep of a parent, which does the reporting.
     bool is_child = false;
     /// Print the help of the command ("" = of the program), do nothing else.

@@ -17,7 +17,7 @@ namespace SlipStep
 
   /// While one lives, SIGINT and SIGTERM do not end the process but are
   /// remembered, so that files can be completed first. The same signal a second
-  /// time ends it at once, unless @p is_patient.
+  /// time ends it at once, unless @p is_patient. SIGUSR1 asks for a checkpoint.
   class SignalGuard
   {
   public:
@@ -32,6 +32,12 @@ namespace SlipStep
     /// beyond the life of the guard.
     static int caught();
 
+    /// Stop as if @p signal had been caught: another rank has.
+    static void share(const int signal);
+
+    /// Whether SIGUSR1 came since the last call.
+    static bool take_checkpoint_request();
+
     /// "stopped by a signal (Interrupt)".
     static std::string in_words();
 
@@ -40,7 +46,7 @@ namespace SlipStep
     static void obey();
 
   private:
-    struct sigaction old_interrupt, old_terminate;
+    struct sigaction old_interrupt, old_terminate, old_user;
   };
 } // namespace SlipStep
 

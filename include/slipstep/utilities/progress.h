@@ -38,6 +38,9 @@ namespace SlipStep
     /// @param text the present state, e.g. "12.3 mm, step 240"
     void update(const double fraction, const std::string &text);
 
+    /// Part of the work was done before; it does not count for the time left.
+    void start_at(const double fraction);
+
     /// The last line.
     /// @param outcome what stands before the time taken
     void finish(const std::string &outcome = "done in");
@@ -59,10 +62,11 @@ namespace SlipStep
     const std::string label;
     std::ostream     &out;
     const bool        is_live;
-    bool              line_is_open  = false;
-    bool              has_printed   = false;
-    bool              is_finished   = false;
-    double            last_fraction = 0.;
+    bool              line_is_open   = false;
+    bool              has_printed    = false;
+    bool              is_finished    = false;
+    double            first_fraction = 0.;
+    double            last_fraction  = 0.;
     Clock::time_point start;
     Clock::time_point last_print;
 

@@ -1,0 +1,554 @@
+#include <slipstep/experiment/checkpoint.h>
+
+#include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/summary.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/version.h>
+
+#include <boost/crc.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+    using json   = nlohmann::ordered_json;
+
+    // Grows when an older program could not read what this one writes, or the
+    // other way round.
+    constexpr unsigned int manifest_format = 1;
+
+    const char *const manifest_name = "manifest.json";
+
+
+
+    // A checkpoint, or a part of it, is not what it was when it was written.
+    class Damage : public std::runtime_error
+    {
+    public:
+      using std::runtime_error::runtime_error;
+    };
+
+
+
+    bool begins_with(const std::string &text, const std::string &beginning)
+    {
+      return text.compare(0, beginning.size(), beginning) == 0;
+    }
+
+
+
+    // What may differ without a consequence for the history, in which
+    // quantities have columns. Speed is part of the programme, which is
+    // compared as a whole.
+    bool is_irrelevant(const std::string &path)
+    {
+      return path == "Loading/Programme" || path == "Loading/Speed" ||
+             path == "Output/Directory" || path == "Output/Fields" ||
+             begins_with(path, "Checkpoint/") || begins_with(path, "Report/") ||
+             begins_with(path, "Refinement study/");
+    }
+
+
+
+    std::uint32_t checksum_of(const Programme &programme)
+    {
+      boost::crc_32_type crc;
+      const auto         add = [&crc](const double number) {
+        crc.process_bytes(&number, sizeof(number));
+      };
+      for (const Segment &segment : programme.segments())
+        for (const auto &end :
+             {std::make_pair(segment.start_time, segment.start),
+              std::make_pair(segment.end_time, segment.end)})
+          {
+            add(end.first);
+            add(end.second.pressure);
+            for (unsigned int i = 0; i < 2; ++i)
+              add(end.second.displacement[i]);
+          }
+      return crc.checksum();
+    }
+
+
+
+    // "1 cm" is "10 mm".
+    bool is_same_value(const Parameters::Entry &entry, const std::string &other)
+    {
+      if (entry.value == other)
+        return true;
+      const auto *quantity =
+        dynamic_cast<const Quantity *>(entry.pattern.get());
+      return quantity != nullptr && quantity->match(other) &&
+             quantity->value(entry.value) == quantity->value(other);
+    }
+  } // namespace
+
+
+
+  // ------------------------------------------------------------------- case
+
+  void declare_checkpoint_parameters(Parameters &parameters)
+  {
+    parameters.declare(
+      "Checkpoint/Every",
+      "10 min",
+      Quantity(Dimension::time, 0., 1e30, false, true),
+      "Wall-clock time after which a run of the block writes a checkpoint, from "
+      "which --resume goes on. With its unit; 0 s switches it off. Checkpoints "
+      "on SIGUSR1 and when a run is stopped are written in any case.");
+  }
+
+
+
+  double checkpoint_period(const Parameters &parameters)
+  {
+    const double period = parameters.number("Checkpoint/Every");
+    return period > 0. ? period : std::numeric_limits<double>::infinity();
+  }
+
+
+
+  CaseIdentity::CaseIdentity(const Parameters &parameters)
+    : programme(checksum_of(parse_programme(parameters)))
+  {
+    for (const std::string &path : parameters.paths())
+      values.emplace_back(path, parameters.text(path));
+  }
+
+
+
+  void CaseIdentity::require_same(const Parameters  &parameters,
+                                  const std::string &owner) const
+  {
+    const std::string remedy =
+      "; run without --resume to start anew, or give another folder with "
+      "--output";
+    const auto refuse = [&](const std::string &path, const std::string &value) {
+      parameters.reject(path, owner + " has '" + value + "'" + remedy);
+    };
+
+    std::string programme_text, speed;
+    for (const auto &value : values)
+      {
+        if (value.first == "Loading/Programme")
+          programme_text = value.second;
+        if (value.first == "Loading/Speed")
+          speed = value.second;
+      }
+    const std::vector<std::string> paths = parameters.paths();
+    for (const auto &value : values)
+      if (!is_irrelevant(value.first) &&
+          std::find(paths.begin(), paths.end(), value.first) != paths.end() &&
+          !is_same_value(parameters.entry(value.first), value.second))
+        refuse(value.first, value.second);
+
+    if (checksum_of(parse_programme(parameters)) == programme)
+      return;
+    if (parameters.text("Loading/Speed") != speed)
+      refuse("Loading/Speed", speed);
+    if (parameters.text("Loading/Programme") != programme_text)
+      refuse("Loading/Programme", programme_text);
+    parameters.reject("Loading/Programme",
+                      "a test that it follows has changed since " + owner +
+                        " was made" + remedy);
+  }
+
+
+
+  // ------------------------------------------------------------------ files
+
+  namespace
+  {
+    [[noreturn]] void fail(const fs::path &file, const int error)
+    {
+      throw RunError(file.string() + ": cannot be written (" +
+                     (error == ENOSPC || error == EFBIG || error == EDQUOT ?
+                        "is the disk full?" :
+                        std::strerror(error)) +
+                     ")");
+    }
+
+
+
+    // Renamed files are safe only when their folder is, too.
+    void synchronise(const fs::path &path)
+    {
+      const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+      if (descriptor < 0)
+        fail(path, errno);
+      const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+      ::close(descriptor);
+      // Some file systems cannot do this with folders.
+      if (error != 0 && error != EINVAL)
+        fail(path, error);
+    }
+
+
+
+    // @return false if the file is shorter or cannot be read
+    bool compute_checksum(const fs::path      &file,
+                          const std::uintmax_t bytes,
+                          std::uint32_t       &checksum)
+    {
+      std::ifstream      in(file, std::ios::binary);
+      std::vector<char>  buffer(1 << 16);
+      boost::crc_32_type crc;
+      for (std::uintmax_t left = bytes; left > 0;)
+        {
+          in.read(buffer.data(), std::min<std::uintmax_t>(left, buffer.size()));
+          if (in.gcount() == 0)
+            return false;
+          crc.process_bytes(buffer.data(), in.gcount());
+          left -= in.gcount();
+        }
+      checksum = crc.checksum();
+      return in.is_open();
+    }
+
+
+
+    void verify(const fs::path &file, const SealedFile &sealed)
+    {
+      std::error_code error;
+      const auto      size     = fs::file_size(file, error);
+      std::uint32_t   checksum = 0;
+      if (error)
+        throw Damage(file.string() + " is missing");
+      if (size < sealed.bytes)
+        throw Damage(file.string() + " has " + std::to_string(size) + " of " +
+                     std::to_string(sealed.bytes) + " bytes");
+      if (!compute_checksum(file, sealed.bytes, checksum) ||
+          checksum != sealed.checksum)
+        throw Damage(file.string() + " has changed");
+    }
+  } // namespace
+
+
+
+  SealedFile seal_file(const fs::path &file, const std::uintmax_t bytes)
+  {
+    synchronise(file);
+    SealedFile      sealed{file.filename().string(), 0, 0};
+    std::error_code error;
+    sealed.bytes = std::min(fs::file_size(file, error), bytes);
+    if (error || !compute_checksum(file, sealed.bytes, sealed.checksum))
+      throw RunError(file.string() + ": cannot be read back");
+    return sealed;
+  }
+
+
+
+  // --------------------------------------------------------------- manifest
+
+  namespace
+  {
+    json to_json(const SealedFile &file)
+    {
+      return {{"name", file.name},
+              {"bytes", file.bytes},
+              {"crc32", file.checksum}};
+    }
+
+
+
+    SealedFile sealed_file(const json &object)
+    {
+      return {object.at("name").get<std::string>(),
+              object.at("bytes").get<std::uintmax_t>(),
+              object.at("crc32").get<std::uint32_t>()};
+    }
+
+
+
+    std::uint32_t checksum_of(const json &object)
+    {
+      const std::string text =
+        object.dump(-1, ' ', false, json::error_handler_t::replace);
+      boost::crc_32_type crc;
+      crc.process_bytes(text.data(), text.size());
+      return crc.checksum();
+    }
+
+
+
+    json to_json(const CheckpointManifest &manifest)
+    {
+      json parameters = json::object();
+      for (const auto &value : manifest.identity.values)
+        parameters[value.first] = value.second;
+      json files = json::array();
+      for (const SealedFile &file : manifest.files)
+        files.push_back(to_json(file));
+      json object              = {{"format", manifest_format},
+                                  {"version", version()},
+                                  {"git_hash", git_hash()},
+                                  {"step", manifest.step},
+                                  {"time_s", manifest.time},
+                                  {"ranks", manifest.ranks},
+                                  {"cells", manifest.cells},
+                                  {"dofs", manifest.dofs},
+                                  {"sessions", manifest.sessions},
+                                  {"wall_s", manifest.wall_time},
+                                  {"cpu_s", manifest.cpu_time},
+                                  {"peak_memory_MB", manifest.peak_memory},
+                                  {"programme_crc32", manifest.identity.programme},
+                                  {"parameters", parameters},
+                                  {"history", to_json(manifest.history)},
+                                  {"files", files}};
+      object["manifest_crc32"] = checksum_of(object);
+      return object;
+    }
+
+
+
+    CheckpointManifest from_json(const json &object)
+    {
+      CheckpointManifest manifest;
+      for (const auto &value : object.at("parameters").items())
+        manifest.identity.values.emplace_back(value.key(),
+                                              value.value().get<std::string>());
+      object.at("programme_crc32").get_to(manifest.identity.programme);
+      object.at("git_hash").get_to(manifest.git_hash);
+      object.at("step").get_to(manifest.step);
+      object.at("time_s").get_to(manifest.time);
+      object.at("ranks").get_to(manifest.ranks);
+      object.at("cells").get_to(manifest.cells);
+      object.at("dofs").get_to(manifest.dofs);
+      object.at("sessions").get_to(manifest.sessions);
+      object.at("wall_s").get_to(manifest.wall_time);
+      object.at("cpu_s").get_to(manifest.cpu_time);
+      object.at("peak_memory_MB").get_to(manifest.peak_memory);
+      manifest.history = sealed_file(object.at("history"));
+      for (const json &file : object.at("files"))
+        manifest.files.push_back(sealed_file(file));
+      return manifest;
+    }
+
+
+
+    // Who wrote it is asked before anything else: another program may have
+    // arranged the rest otherwise.
+    void require_same_program(const json &object, const std::string &owner)
+    {
+      const std::string remedy = "; run without --resume to start anew";
+      const auto        format = object.at("format").get<unsigned int>();
+      const auto        writer = object.at("version").get<std::string>();
+      if (format != manifest_format)
+        throw InputError(owner + " has format " + std::to_string(format) +
+                         " (written by slipstep " + writer +
+                         "), this program reads format " +
+                         std::to_string(manifest_format) + remedy);
+      if (writer != version())
+        throw InputError(owner + " was written by slipstep " + writer +
+                         ", this is slipstep " + version() + remedy);
+    }
+
+
+
+    void write_manifest(const CheckpointManifest &manifest,
+                        const fs::path           &folder)
+    {
+      const fs::path file = folder / manifest_name;
+      {
+        std::ofstream out(file);
+        out << to_json(manifest).dump(2,
+                                      ' ',
+                                      false,
+                                      json::error_handler_t::replace)
+            << std::endl;
+        if (!out)
+          fail(file, ENOSPC);
+      }
+      synchronise(file);
+    }
+  } // namespace
+
+
+
+  CheckpointManifest read_manifest(const fs::path &folder)
+  {
+    const fs::path file = folder / manifest_name;
+    std::ifstream  in(file);
+    if (!in)
+      throw Damage(file.string() + " is missing");
+    try
+      {
+        json object = json::parse(in);
+        require_same_program(object, "the checkpoint " + folder.string());
+        const auto checksum = object.at("manifest_crc32").get<std::uint32_t>();
+        object.erase("manifest_crc32");
+        if (checksum_of(object) != checksum)
+          throw Damage(file.string() + " has changed");
+        CheckpointManifest manifest = from_json(object);
+        manifest.folder             = folder;
+        return manifest;
+      }
+    catch (const json::exception &)
+      {
+        throw Damage(file.string() + " is incomplete");
+      }
+  }
+
+
+
+  // ------------------------------------------------------------------ store
+
+  CheckpointStore::CheckpointStore(const fs::path &output)
+    : present(output / "checkpoint")
+    , previous(output / "checkpoint.previous")
+    , next(output / "checkpoint.new")
+  {}
+
+
+
+  std::optional<CheckpointManifest>
+  CheckpointStore::find(const Parameters         &parameters,
+                        std::vector<std::string> &warnings)
+  {
+    std::string damages;
+    for (const fs::path &folder : {present, previous})
+      if (fs::exists(folder))
+        try
+          {
+            const CheckpointManifest manifest = read_manifest(folder);
+            manifest.identity.require_same(parameters,
+                                           "the checkpoint " + folder.string());
+            verify(folder.parent_path() / manifest.history.name,
+                   manifest.history);
+            for (const SealedFile &file : manifest.files)
+              verify(folder / file.name, file);
+            if (!damages.empty())
+              warnings.push_back(damages + ": going on from " +
+                                 folder.string() + ", step " +
+                                 std::to_string(manifest.step));
+            return manifest;
+          }
+        catch (const Damage &damage)
+          {
+            damages +=
+              (damages.empty() ? "" : ", ") + std::string(damage.what());
+            if (folder == present)
+              present_is_damaged = true;
+          }
+    if (!damages.empty())
+      throw InputError("--resume: no checkpoint can be used: " + damages +
+                       "; run without --resume to start anew");
+    return {};
+  }
+
+
+
+  bool CheckpointStore::check(const Parameters &parameters) const
+  {
+    bool exists = false;
+    for (const fs::path &folder : {present, previous})
+      if (fs::exists(folder))
+        try
+          {
+            exists = true;
+            read_manifest(folder).identity.require_same(parameters,
+                                                        "the checkpoint " +
+                                                          folder.string());
+            return true;
+          }
+        catch (const Damage &)
+          {}
+    return exists;
+  }
+
+
+
+  fs::path CheckpointStore::begin() const
+  {
+    std::error_code error;
+    fs::remove_all(next, error);
+    if (!fs::create_directory(next, error))
+      fail(next, error.value());
+    return next;
+  }
+
+
+
+  // Killed at any point, this leaves a complete checkpoint as `checkpoint` or
+  // `checkpoint.previous`.
+  void CheckpointStore::publish(const CheckpointManifest &manifest)
+  {
+    write_manifest(manifest, next);
+    synchronise(next);
+    std::error_code error;
+    if (present_is_damaged)
+      fs::remove_all(present, error);
+    else if (fs::exists(present))
+      {
+        fs::remove_all(previous, error);
+        fs::rename(present, previous, error);
+        if (error)
+          fail(previous, error.value());
+      }
+    fs::rename(next, present, error);
+    if (error)
+      fail(present, error.value());
+    present_is_damaged = false;
+    synchronise(present.parent_path());
+  }
+
+
+
+  void CheckpointStore::abandon() const noexcept
+  {
+    std::error_code error;
+    fs::remove_all(next, error);
+  }
+
+
+
+  void CheckpointStore::remove() const noexcept
+  {
+    std::error_code error;
+    for (const fs::path &folder : {present, previous, next})
+      fs::remove_all(folder, error);
+  }
+
+
+
+  // ----------------------------------------------------------------- resume
+
+  EarlierRun find_earlier_run(const fs::path    &folder,
+                              const Parameters  &parameters,
+                              const Parameters  &declared,
+                              const std::string &command)
+  {
+    const fs::path summary_file = folder / "summary.json";
+    if (fs::exists(summary_file))
+      {
+        const Summary summary = read_summary(summary_file);
+        if (summary.command != command)
+          throw InputError("--resume: " + folder.string() +
+                           " holds results of slipstep " + summary.command +
+                           ", not of slipstep " + command +
+                           "; give another folder with --output");
+        if (summary.status == "finished")
+          {
+            Parameters used = declared;
+            used.read(folder / "used_parameters.prm");
+            CaseIdentity(used).require_same(parameters,
+                                            "the finished run in " +
+                                              folder.string());
+            return EarlierRun::finished;
+          }
+      }
+    return CheckpointStore(folder).check(parameters) ? EarlierRun::stopped :
+                                                       EarlierRun::none;
+  }
+} // namespace SlipStep

@@ -1,0 +1,254 @@
+// Stop and resume: signals, other numbers of ranks, solvers, sweeps.
+
+#include "restart_tools.h"
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  bool has_mpirun()
+  {
+    return std::system("command -v mpirun > /dev/null") == 0;
+  }
+
+  const std::vector<std::string> two_ranks = {"mpirun",
+                                              "--oversubscribe",
+                                              "--allow-run-as-root",
+                                              "-np",
+                                              "2"};
+
+  std::string joined(const std::vector<std::string> &words)
+  {
+    std::string text;
+    for (const std::string &word : words)
+      text += word + " ";
+    return text;
+  }
+
+  // Ranks may outnumber cores.
+  const std::string few_steps =
+    "set Loading/Programme = press 1 MPa in 1 s; slide 1 mm/s for 0.2 mm\n"
+    "set Block/Subdivisions = 4, 3, 4\n"
+    "set Time stepping/Tolerance = 1e-3\n"
+    "set Output/Fields = none\n";
+
+  std::string without_date(const std::string &xml)
+  {
+    return xml.substr(xml.find("<VTKFile"));
+  }
+
+  class Restart : public RestartTest
+  {};
+} // namespace
+
+
+
+TEST_F(Restart, AfterSigtermGoesOnBitForBit)
+{
+  for (const int signal : {SIGTERM, SIGINT})
+    {
+      const std::string output = "stopped by " + std::to_string(signal);
+      {
+        BackgroundRun run(process.folder(),
+                          arguments(output, {"--quiet", "--set", never}));
+        run.wait_until([&]() { return lines(output) > 150; });
+        run.send(signal);
+        run.wait();
+        ASSERT_EQ(run.outcome(), -signal);
+        const std::string message = run.err();
+        EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1);
+        for (const std::string part :
+             {"stopped by a signal", " after step ", "--resume goes on"})
+          EXPECT_NE(message.find(part), std::string::npos) << message;
+      }
+      const auto resumed = run(output, {"--resume"});
+      EXPECT_EQ(resumed.exit_code, 0);
+      EXPECT_EQ(resumed.err, "");
+      EXPECT_NE(resumed.out.find("Resumed after step "), std::string::npos);
+      expect_finished(output);
+      EXPECT_EQ(read_summary(path(output) / "summary.json").sessions, 2u);
+      for (const std::string collection : {"/fields.pvd", "/contact.pvd"})
+        EXPECT_EQ(without_date(process.read(output + collection)),
+                  without_date(process.read("undisturbed" + collection)));
+      EXPECT_EQ(process.read(output + "/contact_face.csv"),
+                process.read("undisturbed/contact_face.csv"));
+
+      // A finished run is kept.
+      const auto again = run(output, {"--resume"});
+      EXPECT_EQ(again.exit_code, 0);
+      EXPECT_NE(again.out.find("Finished earlier"), std::string::npos);
+      expect_finished(output);
+    }
+}
+
+
+
+TEST_F(Restart, Sigusr1WritesACheckpointAndTheRunGoesOn)
+{
+  {
+    BackgroundRun run(process.folder(), arguments("victim", {"--set", never}));
+    run.wait_until([&]() { return lines("victim") > 100; });
+    EXPECT_FALSE(fs::exists(path("victim/checkpoint")));
+    run.send(SIGUSR1);
+    run.wait_until([&]() { return fs::exists(path("victim/checkpoint")); });
+    const std::size_t n_lines = lines("victim");
+    run.wait_until([&]() { return lines("victim") > n_lines; });
+    run.send(SIGKILL);
+    run.wait();
+    ASSERT_EQ(run.outcome(), -SIGKILL);
+    EXPECT_NE(run.out().find("Checkpoint written after step"),
+              std::string::npos);
+  }
+  EXPECT_EQ(run("victim", {"--resume", "--quiet"}).exit_code, 0);
+  expect_finished("victim");
+}
+
+
+
+TEST_F(Restart, WithoutCheckpointStartsAnewAndSaysSo)
+{
+  run_and_kill("victim", 20, {"--set", never});
+  const auto result = run("victim", {"--resume"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("starts anew"), std::string::npos) << result.out;
+  expect_finished("victim");
+
+  const auto point = [&]() {
+    return process.run({"point", "case.prm", "--output", "point", "--resume"});
+  };
+  EXPECT_NE(point().out.find("starts anew"), std::string::npos);
+  EXPECT_NE(point().out.find("Finished earlier"), std::string::npos);
+}
+
+
+
+TEST_F(Restart, OnAnotherNumberOfRanksAgreesToRoundOff)
+{
+  if (!has_mpirun())
+    GTEST_SKIP() << "mpirun is missing";
+  process.write("case.prm", few_steps);
+  run_and_kill("victim", 30, {"--set", often});
+  const auto result = run("victim", {"--resume"}, joined(two_ranks));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("on 2 instead of 1 ranks"), std::string::npos)
+    << result.out;
+  expected();
+  const auto a = read_history(path("victim/history.csv"));
+  const auto b = read_history(path("undisturbed/history.csv"));
+  ASSERT_EQ(a.size(), b.size());
+  for (unsigned int i = 0; i < a.size(); ++i)
+    {
+      ASSERT_EQ(a[i].time, b[i].time);
+      ASSERT_NEAR(a[i].friction, b[i].friction, 1e-9);
+      ASSERT_NEAR(a[i].normal_load, b[i].normal_load, 1e-9 * b[i].normal_load);
+      ASSERT_NEAR(a[i].dissipated_energy,
+                  b[i].dissipated_energy,
+                  1e-9 * b[i].external_work);
+      ASSERT_NEAR(a[i].coefficient.mean, b[i].coefficient.mean, 1e-9);
+    }
+}
+
+
+
+TEST_F(Restart, OnTwoRanksGoesOnBitForBit)
+{
+  if (!has_mpirun())
+    GTEST_SKIP() << "mpirun is missing";
+  // Long enough for two signals in a row.
+  std::string       text  = small_case;
+  const std::string cells = "Subdivisions = 8, 4";
+  process.write("case.prm",
+                text.replace(text.find(cells),
+                             cells.size(),
+                             "Subdivisions = 48, 24"));
+  EXPECT_EQ(run("undisturbed", {"--quiet", "--set", never}, joined(two_ranks))
+              .exit_code,
+            0);
+  // Every rank decides alone whether it has got the signal: all must do the
+  // same nevertheless.
+  {
+    BackgroundRun run(process.folder(),
+                      arguments("victim", {"--set", never}),
+                      two_ranks);
+    run.wait_until([&]() { return lines("victim") > 20; });
+    run.send(SIGUSR1);
+    run.wait_until([&]() { return fs::exists(path("victim/checkpoint")); });
+    run.send(SIGTERM);
+    run.wait();
+    EXPECT_NE(run.outcome(), 0);
+  }
+  const auto result = run("victim", {"--resume"}, joined(two_ranks));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("Resumed after step "), std::string::npos);
+  EXPECT_TRUE(history("victim") == history("undisturbed"));
+}
+
+
+
+TEST_F(Restart, KeepsFinishedVariantsOfASweep)
+{
+  process.write("case.prm",
+                small_case + "subsection Variants\n"
+                             "  subsection quick\n"
+                             "    set Loading/Programme = press 1 MPa in 1 s\n"
+                             "  end\n"
+                             "  subsection slow\n"
+                             "  end\n"
+                             "end\n");
+  {
+    BackgroundRun run(process.folder(),
+                      arguments("sweep", {"--quiet", "--set", never}));
+    run.wait_until([&]() {
+      return lines("sweep/slow") > 150 &&
+             process.read("sweep/quick/summary.json").find("finished") !=
+               std::string::npos;
+    });
+    run.send(SIGTERM);
+    run.wait();
+    EXPECT_EQ(run.outcome(), -SIGTERM);
+    EXPECT_NE(run.err().find("--resume"), std::string::npos) << run.err();
+  }
+  ASSERT_TRUE(fs::exists(path("sweep/slow/checkpoint")));
+  const auto kept   = fs::last_write_time(path("sweep/quick/history.csv"));
+  const auto result = run("sweep", {"--resume"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const std::string part :
+       {"quick: Finished earlier", "slow: Resumed after step", "Report: "})
+    EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+  EXPECT_EQ(fs::last_write_time(path("sweep/quick/history.csv")), kept);
+  const auto table = [&](const std::string &output) {
+    return history(output).substr(history(output).find("\ntime_s"));
+  };
+  EXPECT_EQ(run("undisturbed", {"--variant", "slow", "--quiet"}).exit_code, 0);
+  EXPECT_TRUE(table("sweep/slow") == table("undisturbed/slow"));
+}
+
+
+
+// Every preconditioner is made again as it was.
+TEST_F(Restart, DoesNotDependOnTheSolver)
+{
+  process.write("case.prm",
+                "set Loading/Programme = press 1 MPa in 1 s; \\\n"
+                "  slide 1 mm/s for 0.2 mm at 20 deg\n"
+                "set Block/Subdivisions = 6, 6, 3\n"
+                "set Time stepping/Tolerance = 1e-3\n"
+                "set Output/Fields = none\n");
+  for (const std::string solver : {"direct", "amg", "automatic"})
+    {
+      SCOPED_TRACE(solver);
+      const std::string setting = "Block/Solver=" + solver;
+      const std::string whole = solver + " whole", parts = solver + " parts";
+      ASSERT_EQ(run(whole, {"--quiet", "--set", setting}).exit_code, 0);
+      for (const std::size_t n_lines : {10, 30})
+        {
+          std::vector<std::string> more = {
+            "--set", setting, "--set", often, "--resume"};
+          run_and_kill(parts, n_lines, more);
+        }
+      const auto result = run(parts, {"--set", setting, "--resume", "--quiet"});
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_TRUE(history(parts) == history(whole));
+    }
+}
