@@ -252,3 +252,34 @@ TEST_F(Restart, DoesNotDependOnTheSolver)
       EXPECT_TRUE(history(parts) == history(whole));
     }
 }
+
+
+
+// The mesh, its history and all that decides about its next change.
+TEST_F(Restart, OnAnAdaptiveMeshGoesOnBitForBit)
+{
+  process.write("case.prm",
+                "set Loading/Programme = press 1 MPa in 1 s; \\\n"
+                "  slide 1 mm/s for 0.05 mm; slide -1 mm/s for 0.05 mm\n"
+                "set Block/Dimension = 2\n"
+                "set Block/Size = 10 mm, 5 mm\n"
+                "set Block/Subdivisions = 8, 4\n"
+                "set Block/Degree = 2\n"
+                "set Block/Solver = multigrid\n"
+                "set Block/Refinement = adaptive 2\n"
+                "set Time stepping/Tolerance = 1e-3\n"
+                "set Output/Fields = none\n");
+  ASSERT_EQ(run("whole", {"--quiet"}).exit_code, 0);
+  const auto changes = [&](const std::string &output) {
+    return process.read(output + "/refinement.csv");
+  };
+  const std::string expected_changes = changes("whole");
+  EXPECT_GT(std::count(expected_changes.begin(), expected_changes.end(), '\n'),
+            2);
+  for (const std::size_t n_lines : {10, 30, 50})
+    run_and_kill("parts", n_lines, {"--set", often, "--resume"});
+  const auto result = run("parts", {"--resume", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(history("parts") == history("whole"));
+  EXPECT_EQ(changes("parts"), expected_changes);
+}
