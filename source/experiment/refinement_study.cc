@@ -15,6 +15,9 @@ namespace SlipStep
     const std::string section      = "Refinement study/";
     const std::string time_section = "Time stepping/";
 
+    const std::string mesh_key      = "Block/Refinement";
+    const std::string tolerance_key = "Block/Adaptivity/Tolerance";
+
     /// A kind of time steps: how a study names it, and the key that it varies.
     struct StepKind
     {
@@ -43,16 +46,19 @@ namespace SlipStep
     }
 
     /// The block's own mesh with the cells halved so many times.
-    StudyRun uniform_mesh(const Parameters  &parameters,
-                          const unsigned int level)
+    StudyRun uniform_mesh(const std::string &level)
     {
-      std::string subdivisions;
-      for (const std::string &cells : parameters.list("Block/Subdivisions"))
-        subdivisions +=
-          (subdivisions.empty() ? "" : ", ") +
-          std::to_string(dealii::Utilities::string_to_int(cells) << level);
-      return make_run("uniform " + std::to_string(level),
-                      {{"Block/Subdivisions", subdivisions}});
+      return make_run("uniform " + level, {{mesh_key, "uniform " + level}});
+    }
+
+    /// A mesh that the run refines until its estimated error is small enough.
+    StudyRun adaptive_mesh(const Parameters  &parameters,
+                           const std::string &tolerance)
+    {
+      return make_run(
+        "adaptive " + tolerance,
+        {{mesh_key, "adaptive " + parameters.text(section + "Adaptive levels")},
+         {tolerance_key, tolerance}});
     }
 
     /// Say what is wrong with a value, as Parameters::set would.
@@ -111,17 +117,28 @@ namespace SlipStep
     parameters.declare(
       section + "Uniform meshes",
       "4",
-      Integer(0, 12),
+      Integer(0, 11),
       "For `slipstep refine`: number of uniform meshes. The first, 'uniform 0', "
-      "is that of section Block, each further one has twice as many cells in "
-      "every direction. 0 to 12; Richardson needs 3.");
+      "has the cells of Block/Subdivisions, each further one twice as many in "
+      "every direction (see Block/Refinement). 0 to 11; Richardson needs 3.");
+    parameters.declare(section + "Adaptive tolerances",
+                       "",
+                       Anything(),
+                       "Adaptive meshes: a list of values of "
+                       "Block/Adaptivity/Tolerance, e.g. '0.1, 0.05, 0.02', "
+                       "coarse to fine. Empty: none.");
+    parameters.declare(section + "Adaptive levels",
+                       "6",
+                       Integer(1, 10),
+                       "How often these may halve the cells of section Block, "
+                       "see Block/Refinement. 1 to 10.");
     parameters.declare(
       section + "Mesh reference",
       "Richardson",
       Anything(),
       "What the meshes are compared with: 'Richardson' extrapolates the last "
-      "three uniform ones with the order they show; 'uniform <number>' is a "
-      "finer run of its own.");
+      "three uniform ones with the order they show; 'uniform <number>' or "
+      "'adaptive <tolerance>' is a finer run of its own.");
     parameters.declare(
       section + "Time steps",
       "",
@@ -146,6 +163,7 @@ namespace SlipStep
                         "a refinement study needs quantities of interest, e.g. "
                         "'friction force at 0.005 mm; peak coefficient'");
     add_uniform(parameters);
+    add_adaptive(parameters);
     add_time_steps(parameters);
     if (sequence_list.empty())
       parameters.reject(section + "Uniform meshes",
@@ -161,8 +179,23 @@ namespace SlipStep
     const unsigned int n = parameters.integer(section + "Uniform meshes");
     StudySequence      sequence{StudySequence::Kind::uniform, "uniform", {}};
     for (unsigned int level = 0; level < n; ++level)
-      sequence.runs.push_back(uniform_mesh(parameters, level));
+      sequence.runs.push_back(uniform_mesh(std::to_string(level)));
     if (n > 0)
+      sequence_list.push_back(sequence);
+  }
+
+
+
+  void RefinementStudy::add_adaptive(const Parameters &parameters)
+  {
+    const std::string key = section + "Adaptive tolerances";
+    StudySequence     sequence{StudySequence::Kind::adaptive, "adaptive", {}};
+    for (const std::string &tolerance : parameters.list(key))
+      {
+        check_value(parameters, key, tolerance_key, tolerance);
+        sequence.runs.push_back(adaptive_mesh(parameters, tolerance));
+      }
+    if (!sequence.runs.empty())
       sequence_list.push_back(sequence);
   }
 
@@ -186,31 +219,40 @@ namespace SlipStep
                             return sequence.kind == kind;
                           });
     };
-    const auto uniform    = sequence_of(StudySequence::Kind::uniform);
-    const auto time_step  = sequence_of(StudySequence::Kind::time_step);
-    const bool has_meshes = uniform != sequence_list.end();
+    const auto uniform   = sequence_of(StudySequence::Kind::uniform);
+    const auto time_step = sequence_of(StudySequence::Kind::time_step);
+    const bool has_meshes =
+      sequence_list.front().kind != StudySequence::Kind::time_step;
 
-    const std::string mesh_key  = section + "Mesh reference";
-    const std::string mesh_text = parameters.text(mesh_key);
-    if (has_meshes && is_richardson(mesh_text))
+    const std::string mesh_reference = section + "Mesh reference";
+    const std::string text           = parameters.text(mesh_reference);
+    if (has_meshes && is_richardson(text))
       {
-        if (uniform->runs.size() < 3)
+        if (uniform == sequence_list.end() || uniform->runs.size() < 3)
           parameters.reject(section + "Uniform meshes",
                             "the reference by Richardson extrapolation needs "
                             "3 meshes");
       }
     else if (has_meshes)
       {
-        const std::string word = "uniform ";
+        const std::string kind = text.substr(0, text.find(' '));
         const std::string rest =
-          mesh_text.substr(std::min(word.size(), mesh_text.size()));
-        if (mesh_text.rfind(word, 0) != 0 || rest.empty() ||
-            rest.find_first_not_of("0123456789") != std::string::npos ||
-            std::stoul(rest) > 12)
-          parameters.reject(mesh_key,
-                            "allowed are 'Richardson' and 'uniform <number>'" +
-                              did_you_mean(mesh_text, {"Richardson"}));
-        mesh_reference_run = uniform_mesh(parameters, std::stoul(rest));
+          text.substr(std::min(kind.size() + 1, text.size()));
+        if (kind == "uniform" && !rest.empty())
+          {
+            check_value(parameters, mesh_reference, mesh_key, text);
+            mesh_reference_run = uniform_mesh(rest);
+          }
+        else if (kind == "adaptive" && !rest.empty())
+          {
+            check_value(parameters, mesh_reference, tolerance_key, rest);
+            mesh_reference_run = adaptive_mesh(parameters, rest);
+          }
+        else
+          parameters.reject(mesh_reference,
+                            "allowed are 'Richardson', 'uniform <number>' and "
+                            "'adaptive <tolerance>'" +
+                              did_you_mean(text, {"Richardson"}));
       }
 
     const std::string time_key = section + "Time reference";

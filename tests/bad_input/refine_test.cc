@@ -173,3 +173,38 @@ TEST(Refine, refuses_a_sweep_but_takes_a_member)
     0.3)
     << csv;
 }
+
+
+
+// Both sequences against a finer adaptive run.
+TEST(Refine, adaptive_meshes)
+{
+  const SlipstepProcess process;
+  process.write("block.prm",
+                "set Loading/Programme = press 5.8 MPa in 1 s; slide 1 mm/min "
+                "for 0.1 um\n"
+                "set Output/Quantities = pressure at 10 mm\n"
+                "set Output/Fields = none\n"
+                "set Time stepping/Equal steps per statement = 3\n"
+                "set Friction/Effects =\n"
+                "set Block/Dimension = 2\n"
+                "set Block/Size = 10 mm, 10 mm\n"
+                "set Block/Subdivisions = 2, 2\n"
+                "subsection Refinement study\n"
+                "  set Uniform meshes      = 3\n"
+                "  set Adaptive tolerances = 0.2, 0.05\n"
+                "  set Adaptive levels     = 4\n"
+                "  set Mesh reference      = adaptive 0.02\n"
+                "end\n");
+  const auto result = process.run({"refine", "block.prm"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("(adaptive 0.02)"), std::string::npos)
+    << result.out;
+  const std::string csv      = process.read("output/block/refinement.csv");
+  const std::string quantity = "pressure at 10 mm";
+  const std::string coarse   = row(csv, "adaptive 0.2", quantity);
+  const std::string fine     = row(csv, "adaptive 0.05", quantity);
+  EXPECT_EQ(cell(fine, 0), "adaptive");
+  EXPECT_GT(std::stod(cell(fine, 4)), std::stod(cell(coarse, 4))) << csv;
+  EXPECT_LT(std::stod(cell(fine, 12)), std::stod(cell(coarse, 12))) << csv;
+}

@@ -66,6 +66,7 @@ namespace SlipStep
 
   private:
     void add_uniform(const Parameters &parameters);
+    void add_adaptive(const Parameters &parameters);
     void add_time_steps(const Parameters &parameters);
     void read_references(const Parameters &parameters);
 
