@@ -57,3 +57,18 @@ plot \
   history using (1e3*column('displacement_mm')):(L*column('slip_fraction')) \
     with lines lw 1.5 lc rgb '#0072B2' title 'slipstep'
 set output
+
+# The mesh at the end: every cell of the contact face as a line at its size.
+set output folder.'/mesh.svg'
+set xlabel 'Distance from the free end  [mm]'
+set ylabel 'Length of the cells  [mm]'
+set xrange [0:L]
+set yrange [0.25:8]
+set logscale y 2
+set key left top Left reverse samplen 2.5 spacing 1.25
+set arrow 1 from first L - l_m, graph 0 to first L - l_m, graph 1 nohead lw 5 lc rgb '#bbbbbb' back
+plot \
+  NaN, NaN with lines lw 5 lc rgb '#bbbbbb' title 'front, closed form', \
+  folder.'/contact_face.csv' using (column('x_mm')):(column('cell_size_x_mm')):(0.5*column('cell_size_x_mm')) \
+    with xerrorbars pt 7 ps 0.25 lw 1.5 lc rgb '#0072B2' title 'slipstep'
+set output

@@ -196,6 +196,7 @@ TEST(ShearLag, shipped_case)
   std::size_t           segment = 0;
   std::array<double, 4> worst_force{}, worst_front{}, dissipated{}, work{};
   std::array<int, 4>    n_fronts{};
+  unsigned long long    most_unknowns = 0;
   block.run(nullptr, [&](const HistoryRow &row) {
     if (segment > 0)
       {
@@ -219,6 +220,9 @@ TEST(ShearLag, shipped_case)
             ++n_fronts[segment];
           }
       }
+    Summary summary;
+    block.fill(summary);
+    most_unknowns       = std::max(most_unknowns, summary.dofs);
     dissipated[segment] = row.dissipated_energy;
     work[segment]       = row.external_work;
     if (row.time >= segments[segment].end_time)
@@ -239,10 +243,14 @@ TEST(ShearLag, shipped_case)
   EXPECT_NEAR((dissipated[3] - dissipated[1]) / loop, 1., 5e-3);
   EXPECT_NEAR((work[3] - work[1]) / loop, 1., 5e-3);
 
+  // A uniform mesh of one layer, as fine along the strip, has 2406.
+  EXPECT_LT(most_unknowns, 1200u);
+
   for (const unsigned int s : {1, 2, 3})
     std::cout << "slide " << s << ": force within " << 100. * worst_force[s]
               << " %, front within " << 100. * worst_front[s] << " % ("
               << n_fronts[s] << " steps)\n";
   std::cout << "loop energy " << dissipated[3] - dissipated[1] << " (slip), "
-            << work[3] - work[1] << " (force), closed form " << loop << " N\n";
+            << work[3] - work[1] << " (force), closed form " << loop
+            << " N, at most " << most_unknowns << " unknowns\n";
 }
