@@ -81,7 +81,8 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                        "steps",    "rejected_steps", "newton_iterations",
                        "wall_s",   "cpu_s",          "linear_iterations",
                        "friction", "energy",         "peak_memory_MB",
-                       "slides",   "quantities",     "warnings"});
+                       "slides",   "quantities",     "warnings",
+                       "sessions"});
   has_exactly(object["friction"], {"peak", "at_displacement_mm", "final"});
   has_exactly(object["energy"],
               {"work", "stored", "dissipated", "balance_error"});
