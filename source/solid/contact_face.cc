@@ -41,7 +41,7 @@ namespace SlipStep
     FEFaceValues<dim> fe_values = make_fe_values();
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned() &&
-          cell->face(parameters.contact_face)->at_boundary())
+          cell->at_boundary(parameters.contact_face))
         {
           fe_values.reinit(cell, parameters.contact_face);
           CellFace cell_face{cell, parameters.contact_face, {}};

@@ -1,79 +1,15 @@
 #include <slipstep/solid/contact_transfer.h>
 
-#include <algorithm>
+#include <deal.II/base/utilities.h>
+
+#include <boost/serialization/vector.hpp>
+
 #include <array>
-#include <cstring>
 #include <memory>
 
 namespace SlipStep
 {
   using namespace dealii;
-
-  namespace
-  {
-    using Record = std::array<double, 10>;
-
-    Record record_of(const ContactState &state)
-    {
-      return {{state.traction[0],
-               state.traction[1],
-               state.normal_traction,
-               state.strength,
-               state.loading_ratio,
-               state.normal_ratio,
-               state.coefficient,
-               state.slip_path,
-               state.slip_rate,
-               state.dissipation}};
-    }
-
-
-
-    ContactState state_of(const Record &record)
-    {
-      ContactState state;
-      state.traction[0]     = record[0];
-      state.traction[1]     = record[1];
-      state.normal_traction = record[2];
-      state.strength        = record[3];
-      state.loading_ratio   = record[4];
-      state.normal_ratio    = record[5];
-      state.coefficient     = record[6];
-      state.slip_path       = record[7];
-      state.slip_rate       = record[8];
-      state.dissipation     = record[9];
-      return state;
-    }
-
-
-
-    std::vector<char> to_bytes(const std::vector<ContactState> &states)
-    {
-      std::vector<char> bytes(states.size() * sizeof(Record));
-      for (unsigned int q = 0; q < states.size(); ++q)
-        {
-          const Record record = record_of(states[q]);
-          std::memcpy(&bytes[q * sizeof(Record)], &record, sizeof(Record));
-        }
-      return bytes;
-    }
-
-
-
-    std::vector<ContactState> from_bytes(const std::vector<char> &bytes)
-    {
-      std::vector<ContactState> states(bytes.size() / sizeof(Record));
-      for (unsigned int q = 0; q < states.size(); ++q)
-        {
-          Record record;
-          std::memcpy(&record, &bytes[q * sizeof(Record)], sizeof(Record));
-          states[q] = state_of(record);
-        }
-      return states;
-    }
-  } // namespace
-
-
 
   template <int dim>
   ContactTransfer<dim>::Directory::Directory(const ContactFace<dim> &contact)
@@ -116,16 +52,6 @@ namespace SlipStep
 
 
   template <int dim>
-  bool ContactTransfer<dim>::is_on_face(const Cell &cell) const
-  {
-    const auto face = cell->face(parameters.contact_face);
-    return face->at_boundary() &&
-           face->boundary_id() == parameters.contact_face;
-  }
-
-
-
-  template <int dim>
   std::array<typename ContactTransfer<dim>::Cell,
              ContactProjection<dim>::n_children>
   ContactTransfer<dim>::children_on_face(const Cell &cell) const
@@ -146,7 +72,7 @@ namespace SlipStep
                              const Cell             &cell,
                              const Status            status) const
   {
-    if (!is_on_face(cell))
+    if (!cell->at_boundary(parameters.contact_face))
       return {};
     const auto states_of = [&](const Cell &of_cell) {
       States states;
@@ -157,12 +83,12 @@ namespace SlipStep
     };
 
     if (status != Triangulation::CELL_COARSEN)
-      return to_bytes(states_of(cell));
+      return Utilities::pack(states_of(cell), false);
     std::array<States, ContactProjection<dim>::n_children> of_children;
     const auto children = children_on_face(cell);
     for (unsigned int i = 0; i < children.size(); ++i)
       of_children[i] = states_of(children[i]);
-    return to_bytes(projection.coarsen(of_children));
+    return Utilities::pack(projection.coarsen(of_children), false);
   }
 
 
@@ -215,7 +141,10 @@ namespace SlipStep
                     directory,
                     cell,
                     status,
-                    from_bytes(Bytes(range.begin(), range.end())));
+                    range.empty() ? States() :
+                                    Utilities::unpack<States>(range.begin(),
+                                                              range.end(),
+                                                              false));
       });
     handle = numbers::invalid_unsigned_int;
   }

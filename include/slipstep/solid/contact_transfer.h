@@ -75,7 +75,6 @@ namespace SlipStep
     std::array<Cell, ContactProjection<dim>::n_children>
     children_on_face(const Cell &cell) const;
 
-    bool  is_on_face(const Cell &cell) const;
     Bytes pack(const ContactFace<dim> &contact,
                const Directory        &directory,
                const Cell             &cell,
