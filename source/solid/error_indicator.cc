@@ -33,9 +33,8 @@ namespace SlipStep
       , displacement(displacement)
       , contact(contact)
       , pressure(pressure)
-      , mu(parameters.young_modulus / (2. * (1. + parameters.poisson_ratio)))
-      , lambda(2. * mu * parameters.poisson_ratio /
-               (1. - 2. * parameters.poisson_ratio))
+      , mu(parameters.shear_modulus())
+      , lambda(parameters.lame_lambda())
       , cell_quadrature(parameters.degree + 1)
       , in_cell(dof_handler.get_fe(),
                 cell_quadrature,

@@ -52,7 +52,7 @@ namespace SlipStep
     {
       ContactTangent<dim> result;
       for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned() && cell->face(face)->at_boundary())
+        if (cell->is_locally_owned() && cell->at_boundary(face))
           result.push_back({cell, std::vector<Tensor<2, dim>>(n_points)});
       return result;
     }
@@ -186,8 +186,7 @@ namespace SlipStep
                                 level.relevant,
                                 Tensor<1, 2>(),
                                 level.constraints);
-        for (const auto &line : level.constraints.get_lines())
-          level.constraints.set_inhomogeneity(line.index, 0.);
+        make_homogeneous(level.constraints);
         level.float_constraints.copy_from(level.constraints);
         level.tangent = contact_faces(*level.triangulation,
                                       parameters.contact_face,

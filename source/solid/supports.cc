@@ -88,6 +88,10 @@ namespace SlipStep
                 }
           }
     }
+
+
+
+    // An unknown, its prescribed value, and what it depends on.
     using Line =
       std::tuple<types::global_dof_index,
                  double,
@@ -183,6 +187,14 @@ namespace SlipStep
     flatten(parameters, dof_handler, constraints);
     ask_owners(dof_handler, constraints);
     constraints.close();
+  }
+
+
+
+  void make_homogeneous(AffineConstraints<double> &constraints)
+  {
+    for (const auto &line : constraints.get_lines())
+      constraints.set_inhomogeneity(line.index, 0.);
   }
 
 

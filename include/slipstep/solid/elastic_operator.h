@@ -65,12 +65,6 @@ namespace SlipStep
     /// The sum, identity for constrained unknowns.
     void vmult(VectorType &dst, const VectorType &src) const;
 
-    /// Symmetric up to the contact part, for which it is never asked.
-    void Tvmult(VectorType &dst, const VectorType &src) const
-    {
-      vmult(dst, src);
-    }
-
     /// Asked for by the interface of PreconditionChebyshev, which never calls
     /// it when it is given a diagonal.
     Number el(const unsigned int, const unsigned int) const
@@ -160,7 +154,7 @@ namespace SlipStep
     for (const auto &cell : mesh.active_cell_iterators())
       if (cell->is_locally_owned())
         settings.cell_vectorization_category[cell->active_cell_index()] =
-          cell->face(parameters.contact_face)->at_boundary();
+          cell->at_boundary(parameters.contact_face);
 
     const dealii::AffineConstraints<Number>      none;
     std::vector<const dealii::DoFHandler<dim> *> dof_handlers{&dof_handler};
@@ -191,7 +185,7 @@ namespace SlipStep
     unsigned int n_faces = 0;
     for (const auto &cell :
          matrix_free.get_dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned() && cell->face(face)->at_boundary())
+      if (cell->is_locally_owned() && cell->at_boundary(face))
         face_of_cell[cell->active_cell_index()] = n_faces++;
 
     slot_of_batch.assign(matrix_free.n_cell_batches(),
@@ -203,7 +197,7 @@ namespace SlipStep
            ++lane)
         {
           const auto cell = matrix_free.get_cell_iterator(batch, lane);
-          if (!cell->face(face)->at_boundary())
+          if (!cell->at_boundary(face))
             continue;
           if (slot_of_batch[batch] == dealii::numbers::invalid_unsigned_int)
             slot_of_batch[batch] = n_slots++;

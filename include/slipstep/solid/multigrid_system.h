@@ -15,9 +15,6 @@
 #define MGTwoLevelTransferImplementation                                       \
   SLIPSTEP_OF_WIDTH(MGTwoLevelTransferImplementation,                          \
                     DEAL_II_VECTORIZATION_WIDTH_IN_BITS)
-#define MGTransferGlobalCoarsening                                             \
-  SLIPSTEP_OF_WIDTH(MGTransferGlobalCoarsening,                                \
-                    DEAL_II_VECTORIZATION_WIDTH_IN_BITS)
 
 // Kernels for degrees chosen at run time, of which only the mapping needs a
 // few.

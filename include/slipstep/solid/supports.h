@@ -45,6 +45,9 @@ namespace SlipStep
                                const dealii::IndexSet            &relevant,
                                const dealii::Tensor<1, 2>        &frame,
                                dealii::AffineConstraints<double> &constraints);
+
+  /// Prescribe zero wherever a value is prescribed.
+  void make_homogeneous(dealii::AffineConstraints<double> &constraints);
 } // namespace SlipStep
 
 #endif
