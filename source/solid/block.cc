@@ -85,7 +85,7 @@ namespace SlipStep
         HistoryRow row;
         row.time      = control.time();
         row.step_size = step_size;
-        accept_step(row);
+        accept_step(totals, row);
         observe(row);
         check_contact(totals);
         old_step = step_size;
@@ -247,11 +247,12 @@ namespace SlipStep
                    old_solution,
                    loading.displacement - old_loading.displacement,
                    trial_step);
-    unbalanced = 0.;
-    contact.add_forces(unbalanced);
-    unbalanced.compress(VectorOperation::add);
-    force_scale = unbalanced.l2_norm();
+    contact_forces = 0.;
+    contact.add_forces(contact_forces);
+    contact_forces.compress(VectorOperation::add);
+    force_scale = contact_forces.l2_norm();
 
+    unbalanced = contact_forces;
     system->add_elastic_forces(solution, unbalanced);
     unbalanced.compress(VectorOperation::add);
     unbalanced.add(-1., constant_load, -loading.pressure, unit_pressure_load);
@@ -278,9 +279,8 @@ namespace SlipStep
   // error of backward Euler, which takes the friction force at the end of the
   // step for the whole of it.
   template <int dim>
-  void Block<dim>::accept_step(HistoryRow &row)
+  void Block<dim>::accept_step(const ContactTotals &totals, HistoryRow &row)
   {
-    const ContactTotals totals = contact.totals(communicator);
     contact.commit();
     add_external_work();
 

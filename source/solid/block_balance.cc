@@ -51,11 +51,9 @@ namespace SlipStep
 
     // Global balance: elastic forces have no resultant, so contact forces are
     // the loads plus all reactions; `unbalanced` holds nothing but reactions.
-    forces = 0.;
-    contact.add_forces(forces);
-    forces.compress(VectorOperation::add);
     const double normal_load =
-      std::abs(sum_by_component(forces)[parameters.normal_axis()]);
+      std::abs(sum_by_component(contact_forces)[parameters.normal_axis()]);
+    forces = contact_forces;
     forces.add(-1., constant_load, -loading.pressure, unit_pressure_load);
     for (const auto &line : homogeneous_constraints.get_lines())
       if (line.entries.empty() &&
@@ -74,10 +72,8 @@ namespace SlipStep
   template <int dim>
   double Block<dim>::elastic_energy()
   {
-    forces = 0.;
-    contact.add_forces(forces);
-    forces.compress(VectorOperation::add);
-    forces.sadd(-1., 1., unbalanced);
+    forces = unbalanced;
+    forces -= contact_forces;
     forces.add(1., constant_load, loading.pressure, unit_pressure_load);
     return 0.5 * (forces * solution);
   }

@@ -1,5 +1,6 @@
 #include <slipstep/solid/block_output.h>
 
+#include <slipstep/solid/attempt_together.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/exceptions.h>
 
@@ -162,6 +163,24 @@ namespace SlipStep
     private:
       std::vector<DataOutBase::Patch<dim - 1, dim>> patches;
     };
+
+
+
+    void write_row(std::ostream &out, const MeshChange &change)
+    {
+      out << exact_text(change.time) << ',' << change.repeats_step << ','
+          << change.n_refined << ',' << change.n_merged << ',' << change.n_cells
+          << ',' << change.n_unknowns;
+      for (const double value : {change.error,
+                                 change.tangential_load,
+                                 change.dissipated,
+                                 change.load_jump,
+                                 change.dissipation_jump,
+                                 change.equilibrium_load_jump,
+                                 change.equilibrium_dissipation_jump})
+        out << ',' << exact_text(value);
+      out << '\n';
+    }
   } // namespace
 
 
@@ -270,38 +289,32 @@ namespace SlipStep
 
   // A full disk hits one rank only: all must stop together.
   template <int dim>
-  void BlockOutput<dim>::write_mesh_changes(
-    const std::vector<MeshChange> &changes) const
+  void
+  BlockOutput<dim>::write_mesh_changes(const std::vector<MeshChange> &changes)
   {
-    const auto   file       = folder / "refinement.csv";
-    unsigned int has_failed = 0;
-    if (rank == 0)
-      {
-        std::ofstream out(file);
-        out << "time_s,repeats_step,refined,merged,cells,dofs,"
-               "estimated_error,tangential_load_N,dissipated_energy_Nmm,"
-               "load_jump,dissipation_jump,equilibrium_load_jump,"
-               "equilibrium_dissipation_jump\n";
-        for (const MeshChange &change : changes)
-          {
-            out << exact_text(change.time) << ',' << change.repeats_step << ','
-                << change.n_refined << ',' << change.n_merged << ','
-                << change.n_cells << ',' << change.n_unknowns;
-            for (const double value : {change.error,
-                                       change.tangential_load,
-                                       change.dissipated,
-                                       change.load_jump,
-                                       change.dissipation_jump,
-                                       change.equilibrium_load_jump,
-                                       change.equilibrium_dissipation_jump})
-              out << ',' << exact_text(value);
-            out << '\n';
-          }
-        out.flush();
-        has_failed = out.fail() ? 1 : 0;
-      }
-    if (Utilities::MPI::max(has_failed, communicator) > 0)
-      throw RunError(file.string() + ": cannot be written (is the disk full?)");
+    const auto write_rows = [&]() {
+      if (rank != 0)
+        return;
+      std::size_t n_written_rows = changes.size() - 1;
+      if (!mesh_changes.is_open())
+        {
+          mesh_changes.open(folder / "refinement.csv");
+          mesh_changes << "time_s,repeats_step,refined,merged,cells,dofs,"
+                          "estimated_error,tangential_load_N,"
+                          "dissipated_energy_Nmm,load_jump,dissipation_jump,"
+                          "equilibrium_load_jump,"
+                          "equilibrium_dissipation_jump\n";
+          n_written_rows = 0;
+        }
+      for (; n_written_rows < changes.size(); ++n_written_rows)
+        write_row(mesh_changes, changes[n_written_rows]);
+      if (!mesh_changes.flush())
+        throw RunError((folder / "refinement.csv").string() +
+                       ": cannot be written (is the disk full?)");
+    };
+    const std::string failure = attempt_together(communicator, write_rows);
+    if (!failure.empty())
+      throw RunError(failure);
   }
 
 

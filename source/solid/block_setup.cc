@@ -76,6 +76,7 @@ namespace SlipStep
                            &prescribed_by_frame[1],
                            &constant_load,
                            &unit_pressure_load,
+                           &contact_forces,
                            &unbalanced,
                            &old_unbalanced,
                            &forces,
@@ -108,8 +109,7 @@ namespace SlipStep
     prescribed_at(Tensor<1, 2>(), prescribed);
     for (unsigned int i = 0; i < dim - 1; ++i)
       prescribed_by_frame[i] -= prescribed;
-    for (const auto &line : homogeneous_constraints.get_lines())
-      homogeneous_constraints.set_inhomogeneity(line.index, 0.);
+    make_homogeneous(homogeneous_constraints);
   }
 
 

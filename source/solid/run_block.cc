@@ -2,6 +2,7 @@
 
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/run_recorder.h>
+#include <slipstep/solid/attempt_together.h>
 #include <slipstep/solid/block.h>
 #include <slipstep/solid/face_probes.h>
 #include <slipstep/solid/run_checkpoints.h>
@@ -15,27 +16,6 @@ namespace SlipStep
 
   namespace
   {
-    // A full disk hits one rank only: all must stop together.
-    void record_together(RunRecorder      &recorder,
-                         const HistoryRow &row,
-                         const MPI_Comm   &communicator)
-    {
-      std::string reason;
-      try
-        {
-          recorder.record(row);
-        }
-      catch (const RunError &error)
-        {
-          reason = error.what();
-        }
-      const unsigned int has_failed = reason.empty() ? 0 : 1;
-      if (Utilities::MPI::max(has_failed, communicator) > 0)
-        throw RunError(reason.empty() ? "another process was stopped" : reason);
-    }
-
-
-
     template <int dim>
     void run_block_in(const BlockParameters &block_parameters,
                       const Parameters      &parameters,
@@ -69,7 +49,12 @@ namespace SlipStep
               HistoryRow with_probes = row;
               with_probes.probes =
                 probes.values(block.contact_face(), communicator);
-              record_together(recorder, with_probes, communicator);
+              // A full disk hits one rank only: all must stop together.
+              const std::string failure = attempt_together(communicator, [&]() {
+                recorder.record(with_probes);
+              });
+              if (!failure.empty())
+                throw RunError(failure);
             },
             [&]() { checkpoints.write_if_due(block, output, recorder); });
         }
@@ -88,12 +73,9 @@ namespace SlipStep
       if (reason.empty())
         checkpoints.remove();
     }
-  } // namespace
 
 
 
-  namespace
-  {
     // A program built on one machine may be started on an older one.
     void check_processor()
     {
@@ -126,22 +108,19 @@ namespace SlipStep
                          programme,
                          Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0,
                          checkpoints.found());
+    const auto            run_in = [&](const auto dim) {
+      run_block_in<dim()>(block_parameters,
+                          parameters,
+                          options,
+                          law,
+                          programme,
+                          checkpoints,
+                          recorder);
+    };
     if (block_parameters.dimension == 2)
-      run_block_in<2>(block_parameters,
-                      parameters,
-                      options,
-                      law,
-                      programme,
-                      checkpoints,
-                      recorder);
+      run_in(std::integral_constant<int, 2>());
     else
-      run_block_in<3>(block_parameters,
-                      parameters,
-                      options,
-                      law,
-                      programme,
-                      checkpoints,
-                      recorder);
+      run_in(std::integral_constant<int, 3>());
     return recorder.summary;
   }
 } // namespace SlipStep

@@ -1,6 +1,7 @@
 #include <slipstep/solid/run_checkpoints.h>
 
 #include <slipstep/experiment/archive_file.h>
+#include <slipstep/solid/attempt_together.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/version.h>
@@ -57,7 +58,7 @@ namespace SlipStep
         {
           reason = error.what();
         }
-    reason = agreed(reason);
+    reason = agreed(reason, communicator);
     if (!reason.empty())
       throw InputError(reason);
     folder = Utilities::MPI::broadcast(communicator, folder);
@@ -65,18 +66,6 @@ namespace SlipStep
       manifest = read_manifest(folder);
     if (manifest)
       last_step = manifest->step;
-  }
-
-
-
-  // What went wrong on any rank, "" if nothing did.
-  std::string RunCheckpoints::agreed(const std::string &reason) const
-  {
-    for (const std::string &other :
-         Utilities::MPI::all_gather(communicator, reason))
-      if (!other.empty())
-        return other;
-    return "";
   }
 
 
@@ -168,28 +157,20 @@ namespace SlipStep
                                     const BlockOutput<dim> &fields,
                                     const RunRecorder      &recorder)
   {
-    const auto attempt = [&](const bool takes_part, const auto &work) {
-      std::string reason;
-      if (takes_part)
-        try
-          {
-            work();
-          }
-        catch (const RunError &error)
-          {
-            reason = error.what();
-          }
-      return agreed(reason);
+    const auto on_first_rank = [&](const auto &work) {
+      return attempt_together(communicator, [&]() {
+        if (is_first_rank)
+          work();
+      });
     };
 
     std::filesystem::path folder;
-    std::string           reason =
-      attempt(is_first_rank, [&]() { folder = store.begin(); });
+    std::string reason = on_first_rank([&]() { folder = store.begin(); });
     if (reason.empty())
       {
         folder = Utilities::MPI::broadcast(communicator, folder.string());
         std::vector<SealedFile> files;
-        reason = attempt(true, [&]() {
+        reason = attempt_together(communicator, [&]() {
           for (const std::string &name : block.save(folder))
             files.push_back(seal_file(folder / name));
           if (is_first_rank)
@@ -208,7 +189,7 @@ namespace SlipStep
         Summary sizes;
         block.fill(sizes);
         if (reason.empty())
-          reason = attempt(is_first_rank, [&]() {
+          reason = on_first_rank([&]() {
             CheckpointManifest next;
             next.identity = CaseIdentity(parameters);
             next.step     = block.step_control().n_accepted();

@@ -159,7 +159,7 @@ namespace SlipStep
     double      compute_residual();
     double      linear_tolerance(const double norm) const;
     double      line_search(const Vector &update, const double old_norm);
-    void        accept_step(HistoryRow &row);
+    void        accept_step(const ContactTotals &totals, HistoryRow &row);
     std::string reason_of_failure() const;
 
     // Checkpoints.
@@ -220,6 +220,7 @@ namespace SlipStep
     Loading     old_loading, loading;
 
     // Newton's method.
+    Vector              contact_forces; // not constrained
     Vector              unbalanced; // internal - external forces, all supports
     Vector              forces;     // scratch
     Vector              old_unbalanced; // of the last accepted step

@@ -38,9 +38,9 @@ namespace SlipStep
                       const bool                     is_end_of_statement,
                       const bool                     is_end);
 
-    /// Write refinement.csv anew, with all changes so far (all ranks take
-    /// part).
-    void write_mesh_changes(const std::vector<MeshChange> &changes) const;
+    /// Write the last change into refinement.csv; the first time all of them,
+    /// because a run that goes on has earlier ones (all ranks take part).
+    void write_mesh_changes(const std::vector<MeshChange> &changes);
 
     /// Write contact_face.csv (all ranks take part).
     void write_contact_table(const ContactFace<dim> &contact) const;
@@ -68,6 +68,7 @@ namespace SlipStep
     const MPI_Comm              communicator;
     const unsigned int          rank;
     unsigned int                n_written = 0;
+    std::ofstream               mesh_changes; ///< refinement.csv
 
     std::vector<std::pair<double, std::string>> volume_files, contact_files;
   };

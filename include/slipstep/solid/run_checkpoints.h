@@ -53,8 +53,6 @@ namespace SlipStep
                       const BlockOutput<dim> &fields,
                       const RunRecorder      &recorder);
 
-    std::string agreed(const std::string &reason) const;
-
     using Clock = std::chrono::steady_clock;
 
     const Parameters                  parameters;

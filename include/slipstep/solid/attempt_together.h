@@ -1,0 +1,34 @@
+#ifndef slipstep_solid_attempt_together_h
+#define slipstep_solid_attempt_together_h
+
+#include <slipstep/utilities/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <string>
+
+namespace SlipStep
+{
+  /// What went wrong on the first rank where something did; "" if nothing did.
+  /// @param reason what went wrong on this rank, or ""
+  std::string agreed(const std::string &reason, const MPI_Comm &communicator);
+
+  /// Do what may fail on one rank only, so that all ranks know.
+  /// @return agreed() on the RunError that it threw
+  template <class Work>
+  std::string attempt_together(const MPI_Comm &communicator, const Work &work)
+  {
+    std::string reason;
+    try
+      {
+        work();
+      }
+    catch (const RunError &error)
+      {
+        reason = error.what();
+      }
+    return agreed(reason, communicator);
+  }
+} // namespace SlipStep
+
+#endif
