@@ -1,5 +1,6 @@
 #include <slipstep/solid/refine_block.h>
 
+#include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/refinement_study.h>
 #include <slipstep/experiment/report.h>
 #include <slipstep/experiment/run_options.h>
@@ -38,14 +39,48 @@ namespace SlipStep
 
 
 
-    std::vector<SweepJob> study_jobs(const RefinementStudy &study,
-                                     const CommandLine     &line,
-                                     const std::string     &variant,
-                                     const fs::path        &output)
+    // With --resume: what there is of every run, in the order of study.runs().
+    // A folder of another case is refused before anything is touched.
+    std::vector<EarlierRun> find_earlier_runs(const RefinementStudy &study,
+                                              const Parameters      &parameters,
+                                              const CommandLine     &line,
+                                              const fs::path        &output)
     {
-      std::vector<SweepJob> jobs;
-      for (const StudyRun &run : study.runs())
+      const std::vector<StudyRun> runs = study.runs();
+      std::vector<EarlierRun>     earlier(runs.size(), EarlierRun::none);
+      if (!line.resume)
+        return earlier;
+      Parameters declared;
+      declare_all_parameters(declared);
+      for (unsigned int i = 0; i < runs.size(); ++i)
+        earlier[i] = find_earlier_run(output / runs[i].folder,
+                                      parameters_of(runs[i], parameters),
+                                      declared,
+                                      "run");
+      return earlier;
+    }
+
+
+
+    std::vector<SweepJob> study_jobs(const RefinementStudy         &study,
+                                     const std::vector<EarlierRun> &earlier,
+                                     const CommandLine             &line,
+                                     const std::string             &variant,
+                                     const fs::path                &output)
+    {
+      std::vector<SweepJob>       jobs;
+      const std::vector<StudyRun> runs = study.runs();
+      for (unsigned int i = 0; i < runs.size(); ++i)
         {
+          const StudyRun &run = runs[i];
+          if (earlier[i] == EarlierRun::finished)
+            {
+              if (!line.quiet)
+                std::cout << run.label
+                          << ": Finished earlier: the results are kept."
+                          << std::endl;
+              continue;
+            }
           SweepJob job =
             child_job(line, "run", run.label, output / run.folder, variant);
           for (const auto &setting : run.settings)
@@ -60,8 +95,11 @@ namespace SlipStep
                              }))
               job.arguments.push_back("--set=" + typed.first + "=" +
                                       typed.second);
+          if (line.resume)
+            job.arguments.push_back("--resume");
           jobs.push_back(job);
-          remove_earlier_results(output / run.folder);
+          if (earlier[i] == EarlierRun::none)
+            remove_earlier_results(output / run.folder);
         }
       // The longest first, so that the cores are busy to the end.
       std::reverse(jobs.begin(), jobs.end());
@@ -114,6 +152,8 @@ namespace SlipStep
     const fs::path output = chosen_output(the_case, line);
     check_output_folder(output,
                         line.output.empty() ? "Output/Directory" : "--output");
+    const auto earlier =
+      find_earlier_runs(study, the_case.parameters, line, output);
 
     create_output_folder(output);
     remove_earlier_results(output);
@@ -121,10 +161,12 @@ namespace SlipStep
                           output,
                           inactive_sections(the_case.parameters));
     const std::vector<int> exit_codes = run_side_by_side(
-      study_jobs(study, line, the_case.selected.folder, output),
+      study_jobs(study, earlier, line, the_case.selected.folder, output),
       the_case.parameters.case_file().stem().string(),
       line.quiet);
     report_study(study, the_case.parameters, output, line.quiet);
-    return *std::max_element(exit_codes.begin(), exit_codes.end());
+    return exit_codes.empty() ?
+             0 :
+             *std::max_element(exit_codes.begin(), exit_codes.end());
   }
 } // namespace SlipStep

@@ -64,10 +64,11 @@ namespace SlipStep
          "quantities of interest (Output/Quantities): tables on the screen,\n"
          "refinement.csv, and pictures of the error over unknowns and CPU time\n"
          "in report.html. A run that fails is reported; the others go on. Of a\n"
-         "sweep, choose one member with --variant.\n",
+         "sweep, choose one member with --variant. --resume keeps the runs that\n"
+         "are finished and goes on with the others.\n",
          1,
          1,
-         {"set", "output", "variant", "quiet"},
+         {"set", "output", "variant", "resume", "quiet"},
          {}},
         {"check",
          "CASE.prm ...",

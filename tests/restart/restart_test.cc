@@ -226,6 +226,58 @@ TEST_F(Restart, KeepsFinishedVariantsOfASweep)
 
 
 
+TEST_F(Restart, KeepsFinishedRunsOfARefinementStudy)
+{
+  process.write("case.prm",
+                small_case +
+                  "set Output/Quantities = friction force at 0.5 mm\n"
+                  "set Output/Fields = none\n"
+                  "set Refinement study/Uniform meshes = 3\n");
+  const auto refine = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"refine", "case.prm", "--output", "study"});
+    return more;
+  };
+  const auto is_finished = [&](const std::string &folder) {
+    return process.read("study/" + folder + "/summary.json").find("finished") !=
+           std::string::npos;
+  };
+  {
+    BackgroundRun run(process.folder(), refine({"--quiet", "--set", never}));
+    run.wait_until([&]() {
+      return is_finished("uniform_1") && lines("study/uniform_2") > 50;
+    });
+    run.send(SIGTERM);
+    run.wait();
+    EXPECT_EQ(run.outcome(), -SIGTERM);
+    EXPECT_NE(run.err().find("--resume"), std::string::npos) << run.err();
+  }
+  ASSERT_TRUE(fs::exists(path("study/uniform_2/checkpoint")));
+  const auto kept = fs::last_write_time(path("study/uniform_1/history.csv"));
+  const auto other =
+    process.run(refine({"--resume", "--set", "Block/Degree=2"}));
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("Block/Degree"), std::string::npos) << other.err;
+
+  const auto result = process.run(refine({"--resume"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const std::string part : {"uniform 1: Finished earlier",
+                                 "uniform 2: Resumed after step",
+                                 "Report: "})
+    EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+  EXPECT_EQ(fs::last_write_time(path("study/uniform_1/history.csv")), kept);
+  for (const std::string folder : {"uniform_0", "uniform_1", "uniform_2"})
+    EXPECT_TRUE(is_finished(folder)) << folder;
+
+  const std::string fine = "Block/Refinement=uniform 2";
+  EXPECT_EQ(run("undisturbed", {"--quiet", "--set", fine}).exit_code, 0);
+  const auto table = [&](const std::string &output) {
+    return history(output).substr(history(output).find("\ntime_s"));
+  };
+  EXPECT_TRUE(table("study/uniform_2") == table("undisturbed"));
+}
+
+
+
 // Every preconditioner is made again as it was.
 TEST_F(Restart, DoesNotDependOnTheSolver)
 {
