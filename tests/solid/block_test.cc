@@ -319,6 +319,23 @@ TEST(Failure, tall_block_tips_over)
 
 
 
+// The motion along a strip is small for its length, if not for its height.
+TEST(Failure, thin_strip_may_be_stretched)
+{
+  const auto result = run_block_case<2>(make_parameters(Settings{
+    {"Block/Dimension", "2"},
+    {"Block/Size", "30 mm, 0.02 mm"},
+    {"Block/Subdivisions", "30, 1"},
+    {"Block/Faces/top", "pressure programme"},
+    {"Block/Faces/right", "drive"},
+    {"Time stepping/Tolerance", "1e-3"},
+    {"Loading/Programme", "press 5.8 MPa in 1 s; slide 1 mm/s for 0.1 mm"}}));
+  EXPECT_EQ(result.failure, "");
+  EXPECT_EQ(result.history.back().slip_fraction, 1.);
+}
+
+
+
 TEST(Failure, pressure_lost)
 {
   const auto result = run_block_case<3>(make_parameters(
