@@ -212,9 +212,10 @@ namespace SlipStep
     RefinementParameters::declare_parameters(parameters);
     parameters.declare(
       "Block/Degree",
-      "1",
+      "2",
       Integer(1, largest_degree),
-      "Polynomial degree of the elements: 1 for Q1, 2 for Q2.");
+      "Polynomial degree of the elements: 1 for Q1, 2 for Q2. Q2 needs fewer "
+      "unknowns for the same error and less time for each of them.");
     parameters.declare("Block/Young modulus",
                        "206 GPa",
                        Quantity(Dimension::stress, 0., 1e30, true),

@@ -138,7 +138,7 @@ TEST(CaseFile, MayComeFromAnyEditor)
 TEST(CaseFile, ABlockMustFitIntoMemory)
 {
   const SlipstepProcess process;
-  process.write("huge.prm", "set Block/Subdivisions = 1000, 1000, 1000\n");
+  process.write("huge.prm", "set Block/Subdivisions = 500, 500, 500\n");
   expect_refusal(process.run({"run", "huge.prm"}),
                  {"huge.prm:1: Block/Subdivisions", "GB of memory"});
   EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));

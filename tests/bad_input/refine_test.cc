@@ -33,6 +33,7 @@ namespace
     "  set Dimension = 2\n"
     "  set Size = 3 mm, 0.001 mm\n"
     "  set Subdivisions = 4, 1\n"
+    "  set Degree = 1\n"
     "  set Poisson ratio = 0\n"
     "  set Faces/top = pressure programme; flat\n"
     "  set Faces/right = drive\n"

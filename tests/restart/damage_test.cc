@@ -210,6 +210,7 @@ TEST_F(Damage, AFullDiskIsToldAndTheRunGoesOn)
                 "set Block/Dimension = 2\n"
                 "set Block/Size = 10 mm, 5 mm\n"
                 "set Block/Subdivisions = 64, 32\n"
+                "set Block/Degree = 1\n"
                 "set Output/Fields = none\n");
   for (const bool is_killed : {false, true})
     {

@@ -30,6 +30,7 @@ namespace
   const std::string few_steps =
     "set Loading/Programme = press 1 MPa in 1 s; slide 1 mm/s for 0.2 mm\n"
     "set Block/Subdivisions = 4, 3, 4\n"
+    "set Block/Degree = 1\n"
     "set Time stepping/Tolerance = 1e-3\n"
     "set Output/Fields = none\n";
 
@@ -285,6 +286,7 @@ TEST_F(Restart, DoesNotDependOnTheSolver)
                 "set Loading/Programme = press 1 MPa in 1 s; \\\n"
                 "  slide 1 mm/s for 0.2 mm at 20 deg\n"
                 "set Block/Subdivisions = 6, 6, 3\n"
+                "set Block/Degree = 1\n"
                 "set Time stepping/Tolerance = 1e-3\n"
                 "set Output/Fields = none\n");
   for (const std::string solver : {"direct", "amg", "automatic"})

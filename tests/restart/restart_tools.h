@@ -26,6 +26,7 @@ namespace SlipStep::Testing
     "set Block/Dimension = 2\n"
     "set Block/Size = 10 mm, 5 mm\n"
     "set Block/Subdivisions = 8, 4\n"
+    "set Block/Degree = 1\n"
     "set Time stepping/Least steps per statement = 100\n";
 
   /// Writing takes most of the time then.
