@@ -21,7 +21,6 @@
 #define FE_EVAL_FACTORY_DEGREE_MAX 2
 
 #include <deal.II/lac/precondition.h>
-#include <deal.II/lac/solver_gmres.h>
 
 #include <deal.II/multigrid/mg_transfer_global_coarsening.h>
 
@@ -37,6 +36,7 @@
 #include <deal.II/multigrid/mg_transfer_global_coarsening.templates.h>
 
 #include <slipstep/solid/assembled_matrix.h>
+#include <slipstep/solid/conjugate_residuals.h>
 #include <slipstep/solid/elastic_operator.h>
 #include <slipstep/solid/multigrid_levels.h>
 #include <slipstep/solid/preconditioner.h>
@@ -45,8 +45,8 @@
 
 namespace SlipStep
 {
-  /// GMRES with matrix-free products, preconditioned by one V-cycle of
-  /// geometric multigrid in single precision.
+  /// Conjugate residuals with matrix-free products, preconditioned by one
+  /// V-cycle of geometric multigrid in single precision.
   ///
   /// Smoother: Chebyshev polynomials of degree 5 of the Jacobi-preconditioned
   /// operator. Eigenvalue bounds and elastic diagonals are computed once per
@@ -71,7 +71,7 @@ namespace SlipStep
 
     virtual std::size_t memory_consumption() const override;
 
-    /// One V-cycle, as GMRES wants it.
+    /// One V-cycle, as the solver wants it.
     void vmult(Vector &x, const Vector &b) const;
 
   private:
@@ -105,6 +105,7 @@ namespace SlipStep
     mutable Vector                  coarse_x, coarse_b;
     mutable Vector                  plain_x, plain_b; ///< unconstrained
     Vector                          solver_x, solver_b;
+    ConjugateResiduals              solver;
   };
 
 
@@ -250,22 +251,10 @@ namespace SlipStep
                                                          const double tolerance)
   {
     solver_b.copy_locally_owned_data_from(b);
-    solver_x = 0.;
-    dealii::SolverControl control(100, tolerance);
-    try
-      {
-        dealii::SolverGMRES<Vector> solver(
-          control,
-          typename dealii::SolverGMRES<Vector>::AdditionalData(32, true));
-        solver.solve(matrix, solver_x, solver_b, *this);
-      }
-    catch (const dealii::SolverControl::NoConvergence &failure)
-      {
-        throw RunError("multigrid did not converge in " +
-                       std::to_string(failure.last_step) + " iterations");
-      }
+    const unsigned int iterations =
+      solver.solve(matrix, *this, solver_x, solver_b, tolerance, 100);
     x.copy_locally_owned_data_from(solver_x);
-    return control.last_step();
+    return iterations;
   }
 
 

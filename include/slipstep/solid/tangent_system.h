@@ -78,7 +78,7 @@ namespace SlipStep
                         const dealii::IndexSet                  &relevant,
                         const dealii::Quadrature<dim - 1> &face_quadrature);
 
-  /// Matrix-free products, geometric multigrid and GMRES.
+  /// Matrix-free products, geometric multigrid and conjugate residuals.
   /// @param constraints homogeneous
   template <int dim>
   std::unique_ptr<TangentSystem<dim>>
