@@ -65,6 +65,23 @@ namespace SlipStep
     /// The sum, identity for constrained unknowns.
     void vmult(VectorType &dst, const VectorType &src) const;
 
+    using LoopOverEntries =
+      std::function<void(const unsigned int, const unsigned int)>;
+
+    /// The same without care for constrained unknowns of dst, and with loops
+    /// over vectors that are best done while their entries are in the cache.
+    /// @param before called with ranges of entries that cells will add to: sets
+    ///   dst to zero
+    /// @param after called with ranges of entries that are final
+    void vmult(VectorType            &dst,
+               const VectorType      &src,
+               const LoopOverEntries &before,
+               const LoopOverEntries &after) const;
+
+    /// dst = b - sum src, zero for constrained unknowns.
+    void
+    residual(VectorType &dst, const VectorType &src, const VectorType &b) const;
+
     /// Asked for by the interface of PreconditionChebyshev, which never calls
     /// it when it is given a diagonal.
     Number el(const unsigned int, const unsigned int) const
@@ -79,7 +96,7 @@ namespace SlipStep
     /// Compute the diagonal of the elastic part, once.
     void compute_elastic_diagonal();
 
-    /// One over the diagonal of the sum; 1 for constrained unknowns.
+    /// One over the diagonal of the sum; 0 for constrained unknowns.
     void get_inverse_diagonal(VectorType &inverse) const;
 
     std::size_t memory_consumption() const
@@ -278,6 +295,41 @@ namespace SlipStep
 
 
   template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::vmult(
+    VectorType            &dst,
+    const VectorType      &src,
+    const LoopOverEntries &before,
+    const LoopOverEntries &after) const
+  {
+    matrix_free.cell_loop(
+      &ElasticOperator::apply_to_cells, this, dst, src, before, after);
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::residual(
+    VectorType       &dst,
+    const VectorType &src,
+    const VectorType &b) const
+  {
+    const auto set_zero = [&](const unsigned int begin,
+                              const unsigned int end) {
+      std::fill(dst.begin() + begin, dst.begin() + end, Number());
+    };
+    const auto subtract_from_b = [&](const unsigned int begin,
+                                     const unsigned int end) {
+      for (unsigned int i = begin; i < end; ++i)
+        dst.local_element(i) = b.local_element(i) - dst.local_element(i);
+    };
+    vmult(dst, src, set_zero, subtract_from_b);
+    for (const unsigned int i : matrix_free.get_constrained_dofs())
+      dst.local_element(i) = 0.;
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
   void ElasticOperator<dim, degree, Number, Simd>::apply_to_cells(
     const Data &,
     VectorType       &dst,
@@ -463,13 +515,13 @@ namespace SlipStep
       };
     matrix_free.cell_loop(add_contact, inverse, elastic_diagonal);
     inverse += elastic_diagonal;
-    for (const unsigned int i : matrix_free.get_constrained_dofs())
-      inverse.local_element(i) = 1.;
     for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
       {
         Number &entry = inverse.local_element(i);
         entry         = entry > 0. ? 1. / entry : 1.;
       }
+    for (const unsigned int i : matrix_free.get_constrained_dofs())
+      inverse.local_element(i) = 0.;
   }
 } // namespace SlipStep
 

@@ -212,8 +212,7 @@ namespace SlipStep
       return solve_coarsest();
     const Level &level = smoothed[l];
     level.smoother.vmult(level.x, level.b);
-    level.matrix->vmult(level.residual, level.x);
-    level.residual.sadd(-1.f, 1.f, level.b);
+    level.matrix->residual(level.residual, level.x, level.b);
     smoothed[l - 1].b = 0.f;
     level.transfer.restrict_and_add(smoothed[l - 1].b, level.residual);
     cycle(l - 1);
