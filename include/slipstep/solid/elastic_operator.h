@@ -7,6 +7,7 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 
+#include <deal.II/fe/fe_tools.h>
 #include <deal.II/fe/mapping_q1.h>
 
 #include <deal.II/lac/diagonal_matrix.h>
@@ -63,6 +64,7 @@ namespace SlipStep
                      const bool                 only_symmetric_part);
 
     /// The sum, identity for constrained unknowns.
+    /// @param src zero where constrained
     void vmult(VectorType &dst, const VectorType &src) const;
 
     using LoopOverEntries =
@@ -102,7 +104,8 @@ namespace SlipStep
     std::size_t memory_consumption() const
     {
       return matrix_free.memory_consumption() +
-             tangents.size() * sizeof(Matrix) +
+             tangents.size() * sizeof(Matrix) + nodes.memory_consumption() +
+             plain_nodes.memory_consumption() +
              elastic_diagonal.memory_consumption();
     }
 
@@ -118,23 +121,49 @@ namespace SlipStep
       dealii::Utilities::pow(n_1d, dim - 1);
     using FaceField = std::array<dealii::Tensor<1, dim, Simd>, n_face>;
 
+    // The displacement components of a node stand side by side in a vector: one
+    // load per cell and node, then a transposition in registers, is much
+    // cheaper than a gather or scatter per unknown. Of every batch of cells the
+    // start in offsets of where its nodes are, [node][lane];
+    // invalid_unsigned_int where nodes hang or are not stored like that.
+    struct NodeTable
+    {
+      std::vector<unsigned int> start_of_batch;
+      std::vector<unsigned int> offsets;
+
+      std::size_t memory_consumption() const
+      {
+        return (start_of_batch.size() + offsets.size()) * sizeof(unsigned int);
+      }
+    };
+
     void apply_to_cells(const Data &,
                         VectorType       &dst,
                         const VectorType &src,
                         const Range      &range) const;
+    void
+    read(Evaluator &cell, const VectorType &src, const NodeTable &table) const;
+    void add_to(VectorType &dst, Evaluator &cell, const NodeTable &table) const;
     void add_elastic(Evaluator &cell) const;
     void read_face(const Evaluator &cell, FaceField &values) const;
     void apply_contact(const unsigned int slot, FaceField &field) const;
     template <bool transpose>
     void interpolate(FaceField &field) const;
 
-    void         find_contact_cells();
-    void         find_face_nodes();
+    NodeTable find_nodes(const dealii::AffineConstraints<Number> &constraints,
+                         const unsigned int                       index) const;
+    bool      append_nodes(const unsigned int                         batch,
+                           const dealii::AffineConstraints<Number>   &constraints,
+                           const dealii::Utilities::MPI::Partitioner &partitioner,
+                           std::vector<unsigned int>                 &offsets) const;
+    void      find_contact_cells();
+    void      find_face_nodes();
     unsigned int face_node(const unsigned int i) const;
 
     const BlockParameters parameters;
     Number                lambda, mu;
     Data                  matrix_free;
+    NodeTable             nodes, plain_nodes;
 
     // Contact: of every batch of cells, the slot of its tangents or
     // invalid_unsigned_int; of every cell face (in the order of the mesh), slot
@@ -187,8 +216,141 @@ namespace SlipStep
                        all_constraints,
                        std::vector<dealii::QGauss<1>>{dealii::QGauss<1>(n_1d)},
                        settings);
+    nodes = find_nodes(constraints, 0);
+    if (with_plain_product)
+      plain_nodes = find_nodes(none, 1);
     find_contact_cells();
     find_face_nodes();
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  typename ElasticOperator<dim, degree, Number, Simd>::NodeTable
+  ElasticOperator<dim, degree, Number, Simd>::find_nodes(
+    const dealii::AffineConstraints<Number> &constraints,
+    const unsigned int                       index) const
+  {
+    NodeTable table;
+    table.start_of_batch.assign(matrix_free.n_cell_batches(),
+                                dealii::numbers::invalid_unsigned_int);
+    if (dim != 3)
+      return table;
+    for (unsigned int batch = 0; batch < table.start_of_batch.size(); ++batch)
+      {
+        const unsigned int start = table.offsets.size();
+        if (append_nodes(batch,
+                         constraints,
+                         *matrix_free.get_vector_partitioner(index),
+                         table.offsets))
+          table.start_of_batch[batch] = start;
+        else
+          table.offsets.resize(start);
+      }
+    return table;
+  }
+
+
+
+  // Four numbers are loaded and stored per node, for which there must be room.
+  // Supported unknowns need no care: they are zero when read, and what is added
+  // to them is not used.
+  template <int dim, int degree, typename Number, typename Simd>
+  bool ElasticOperator<dim, degree, Number, Simd>::append_nodes(
+    const unsigned int                         batch,
+    const dealii::AffineConstraints<Number>   &constraints,
+    const dealii::Utilities::MPI::Partitioner &partitioner,
+    std::vector<unsigned int>                 &offsets) const
+  {
+    const unsigned int n_lanes = Simd::size();
+    if (matrix_free.n_active_entries_per_cell_batch(batch) < n_lanes)
+      return false;
+    const auto &fe = matrix_free.get_dof_handler().get_fe();
+    const auto  hierarchic =
+      dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
+    const unsigned int n_owned  = partitioner.locally_owned_size();
+    const unsigned int n_stored = n_owned + partitioner.n_ghost_indices();
+    std::vector<dealii::types::global_dof_index> dofs(fe.dofs_per_cell);
+
+    const unsigned int start = offsets.size();
+    offsets.resize(start + hierarchic.size() * n_lanes);
+    for (unsigned int lane = 0; lane < n_lanes; ++lane)
+      {
+        matrix_free.get_cell_iterator(batch, lane)->get_dof_indices(dofs);
+        for (unsigned int i = 0; i < hierarchic.size(); ++i)
+          {
+            unsigned int first = 0;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const auto dof =
+                  dofs[fe.component_to_system_index(d, hierarchic[i])];
+                if (!(partitioner.in_local_range(dof) ||
+                      partitioner.is_ghost_entry(dof)))
+                  return false;
+                const unsigned int place = partitioner.global_to_local(dof);
+                if (d == 0)
+                  first = place;
+                const auto *entries = constraints.get_constraint_entries(dof);
+                if (place != first + d ||
+                    (entries != nullptr && !entries->empty()))
+                  return false;
+              }
+            if (first + 4 > (first < n_owned ? n_owned : n_stored))
+              return false;
+            offsets[start + i * n_lanes + lane] = first;
+          }
+      }
+    return true;
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  void
+  ElasticOperator<dim, degree, Number, Simd>::read(Evaluator        &cell,
+                                                   const VectorType &src,
+                                                   const NodeTable &table) const
+  {
+    constexpr unsigned int n = Evaluator::static_dofs_per_component;
+    const unsigned int     start =
+      table.start_of_batch[cell.get_current_cell_index()];
+    if (start == dealii::numbers::invalid_unsigned_int)
+      return cell.read_dof_values(src);
+    Simd                entries[4];
+    Simd               *values  = cell.begin_dof_values();
+    const unsigned int *offsets = &table.offsets[start];
+    for (unsigned int i = 0; i < n; ++i, offsets += Simd::size())
+      {
+        dealii::vectorized_load_and_transpose(4, src.begin(), offsets, entries);
+        for (unsigned int d = 0; d < dim; ++d)
+          values[d * n + i] = entries[d];
+      }
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::add_to(
+    VectorType      &dst,
+    Evaluator       &cell,
+    const NodeTable &table) const
+  {
+    constexpr unsigned int n = Evaluator::static_dofs_per_component;
+    const unsigned int     start =
+      table.start_of_batch[cell.get_current_cell_index()];
+    if (start == dealii::numbers::invalid_unsigned_int)
+      return cell.distribute_local_to_global(dst);
+    Simd                entries[4];
+    const Simd         *values  = cell.begin_dof_values();
+    const unsigned int *offsets = &table.offsets[start];
+    entries[3]                  = Simd();
+    for (unsigned int i = 0; i < n; ++i, offsets += Simd::size())
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          entries[d] = values[d * n + i];
+        dealii::vectorized_transpose_and_store(
+          true, 4, entries, offsets, dst.begin());
+      }
   }
 
 
@@ -341,7 +503,7 @@ namespace SlipStep
     for (unsigned int batch = range.first; batch < range.second; ++batch)
       {
         cell.reinit(batch);
-        cell.read_dof_values(src);
+        read(cell, src, nodes);
         const unsigned int slot = slot_of_batch[batch];
         const bool touches      = slot != dealii::numbers::invalid_unsigned_int;
         if (touches)
@@ -355,7 +517,7 @@ namespace SlipStep
             for (unsigned int i = 0; i < n_face; ++i)
               cell.begin_dof_values()[d * Evaluator::static_dofs_per_component +
                                       face_nodes[i]] += field[i][d];
-        cell.distribute_local_to_global(dst);
+        add_to(dst, cell, nodes);
       }
   }
 
@@ -451,9 +613,9 @@ namespace SlipStep
         for (unsigned int batch = range.first; batch < range.second; ++batch)
           {
             cell.reinit(batch);
-            cell.read_dof_values(src);
+            read(cell, src, plain_nodes);
             add_elastic(cell);
-            cell.distribute_local_to_global(dst);
+            add_to(dst, cell, plain_nodes);
           }
       };
     matrix_free.cell_loop(apply, dst, src, true);

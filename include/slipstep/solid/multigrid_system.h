@@ -155,7 +155,8 @@ namespace SlipStep
 
 
   // The bounds are those of the elastic operator; the diagonal grows with the
-  // contact tangent as the operator does.
+  // contact tangent as the operator does. Constraints are needed for the first
+  // vector of their estimate only.
   template <int dim, int degree, typename Simd>
   void MultigridSystem<dim, degree, Simd>::setup_level(const unsigned int l)
   {
@@ -173,10 +174,12 @@ namespace SlipStep
     settings.degree              = 5;
     settings.smoothing_range     = 20.;
     settings.eig_cg_n_iterations = 15;
+    settings.constraints.copy_from(levels[l].constraints);
     level.smoother.initialize(*level.matrix, settings);
     const auto bounds            = level.smoother.estimate_eigenvalues(level.x);
     settings.eig_cg_n_iterations = 0;
     settings.max_eigenvalue      = bounds.max_eigenvalue_estimate;
+    settings.constraints.clear();
     level.smoother.initialize(*level.matrix, settings);
 
     level.transfer.reinit(*levels[l].dof_handler,
