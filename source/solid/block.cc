@@ -197,15 +197,15 @@ namespace SlipStep
 
   // An inexact Newton method: an iteration with the exact tangent leaves some
   // ten times the square of the relative residual, so nothing is gained by
-  // solving the linear system much better than that; nor below what is wanted
-  // in the end.
+  // solving the linear system much better than that; nor much below what is
+  // wanted in the end.
   template <int dim>
   double Block<dim>::linear_tolerance(const double norm) const
   {
     const double forcing = std::min(0.01, 5. * norm / force_scale);
     return std::max({1e-13 * norm,
                      forcing * norm,
-                     0.05 * parameters.newton_tolerance * force_scale});
+                     0.5 * parameters.newton_tolerance * force_scale});
   }
 
 
