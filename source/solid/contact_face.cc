@@ -2,8 +2,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/fe/fe_values_extractors.h>
-
 #include <algorithm>
 
 namespace SlipStep
@@ -23,27 +21,21 @@ namespace SlipStep
 
 
   template <int dim>
-  FEFaceValues<dim> ContactFace<dim>::make_fe_values() const
-  {
-    return FEFaceValues<dim>(dof_handler->get_fe(),
-                             face_quadrature,
-                             update_values | update_JxW_values |
-                               update_quadrature_points);
-  }
-
-
-
-  template <int dim>
   void ContactFace<dim>::reinit(const DoFHandler<dim> &dof_handler)
   {
     this->dof_handler = &dof_handler;
     faces.clear();
-    FEFaceValues<dim> fe_values = make_fe_values();
+    FEFaceValues<dim> fe_values(dof_handler.get_fe(),
+                                face_quadrature,
+                                update_values | update_JxW_values |
+                                  update_quadrature_points);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned() &&
           cell->at_boundary(parameters.contact_face))
         {
           fe_values.reinit(cell, parameters.contact_face);
+          if (faces.empty())
+            find_shape_functions(fe_values);
           CellFace cell_face{cell, parameters.contact_face, {}};
           for (const unsigned int q : fe_values.quadrature_point_indices())
             {
@@ -60,24 +52,58 @@ namespace SlipStep
 
 
   template <int dim>
+  void
+  ContactFace<dim>::find_shape_functions(const FEFaceValues<dim> &fe_values)
+  {
+    const FiniteElement<dim> &fe = fe_values.get_fe();
+    shape_functions.clear();
+    for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
+      if (fe.has_support_on_face(i, parameters.contact_face))
+        {
+          ShapeFunction function{i, fe.system_to_component_index(i).first, {}};
+          for (const unsigned int q : fe_values.quadrature_point_indices())
+            function.values.push_back(fe_values.shape_value(i, q));
+          shape_functions.push_back(function);
+        }
+  }
+
+
+
+  template <int dim>
+  void ContactFace<dim>::interpolate(
+    const Vector                               &displacement,
+    const std::vector<types::global_dof_index> &dofs,
+    std::vector<Tensor<1, dim>>                &values) const
+  {
+    std::fill(values.begin(), values.end(), Tensor<1, dim>());
+    for (const ShapeFunction &function : shape_functions)
+      {
+        const double nodal_value = displacement(dofs[function.dof]);
+        for (unsigned int q = 0; q < values.size(); ++q)
+          values[q][function.component] += nodal_value * function.values[q];
+      }
+  }
+
+
+
+  template <int dim>
   void ContactFace<dim>::update(const Vector       &displacement,
                                 const Vector       &old_displacement,
                                 const Tensor<1, 2> &frame_increment,
                                 const double        time_step)
   {
-    const FEValuesExtractors::Vector displacements(0);
-    FEFaceValues<dim>                fe_values = make_fe_values();
-    std::vector<Tensor<1, dim>>      values(face_quadrature.size());
-    std::vector<Tensor<1, dim>>      old_values(face_quadrature.size());
+    std::vector<types::global_dof_index> dofs(
+      dof_handler->get_fe().dofs_per_cell);
+    std::vector<Tensor<1, dim>> values(face_quadrature.size());
+    std::vector<Tensor<1, dim>> old_values(face_quadrature.size());
 
     const unsigned int normal = parameters.normal_axis();
     const double       sign   = parameters.outward_sign();
     for (CellFace &cell_face : faces)
       {
-        fe_values.reinit(cell_face.cell, cell_face.face);
-        fe_values[displacements].get_function_values(displacement, values);
-        fe_values[displacements].get_function_values(old_displacement,
-                                                     old_values);
+        cell_face.cell->get_dof_indices(dofs);
+        interpolate(displacement, dofs, values);
+        interpolate(old_displacement, dofs, old_values);
         for (unsigned int q = 0; q < values.size(); ++q)
           {
             QuadraturePoint &point       = cell_face.points[q];
@@ -167,22 +193,22 @@ namespace SlipStep
   template <int dim>
   void ContactFace<dim>::add_forces(Vector &forces) const
   {
-    const FiniteElement<dim>            &fe        = dof_handler->get_fe();
-    FEFaceValues<dim>                    fe_values = make_fe_values();
-    dealii::Vector<double>               local(fe.dofs_per_cell);
-    std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
+    std::vector<types::global_dof_index> dofs(
+      dof_handler->get_fe().dofs_per_cell);
     for (const CellFace &cell_face : faces)
       {
-        fe_values.reinit(cell_face.cell, cell_face.face);
-        local = 0.;
-        for (unsigned int q = 0; q < cell_face.points.size(); ++q)
-          for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
-            local(i) +=
-              fe_values.shape_value(i, q) *
-              cell_face.points[q].force[fe.system_to_component_index(i).first] *
-              fe_values.JxW(q);
         cell_face.cell->get_dof_indices(dofs);
-        forces.add(dofs, local);
+        for (const ShapeFunction &function : shape_functions)
+          {
+            double sum = 0.;
+            for (unsigned int q = 0; q < function.values.size(); ++q)
+              {
+                const QuadraturePoint &point = cell_face.points[q];
+                sum += function.values[q] * point.force[function.component] *
+                       point.JxW;
+              }
+            forces(dofs[function.dof]) += sum;
+          }
       }
   }
 

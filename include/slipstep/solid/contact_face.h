@@ -131,12 +131,25 @@ namespace SlipStep
     }
 
   private:
-    dealii::FEFaceValues<dim> make_fe_values() const;
+    // A shape function of a cell that does not vanish on its contact face; the
+    // same on all, since all are alike.
+    struct ShapeFunction
+    {
+      unsigned int        dof;
+      unsigned int        component;
+      std::vector<double> values; // at the quadrature points
+    };
+
+    void find_shape_functions(const dealii::FEFaceValues<dim> &fe_values);
+    void interpolate(const Vector &displacement,
+                     const std::vector<dealii::types::global_dof_index> &dofs,
+                     std::vector<dealii::Tensor<1, dim>> &values) const;
 
     const BlockParameters          parameters;
     const FrictionLaw             &law;
     const dealii::QGauss<dim - 1>  face_quadrature;
     const dealii::DoFHandler<dim> *dof_handler = nullptr;
+    std::vector<ShapeFunction>     shape_functions;
     std::vector<CellFace>          faces;
   };
 } // namespace SlipStep
