@@ -151,16 +151,6 @@ namespace SlipStep
 
 
 
-  // After load() the handles have to be asked for again.
-  template <int dim>
-  void ContactTransfer<dim>::unpack_loaded(ContactFace<dim> &contact)
-  {
-    attach(contact);
-    unpack(contact);
-  }
-
-
-
   template class ContactTransfer<2>;
   template class ContactTransfer<3>;
 } // namespace SlipStep

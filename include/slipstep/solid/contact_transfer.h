@@ -21,14 +21,12 @@ namespace SlipStep
   ///   ContactTransfer<dim> transfer(triangulation, parameters, law);
   ///   triangulation.prepare_coarsening_and_refinement();
   ///   transfer.attach(contact);
-  ///   triangulation.execute_coarsening_and_refinement(); // or save(file)
+  ///   triangulation.execute_coarsening_and_refinement();
   ///   dof_handler.distribute_dofs(fe);
   ///   contact.reinit(dof_handler);
   ///   transfer.unpack(contact);
   /// @endcode
-  /// To read a file: load(file), distribute_dofs, contact.reinit(),
-  /// unpack_loaded(). Several classes may attach data to one triangulation;
-  /// after load() they have to unpack in the order in which they attached.
+  /// Several classes may attach data to one triangulation.
   template <int dim>
   class ContactTransfer
   {
@@ -39,15 +37,12 @@ namespace SlipStep
       const BlockParameters                             &parameters,
       const FrictionLaw                                 &law);
 
-    /// Attach the states to the cells, before the mesh changes or is saved. The
-    /// face must not change until it has.
+    /// Attach the states to the cells, before the mesh changes. The face must
+    /// not change until it has.
     void attach(const ContactFace<dim> &contact);
 
     /// Put the states into a face made anew on the changed mesh.
     void unpack(ContactFace<dim> &contact);
-
-    /// Put the states that came with a mesh from a file into a face made on it.
-    void unpack_loaded(ContactFace<dim> &contact);
 
   private:
     using Triangulation = dealii::parallel::distributed::Triangulation<dim>;

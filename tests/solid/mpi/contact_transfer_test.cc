@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <functional>
 
@@ -35,7 +34,6 @@ namespace
   Parameters make_case(const unsigned int contact_face,
                        const unsigned int degree)
   {
-    const std::string bottom = dim == 3 ? "bottom" : "bottom";
     return make_parameters(
       Settings{{"Block/Dimension", std::to_string(dim)},
                {"Block/Size", dim == 3 ? "3 mm, 2 mm, 4 mm" : "3 mm, 2 mm"},
@@ -205,49 +203,6 @@ namespace
           EXPECT_NEAR(now[i], before[i], 1e-12 * before[2]);
       }
   }
-
-  // A state without pattern, which its position gives again to the last bit.
-  ContactState state_at(const FrictionLaw &law, const double x, const double y)
-  {
-    std::seed_seq words{static_cast<unsigned int>(std::lround(1e6 * x)),
-                        static_cast<unsigned int>(std::lround(1e6 * y))};
-    std::mt19937  random(words);
-    return random_state(law, random);
-  }
-
-  template <int dim>
-  void check_file(const unsigned int degree)
-  {
-    const auto        parameters = make_case<dim>(dim == 3 ? 5 : 1, degree);
-    const std::string folder     = "contact_transfer_test";
-    const std::string file =
-      folder + "/mesh_" + std::to_string(dim) + "_" +
-      std::to_string(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
-    std::filesystem::create_directories(folder);
-
-    Face<dim> face(parameters);
-    face.change_mesh(1);
-    face.change_mesh(7);
-    face.fill(
-      [&](const double x, const double y) { return state_at(face.law, x, y); });
-    face.transfer.attach(face.contact);
-    face.triangulation.save(file);
-
-    Face<dim> loaded(parameters);
-    loaded.triangulation.load(file);
-    loaded.reinit();
-    loaded.transfer.unpack_loaded(loaded.contact);
-    EXPECT_EQ(loaded.triangulation.n_global_active_cells(),
-              face.triangulation.n_global_active_cells());
-    loaded.for_each(
-      [&](const ContactState &state, const double x, const double y) {
-        expect_equal(state, state_at(face.law, x, y), 0.);
-      });
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      for (const char *suffix : {"", ".info", "_fixed.data", "_variable.data"})
-        std::filesystem::remove(file + suffix);
-  }
 } // namespace
 
 
@@ -268,12 +223,4 @@ TEST(ContactTransfer, integrals_survive_with_any_states)
   check_random_states<2>(2);
   check_random_states<3>(1);
   check_random_states<3>(2);
-}
-
-
-
-TEST(ContactTransfer, file_keeps_every_bit)
-{
-  check_file<2>(3);
-  check_file<3>(1);
 }
