@@ -19,6 +19,7 @@ namespace
   const char *const slow =
     "set Loading/Programme = press 1 MPa in 1 s; slide 1 mm/s for 1 mm\n"
     "set Block/Subdivisions = 2, 2, 2\n"
+    "set Block/Degree = 1\n"
     "set Time stepping/Least steps per statement = 1000000\n"
     "set Output/Fields = none\n";
 
@@ -26,7 +27,8 @@ namespace
   const char *const slender =
     "set Loading/Programme = press 1 MPa in 1 s; slide 1 mm/s for 10 mm\n"
     "set Block/Size = 2 mm, 10 mm, 40 mm\n"
-    "set Block/Subdivisions = 2, 2, 2\n";
+    "set Block/Subdivisions = 2, 2, 2\n"
+    "set Block/Degree = 1\n";
 
   const char *const sweep = "subsection Sweep\n"
                             "  set Key    = Loading/Speed\n"
@@ -36,7 +38,8 @@ namespace
   const char *const sliding_as_swept =
     "set Loading/Programme = press 1 MPa in 1 s; slide for 10 mm\n"
     "set Block/Size = 2 mm, 10 mm, 40 mm\n"
-    "set Block/Subdivisions = 2, 2, 2\n";
+    "set Block/Subdivisions = 2, 2, 2\n"
+    "set Block/Degree = 1\n";
 
 
 
@@ -76,7 +79,8 @@ TEST(FailedRun, LossOfPressureIsToldAndKept)
   process.write("case.prm",
                 "set Loading/Programme = press 1 MPa in 1 s; press 0 MPa in 1 "
                 "s; slide 1 mm/s for 1 mm\n"
-                "set Block/Subdivisions = 2, 2, 2\n");
+                "set Block/Subdivisions = 2, 2, 2\n"
+                "set Block/Degree = 1\n");
   const auto result = process.run({"run", "case.prm"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.n_error_lines(), 1u) << result.err;

@@ -220,6 +220,22 @@ TEST(Newton, converges_quadratically)
 
 
 
+// Only round-off is left of the forces then, 3e-10 of the contact force.
+TEST(Newton, ends_where_a_rigid_block_has_no_more_digits)
+{
+  const auto result = run_block_case<3>(make_parameters(
+    Settings{{"Block/Young modulus", "1e8 GPa"},
+             {"Block/Subdivisions", "2, 2, 2"},
+             {"Block/Degree", "2"},
+             {"Time stepping/Tolerance", "1e-3"},
+             {"Loading/Programme",
+              "press 5.8 MPa in 1 s; slide 1 mm/min for 0.001 mm"}}));
+  EXPECT_EQ(result.failure, "");
+  EXPECT_LT(result.force_imbalance, 1e-8);
+}
+
+
+
 TEST(Energy, balance)
 {
   // Backward Euler takes the force at the end of a step for the whole of it, so

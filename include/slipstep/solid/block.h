@@ -157,6 +157,7 @@ namespace SlipStep
     void        impose_displacements();
     bool        solve_step();
     double      compute_residual();
+    bool        only_round_off_is_left() const;
     double      linear_tolerance(const double norm) const;
     double      line_search(const Vector &update, const double old_norm);
     void        accept_step(const ContactTotals &totals, HistoryRow &row);
