@@ -13,6 +13,8 @@ namespace SlipStep
             return "only one effect can define the normal ratio";
           case ExclusiveSlot::overstress:
             return "only one effect can define the flow rule";
+          case ExclusiveSlot::anisotropy:
+            return "only one effect can define the cone";
           case ExclusiveSlot::none:
             break;
         }

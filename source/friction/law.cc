@@ -75,6 +75,36 @@ namespace SlipStep
         }
       return sum;
     }
+
+
+
+    // The product rule.
+    void multiply(Strength &product, const Strength &f)
+    {
+      const auto rule = [&](auto &derivative, const auto &f_derivative) {
+        derivative = derivative * f.value + product.value * f_derivative;
+      };
+      rule(product.d_slip, f.d_slip);
+      rule(product.d_normal, f.d_normal);
+      rule(product.d_direction, f.d_direction);
+      rule(product.d_rate, f.d_rate);
+      rule(product.d_coefficient, f.d_coefficient);
+      rule(product.d_work, f.d_work);
+      product.value *= f.value;
+    }
+
+
+
+    void add(Strength &sum, const Strength &c)
+    {
+      sum.value += c.value;
+      sum.d_slip += c.d_slip;
+      sum.d_normal += c.d_normal;
+      sum.d_direction += c.d_direction;
+      sum.d_rate += c.d_rate;
+      sum.d_coefficient += c.d_coefficient;
+      sum.d_work += c.d_work;
+    }
   } // namespace
 
 
@@ -129,41 +159,72 @@ namespace SlipStep
 
 
 
-  // tau_y = f_n mu G_1 G_2 ... + c_1 + c_2 + ..., by the product rule.
+  SlipStepData FrictionLaw::step_data(const LocalSystem &local) const
+  {
+    return {local.start,
+            local.time_step,
+            local.normal_traction,
+            local.slip,
+            is_anisotropic ? slip_direction(local.direction) : local.direction,
+            local.coefficient,
+            local.traction * local.slip};
+  }
+
+
+
+  // tau_y = f_n mu G_1 G_2 ... + c_1 + c_2 + ... The derivative with respect to
+  // slip becomes the total one: mu, the slip rate and the friction work change
+  // with it.
   void FrictionLaw::evolve_strength(LocalSystem &local) const
   {
-    const SlipStepData step{local.start,
-                            local.time_step,
-                            local.normal_traction,
-                            local.slip,
-                            local.direction};
-
-    Strength factor{1., 0., 0., {}}, sum;
-    for (const auto &effect : active)
+    const double f_n = local.normal_traction, mu = local.coefficient;
+    Strength    &d = local.d_strength;
+    if (strength_effects.empty())
       {
-        const Strength f = effect->strength_factor(step);
-        factor.d_slip    = factor.d_slip * f.value + factor.value * f.d_slip;
-        factor.d_normal = factor.d_normal * f.value + factor.value * f.d_normal;
-        factor.d_direction =
-          factor.d_direction * f.value + factor.value * f.d_direction;
-        factor.value *= f.value;
-
-        const Strength c = effect->additive_strength(step);
-        sum.value += c.value;
-        sum.d_slip += c.d_slip;
-        sum.d_normal += c.d_normal;
-        sum.d_direction += c.d_direction;
+        local.strength = f_n * mu;
+        d.d_slip       = f_n * local.d_coefficient;
+        d.d_normal     = mu;
+        return;
       }
 
-    const double f_n = local.normal_traction, mu = local.coefficient;
+    const SlipStepData step = step_data(local);
+    Strength           factor{1., 0., 0., {}}, sum;
+    for (const StrengthEffect *effect : strength_effects)
+      {
+        multiply(factor, effect->strength_factor(step));
+        add(sum, effect->additive_strength(step));
+      }
+
     local.strength = f_n * mu * factor.value + sum.value;
-    local.d_strength.d_slip =
-      f_n * (local.d_coefficient * factor.value + mu * factor.d_slip) +
-      sum.d_slip;
-    local.d_strength.d_normal =
-      mu * factor.value + f_n * mu * factor.d_normal + sum.d_normal;
-    local.d_strength.d_direction =
-      f_n * mu * factor.d_direction + sum.d_direction;
+    d.d_normal = mu * factor.value + f_n * mu * factor.d_normal + sum.d_normal;
+    d.d_direction = f_n * mu * factor.d_direction + sum.d_direction;
+    d.d_rate      = f_n * mu * factor.d_rate + sum.d_rate;
+    d.d_work      = f_n * mu * factor.d_work + sum.d_work;
+    d.d_slip = f_n * (local.d_coefficient * factor.value + mu * factor.d_slip) +
+               sum.d_slip +
+               (f_n * mu * factor.d_coefficient + sum.d_coefficient) *
+                 local.d_coefficient +
+               d.d_rate / local.time_step +
+               d.d_work * (local.traction - alpha_t * local.slip);
+    if (is_anisotropic)
+      d.d_direction = pull_back(d.d_direction, local.direction);
+  }
+
+
+
+  // Where the elastic path begins, slip comes to rest.
+  double FrictionLaw::strength_at_rest(const LocalSystem &local) const
+  {
+    if (!depends_on_rate)
+      return local.start.strength;
+    LocalSystem  at_rest(local.start,
+                        local.time_step,
+                        local.start.normal_traction);
+    const double norm = local.start.traction.norm();
+    if (norm > 0.)
+      at_rest.direction = local.start.traction / norm;
+    evolve_strength(at_rest);
+    return at_rest.strength;
   }
 
 
@@ -203,15 +264,17 @@ namespace SlipStep
         local.start_ratio = 1.;
         return;
       }
+    local.start_ratio = local.start.normal_ratio;
+    if (local.start.normal_traction <= 0.)
+      return;
     const Tensor<1, 2> &a       = local.start.traction;
     const Tensor<1, 2> &b       = traction_increment;
-    const double        c       = local.start.strength;
+    const double        c       = strength_at_rest(local);
     const double        d       = local.strength - c;
     const double        slope_0 = (a * b) * c - d * (a * a);
     const double        slope_1 = slope_0 + (b * b) * c - d * (a * b);
 
-    local.start_ratio = local.start.normal_ratio;
-    if (local.start.normal_traction <= 0. || slope_0 >= 0.)
+    if (slope_0 >= 0.)
       return;
     const double       s = (slope_1 > 0. ? slope_0 / (slope_0 - slope_1) : 1.);
     const Tensor<1, 2> traction = a + s * b;
@@ -235,7 +298,9 @@ namespace SlipStep
   // The slip in the step is sought by way of the traction that it leaves,
   // |f_t| = |f_trial| - alpha_t * slip: of the two this one keeps its digits
   // when a step is far longer than the elastic slip. At |f_t| = |f_trial| the
-  // residual is negative, at 0 it is positive.
+  // residual is negative, at 0 it is positive. Strength that falls quickly with
+  // slip makes it have several roots; one in the middle, where it grows with
+  // the traction, is no equilibrium that lasts.
   void FrictionLaw::solve(LocalSystem &local) const
   {
     const double largest = local.trial_norm;
@@ -269,7 +334,11 @@ namespace SlipStep
         if (iterations < most_iterations)
           {
             evaluate(traction, local);
-            return;
+            const double correction =
+              alpha_t * local.flow.value / local.d_residual;
+            if (local.d_residual > 0. &&
+                std::abs(correction) <= 1e-6 * traction)
+              return;
           }
       }
     catch (const boost::math::evaluation_error &)
@@ -306,8 +375,11 @@ namespace SlipStep
                      local.slip * turned.norm();
           }
 
+        const double d_rate =
+          local.flow.d_rate - local.flow.d_ratio * local.ratio /
+                                local.strength * local.d_strength.d_rate;
         const double transmitted =
-          (local.flow.d_rate / local.time_step) / local.d_residual;
+          std::abs((d_rate / local.time_step) / local.d_residual);
         error += alpha_t * transmitted * 0.5 *
                  std::abs(local.slip - local.time_step * local.start.slip_rate);
       }
@@ -344,8 +416,10 @@ namespace SlipStep
       -local.flow.d_ratio * local.ratio / local.strength;
     const double from_start =
       local.flow.d_normal_ratio * local.normal_ratio.d_start;
+    const double own_share =
+      1. - local.ratio * local.d_strength.d_work * local.slip;
     const Tensor<1, 2> d_slip_d_trial =
-      -(local.flow.d_ratio / local.strength * m +
+      -(local.flow.d_ratio / local.strength * own_share * m +
         from_strength * (transverse * local.d_strength.d_direction) +
         from_start * (local.d_start_ratio_d_trial +
                       local.d_start_ratio_d_strength *
@@ -388,7 +462,9 @@ namespace SlipStep
         return;
       }
     state.loading_ratio =
-      (state.strength > 0. ? state.traction.norm() / state.strength : 0.);
+      (state.strength > 0. ?
+         isotropic_traction(state.traction).norm() / state.strength :
+         0.);
     if (normal_ratio == &neutral)
       state.normal_ratio = 1.;
     else
@@ -429,6 +505,10 @@ namespace SlipStep
 
 
 
+  // With an elliptic cone f_t = P f', where f' is the traction of an isotropic
+  // law. The slip that does the same work with f' is P times the true one, in
+  // its elastic and in its viscoplastic part: then the latter is normal to the
+  // ellipse, since that of the isotropic law is normal to its circle.
   ContactResponse FrictionLaw::update(const ContactState &start,
                                       const Tensor<1, 2> &slip_increment,
                                       const double        normal_traction,
@@ -436,6 +516,54 @@ namespace SlipStep
                                       ContactState       &end) const
   {
     Assert(time_step > 0., dealii::ExcMessage("The time step must be > 0."));
+    if (!is_anisotropic)
+      return isotropic_update(
+        start, slip_increment, normal_traction, time_step, end);
+
+    ContactState isotropic_start = start;
+    isotropic_start.traction     = isotropic_traction(start.traction);
+    ContactResponse response     = isotropic_update(
+      isotropic_start, cone * slip_increment, normal_traction, time_step, end);
+
+    response.traction = cone * response.traction;
+    response.d_slip   = cone * response.d_slip * cone;
+    response.d_normal = cone * response.d_normal;
+    end.traction      = response.traction;
+    return response;
+  }
+
+
+
+  // Normal to the ellipse, from the direction in which an isotropic law slips.
+  Tensor<1, 2> FrictionLaw::slip_direction(const Tensor<1, 2> &direction) const
+  {
+    const Tensor<1, 2> slip = inverse_cone * direction;
+    return direction == Tensor<1, 2>() ? slip : slip / slip.norm();
+  }
+
+
+
+  // A gradient with respect to slip_direction(direction) becomes one with
+  // respect to the direction.
+  Tensor<1, 2> FrictionLaw::pull_back(const Tensor<1, 2> &gradient,
+                                      const Tensor<1, 2> &direction) const
+  {
+    const Tensor<1, 2> e = slip_direction(direction);
+    if (e == Tensor<1, 2>())
+      return e;
+    return inverse_cone * (gradient - (gradient * e) * e) /
+           (inverse_cone * direction).norm();
+  }
+
+
+
+  ContactResponse
+  FrictionLaw::isotropic_update(const ContactState &start,
+                                const Tensor<1, 2> &slip_increment,
+                                const double        normal_traction,
+                                const double        time_step,
+                                ContactState       &end) const
+  {
     LocalSystem local(start, time_step, std::max(normal_traction, 0.));
 
     // Off the plane: mu goes on healing, the traction is lost.
@@ -449,12 +577,15 @@ namespace SlipStep
         end.normal_traction = end.strength = 0.;
         end.loading_ratio = end.slip_rate = 0.;
         end.dissipation += start.traction.norm_square() / (2. * alpha_t);
+        for (const StrengthEffect *effect : strength_effects)
+          effect->remember(step_data(local), end);
         return {};
       }
 
     const Tensor<1, 2> traction_increment = alpha_t * slip_increment;
     local.trial                           = start.traction + traction_increment;
     local.trial_norm                      = local.trial.norm();
+    local.traction                        = local.trial_norm;
     if (local.trial_norm > 0.)
       local.direction = local.trial / local.trial_norm;
 
@@ -481,6 +612,10 @@ namespace SlipStep
     end.slip_path       = start.slip_path + local.slip;
     end.slip_rate       = local.slip / time_step;
     end.dissipation     = start.dissipation + local.traction * local.slip;
+    for (const auto memory : ContactState::memories())
+      end.*memory = start.*memory;
+    for (const StrengthEffect *effect : strength_effects)
+      effect->remember(step_data(local), end);
     return response;
   }
 } // namespace SlipStep

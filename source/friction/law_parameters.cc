@@ -11,7 +11,9 @@ namespace SlipStep
   {
     const char *slot_name(const ExclusiveSlot slot)
     {
-      return slot == ExclusiveSlot::overstress ? "overstress" : "normal ratio";
+      return slot == ExclusiveSlot::overstress ? "overstress" :
+             slot == ExclusiveSlot::anisotropy ? "anisotropy" :
+                                                 "normal ratio";
     }
 
     // Names in the list, checked, in the order of the catalogue, so that the
@@ -142,6 +144,18 @@ namespace SlipStep
             flow = active.back().get();
           if (info.slot == ExclusiveSlot::normal_ratio)
             normal_ratio = active.back().get();
+          if (info.slot == ExclusiveSlot::anisotropy)
+            {
+              is_anisotropic = true;
+              cone           = active.back()->cone();
+              inverse_cone   = invert(cone);
+            }
+          if (const auto *effect =
+                dynamic_cast<const StrengthEffect *>(active.back().get()))
+            {
+              strength_effects.push_back(effect);
+              depends_on_rate = depends_on_rate || effect->depends_on_rate();
+            }
         }
     };
 

@@ -253,11 +253,9 @@ namespace SlipStep
           sums[5] += point.JxW;
           sums[7] += point.slips ? point.JxW : 0.;
           sums[8] +=
-            point.JxW *
-            (state.normal_traction * state.normal_traction /
-               law.normal_stiffness() +
-             state.traction.norm_square() / law.tangential_stiffness()) /
-            2.;
+            point.JxW * (state.normal_traction * state.normal_traction /
+                           (2. * law.normal_stiffness()) +
+                         law.stored_energy(state.traction));
           const std::array<double, 3> ratios = {
             {state.loading_ratio, state.normal_ratio, state.coefficient}};
           for (unsigned int i = 0; i < 3; ++i)

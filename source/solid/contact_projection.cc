@@ -22,7 +22,8 @@ namespace SlipStep
       coefficient,
       slip_path,
       slip_rate,
-      dissipation
+      dissipation,
+      first_memory
     };
 
     // Round-off of the polynomials.
@@ -32,13 +33,12 @@ namespace SlipStep
     // nothing, which no scaling reaches.
     const double least_share = 1e-6;
 
-    using AllFields = std::array<double, 9>;
-
-    AllFields mean_of(const std::vector<AllFields> &fields,
-                      const std::vector<double>    &weights)
+    template <typename Fields>
+    Fields mean_of(const std::vector<Fields> &fields,
+                   const std::vector<double> &weights)
     {
-      AllFields mean{};
-      double    sum = 0.;
+      Fields mean{};
+      double sum = 0.;
       for (unsigned int k = 0; k < fields.size(); ++k)
         {
           const double weight = weights[k % weights.size()];
@@ -126,15 +126,19 @@ namespace SlipStep
   typename ContactProjection<dim>::Fields
   ContactProjection<dim>::fields_of(const ContactState &state)
   {
-    return {{state.traction[0],
-             state.traction[1],
-             state.normal_traction,
-             state.strength,
-             state.normal_ratio,
-             state.coefficient,
-             state.slip_path,
-             state.slip_rate,
-             state.dissipation}};
+    static_assert(n_fields == first_memory + ContactState::memories().size());
+    Fields fields = {{state.traction[0],
+                      state.traction[1],
+                      state.normal_traction,
+                      state.strength,
+                      state.normal_ratio,
+                      state.coefficient,
+                      state.slip_path,
+                      state.slip_rate,
+                      state.dissipation}};
+    for (unsigned int i = first_memory; i < n_fields; ++i)
+      fields[i] = state.*ContactState::memories()[i - first_memory];
+    return fields;
   }
 
 
@@ -193,7 +197,7 @@ namespace SlipStep
                 coefficient,
                 coefficient_range[0],
                 coefficient_range[1]);
-    for (const Field field : {slip_path, slip_rate, dissipation})
+    for (unsigned int field = slip_path; field < n_fields; ++field)
       limit_field(fields, field, 0., infinity);
 
     States states(fields.size());
@@ -210,6 +214,8 @@ namespace SlipStep
         state.slip_path       = values[slip_path];
         state.slip_rate       = values[slip_rate];
         state.dissipation     = values[dissipation];
+        for (unsigned int i = first_memory; i < n_fields; ++i)
+          state.*ContactState::memories()[i - first_memory] = values[i];
         law.complete(state);
       }
     return states;
@@ -223,7 +229,11 @@ namespace SlipStep
     const Fields &fields,
     const double  least_normal_traction) const
   {
-    const double t = std::hypot(fields[traction_0], fields[traction_1]);
+    Tensor<1, 2> traction;
+    traction[0]    = fields[traction_0];
+    traction[1]    = fields[traction_1];
+    traction       = law.isotropic_traction(traction);
+    const double t = std::hypot(traction[0], traction[1]);
     if (fields[normal_traction] < least_normal_traction ||
         fields[strength] < 0.)
       return false;

@@ -9,7 +9,7 @@ namespace SlipStep
 {
   namespace
   {
-    class Probe : public Effect
+    class Probe : public StrengthEffect
     {
     public:
       virtual Strength strength_factor(const SlipStepData &step) const override
@@ -44,6 +44,8 @@ namespace SlipStep
                     [](Parameters &) {},
                     [](const Parameters &, const CoefficientBasis &) {
                       return std::make_unique<Probe>();
-                    }});
+                    },
+                    {},
+                    {}});
   } // namespace
 } // namespace SlipStep

@@ -30,7 +30,10 @@ namespace SlipStep::Testing
     state.slip_path   = 0.01 + a * b;
     state.slip_rate   = 0.2 + 0.1 * b;
     state.dissipation = 0.3 + 0.2 * x - 0.1 * y * a;
-    state.loading_ratio = state.traction.norm() / state.strength;
+    state.temperature_rise = 0.2 + 0.3 * x - 0.1 * b;
+    state.contact_age      = 0.5 + y * a;
+    state.loading_ratio =
+      law.isotropic_traction(state.traction).norm() / state.strength;
     return state;
   }
 
@@ -45,6 +48,8 @@ namespace SlipStep::Testing
     state.coefficient = mu[0] + (mu[1] - mu[0]) * number(random);
     state.slip_path   = number(random) < 0.3 ? 0. : 10. * number(random);
     state.dissipation = number(random) < 0.3 ? 0. : number(random);
+    for (const auto memory : ContactState::memories())
+      state.*memory = number(random) < 0.3 ? 0. : number(random);
     if (number(random) < 0.7)
       {
         state.normal_traction = std::exp(10. * (number(random) - 0.5));
@@ -53,24 +58,28 @@ namespace SlipStep::Testing
                                   (is_rate_dependent ? 1.79 : 1.) :
                                   number(random);
         const double angle    = 7. * number(random);
-        state.traction[0]     = ratio * state.strength * std::cos(angle);
-        state.traction[1]     = ratio * state.strength * std::sin(angle);
-        state.normal_ratio    = number(random);
-        state.slip_rate       = number(random) < 0.5 ? 0. : number(random);
+        state.traction[0]     = std::cos(angle);
+        state.traction[1]     = std::sin(angle);
+        state.traction *= ratio * state.strength /
+                          law.isotropic_traction(state.traction).norm();
+        state.normal_ratio = number(random);
+        state.slip_rate    = number(random) < 0.5 ? 0. : number(random);
       }
     law.complete(state);
     return state;
   }
 
   /// What a transfer conserves.
-  inline std::array<double, 6> conserved(const ContactState &state)
+  inline auto conserved(const ContactState &state)
   {
-    return {{state.traction[0],
-             state.traction[1],
-             state.normal_traction,
-             state.strength,
-             state.slip_path,
-             state.dissipation}};
+    return std::array<double, 8>{{state.traction[0],
+                                  state.traction[1],
+                                  state.normal_traction,
+                                  state.strength,
+                                  state.slip_path,
+                                  state.dissipation,
+                                  state.temperature_rise,
+                                  state.contact_age}};
   }
 
   inline void expect_admissible(const FrictionLaw &law, const ContactState &s)
@@ -78,13 +87,14 @@ namespace SlipStep::Testing
     const double limit = law.maximum_ratio();
     if (s.normal_traction > 0.)
       {
+        const double norm = law.isotropic_traction(s.traction).norm();
         if (limit > 1.)
-          EXPECT_LT(s.traction.norm(), limit * s.strength + 1e-300);
+          EXPECT_LT(norm, limit * s.strength + 1e-300);
         else
-          EXPECT_LE(s.traction.norm(), (1. + 1e-11) * s.strength);
+          EXPECT_LE(norm, (1. + 1e-11) * s.strength);
         EXPECT_GE(s.strength, 0.);
         EXPECT_DOUBLE_EQ(s.loading_ratio,
-                         s.strength > 0. ? s.traction.norm() / s.strength : 0.);
+                         s.strength > 0. ? norm / s.strength : 0.);
         EXPECT_GE(s.normal_ratio, 0.);
         EXPECT_LE(s.normal_ratio, 1.);
       }
@@ -99,6 +109,8 @@ namespace SlipStep::Testing
     EXPECT_GE(s.slip_path, 0.);
     EXPECT_GE(s.slip_rate, 0.);
     EXPECT_GE(s.dissipation, 0.);
+    for (const auto memory : ContactState::memories())
+      EXPECT_GE(s.*memory, 0.);
   }
 
   inline void expect_equal(const ContactState &a,
@@ -115,6 +127,8 @@ namespace SlipStep::Testing
     EXPECT_NEAR(a.slip_path, b.slip_path, tolerance);
     EXPECT_NEAR(a.slip_rate, b.slip_rate, tolerance);
     EXPECT_NEAR(a.dissipation, b.dissipation, tolerance);
+    for (const auto memory : ContactState::memories())
+      EXPECT_NEAR(a.*memory, b.*memory, tolerance);
   }
 } // namespace SlipStep::Testing
 

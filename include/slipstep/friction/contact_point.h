@@ -3,6 +3,8 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <array>
+
 namespace SlipStep
 {
   /// Everything a contact point remembers from one step to the next.
@@ -28,12 +30,29 @@ namespace SlipStep
     /// Energy dissipated per area [MPa mm].
     double dissipation = 0.;
 
+    // What single effects remember, 0 while they are off. None is negative; a
+    // change of the mesh averages them.
+
+    /// Temperature of the contact above that of its surroundings [degC].
+    double temperature_rise = 0.;
+    /// How long what now touches has been in touch [s].
+    double contact_age = 0.;
+
+    /// The memories, for those who treat all alike: a new one is added here,
+    /// and is then transferred and saved.
+    static constexpr std::array<double ContactState::*, 2> memories()
+    {
+      return {{&ContactState::temperature_rise, &ContactState::contact_age}};
+    }
+
     /// All of it, for boost::serialization.
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
       archive &traction &normal_traction &strength &loading_ratio &normal_ratio
         &coefficient &slip_path &slip_rate &dissipation;
+      for (const auto memory : memories())
+        archive &(this->*memory);
     }
   };
 

@@ -10,6 +10,8 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace SlipStep
 {
@@ -18,10 +20,18 @@ namespace SlipStep
   {
     const ContactState &start;
     double              time_step;       ///< [s]
-    double              normal_traction; ///< f_n at the end [MPa], > 0
+    double              normal_traction; ///< f_n at the end [MPa], 0: open
     double              slip;            ///< viscoplastic slip in the step [mm]
-    /// Unit vector of the viscoplastic slip.
+    /// Unit vector of the viscoplastic slip, zero if there is no traction.
     dealii::Tensor<1, 2> direction;
+    double               coefficient; ///< mu at the end
+    double               work;        ///< |f_t| * slip, all of it heat [MPa mm]
+
+    /// lambda, by backward Euler [mm/s].
+    double slip_rate() const
+    {
+      return slip / time_step;
+    }
   };
 
   /// A rate and its derivative with respect to the evolving variable.
@@ -31,15 +41,18 @@ namespace SlipStep
     double derivative = 0.;
   };
 
-  /// A contribution to the strength at the end of a step, and its derivatives
-  /// with respect to the slip in the step, the normal traction and the
-  /// direction of slip.
+  /// A contribution to the strength at the end of a step, and its partial
+  /// derivatives with respect to what SlipStepData says of that end; those that
+  /// an effect does not set are zero.
   struct Strength
   {
     double               value    = 0.;
     double               d_slip   = 0.;
     double               d_normal = 0.;
     dealii::Tensor<1, 2> d_direction;
+    double               d_rate        = 0.; ///< with the slip kept
+    double               d_coefficient = 0.;
+    double               d_work        = 0.;
   };
 
   /// r_s after some slip, with derivatives.
@@ -65,7 +78,8 @@ namespace SlipStep
   {
     none,
     normal_ratio,
-    overstress
+    overstress,
+    anisotropy
   };
 
   /// What the coefficients in a case file mean to the law.
@@ -79,6 +93,8 @@ namespace SlipStep
   };
 
   /// An effect of the friction law: a set of hooks, each neutral by default.
+  ///
+  /// One that changes the yield level is a StrengthEffect.
   ///
   /// An effect lives in one file of friction/effects, which declares its
   /// parameters in the section `Friction/<name>`, implements the hooks that it
@@ -101,16 +117,13 @@ namespace SlipStep
       return {};
     }
 
-    /// Factor G of the strength f_n mu.
-    virtual Strength strength_factor(const SlipStepData & /*step*/) const
+    /// Exclusive slot `anisotropy`: the symmetric map from the tractions of an
+    /// isotropic law to those of this one. Neutral: unity.
+    virtual dealii::Tensor<2, 2> cone() const
     {
-      return {1., 0., 0., {}};
-    }
-
-    /// Strength added to f_n mu G_1 G_2 ... [MPa].
-    virtual Strength additive_strength(const SlipStepData & /*step*/) const
-    {
-      return {};
+      dealii::Tensor<2, 2> unity;
+      unity[0][0] = unity[1][1] = 1.;
+      return unity;
     }
 
     /// Exclusive slot `normal_ratio`: r_s after the slip [mm], starting from
@@ -136,9 +149,8 @@ namespace SlipStep
       return {normal_ratio - ratio, -1., 1., 0.};
     }
 
-    /// Least upper bound of r, infinity if there is none. Neutral: 1, as r =
-    /// r_s
-    /// <= 1.
+    /// Least upper bound of r, infinity if there is none. Neutral: 1, as
+    /// r = r_s <= 1.
     virtual double maximum_ratio() const
     {
       return 1.;
@@ -150,6 +162,39 @@ namespace SlipStep
       return 1.;
     }
   };
+
+  /// An effect that changes the yield level.
+  class StrengthEffect : public Effect
+  {
+  public:
+    /// Factor G of the strength f_n mu.
+    virtual Strength strength_factor(const SlipStepData & /*step*/) const
+    {
+      return {1., 0., 0., {}};
+    }
+
+    /// Strength added to f_n mu G_1 G_2 ... [MPa].
+    virtual Strength additive_strength(const SlipStepData & /*step*/) const
+    {
+      return {};
+    }
+
+    /// Whether the strength depends on the slip rate: then the strength at
+    /// rest is not the one that the last step ended with.
+    virtual bool depends_on_rate() const
+    {
+      return false;
+    }
+
+    /// Write what the effect remembers into the state after the step; called
+    /// for an open point, too.
+    virtual void remember(const SlipStepData & /*step*/,
+                          ContactState & /*end*/) const
+    {}
+  };
+
+  /// Keys of an effect's section, with values.
+  using EffectSettings = std::vector<std::pair<std::string, std::string>>;
 
   /// How an effect is listed, declared and made.
   struct EffectInfo
@@ -164,6 +209,11 @@ namespace SlipStep
     std::function<std::unique_ptr<Effect>(const Parameters &,
                                           const CoefficientBasis &)>
       create;
+
+    /// Values for which it does nothing, or as good as nothing, and values with
+    /// which it does much: the tests try both.
+    EffectSettings neutral_settings;
+    EffectSettings typical_settings;
   };
 
   /// All effects linked into the program, by name.

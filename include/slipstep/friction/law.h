@@ -26,8 +26,10 @@ namespace SlipStep
   ///
   /// update() integrates one step by backward Euler: the traction stays along
   /// its elastic trial, which leaves one scalar unknown, the slip in the step,
-  /// bracketed by 0 and |f_trial| / alpha_t. Immutable: one law serves all
-  /// points.
+  /// bracketed by 0 and |f_trial| / alpha_t. With Anisotropy this holds in the
+  /// metric of its ellipse, in which |f_t|, lambda and the slip path are then
+  /// measured, and alpha_t is the stiffness along the first axis. Immutable:
+  /// one law serves all points.
   class FrictionLaw
   {
   public:
@@ -73,6 +75,20 @@ namespace SlipStep
       return alpha_t;
     }
 
+    /// The traction of an isotropic law with the same r: its norm is the |f_t|
+    /// of the formulas. Without an anisotropy the traction itself.
+    dealii::Tensor<1, 2>
+    isotropic_traction(const dealii::Tensor<1, 2> &traction) const
+    {
+      return is_anisotropic ? inverse_cone * traction : traction;
+    }
+
+    /// Energy stored per area in the tangential stiffness [MPa mm].
+    double stored_energy(const dealii::Tensor<1, 2> &traction) const
+    {
+      return isotropic_traction(traction).norm_square() / (2. * alpha_t);
+    }
+
     /// Quasi-static mu of a point at rest since ever.
     double static_coefficient() const
     {
@@ -97,6 +113,14 @@ namespace SlipStep
   private:
     struct LocalSystem;
 
+    ContactResponse isotropic_update(const ContactState         &start,
+                                     const dealii::Tensor<1, 2> &slip_increment,
+                                     const double  normal_traction,
+                                     const double  time_step,
+                                     ContactState &end) const;
+
+    SlipStepData    step_data(const LocalSystem &local) const;
+    double          strength_at_rest(const LocalSystem &local) const;
     void            start_ratio(const dealii::Tensor<1, 2> &traction_increment,
                                 LocalSystem                &local) const;
     void            evolve_coefficient(LocalSystem &local) const;
@@ -105,6 +129,11 @@ namespace SlipStep
     void            solve(LocalSystem &local) const;
     double          error_estimate(const LocalSystem &local) const;
     ContactResponse linearise(const LocalSystem &local) const;
+
+    dealii::Tensor<1, 2>
+    slip_direction(const dealii::Tensor<1, 2> &direction) const;
+    dealii::Tensor<1, 2> pull_back(const dealii::Tensor<1, 2> &gradient,
+                                   const dealii::Tensor<1, 2> &direction) const;
 
     Rate coefficient_rate_per_slip(const double coefficient) const;
     Rate coefficient_rate_per_time(const double coefficient) const;
@@ -116,10 +145,16 @@ namespace SlipStep
 
     std::vector<std::string>             names;
     std::vector<std::unique_ptr<Effect>> active;
+    std::vector<const StrengthEffect *>  strength_effects; ///< of those
 
     /// Owners of the exclusive slots; the neutral effect where there is none.
     const Effect *normal_ratio = &neutral;
     const Effect *flow         = &neutral;
+
+    bool depends_on_rate = false;
+
+    bool                 is_anisotropic = false;
+    dealii::Tensor<2, 2> cone, inverse_cone; ///< of the anisotropy
 
     static const Effect neutral;
   };

@@ -64,6 +64,8 @@ namespace SlipStep
        &Healing::declare,
        [](const Parameters &parameters, const CoefficientBasis &basis) {
          return std::make_unique<Healing>(parameters, basis);
-       }});
+       },
+       {{"Rate", "0"}},
+       {{"Rate", "1e-3"}, {"Steepness", "100"}}});
   } // namespace
 } // namespace SlipStep

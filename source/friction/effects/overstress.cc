@@ -96,6 +96,8 @@ namespace SlipStep
        &Overstress::declare,
        [](const Parameters &parameters, const CoefficientBasis &basis) {
          return std::make_unique<Overstress>(parameters, basis);
-       }});
+       },
+       {{"Viscosity", "1e-12"}},
+       {}});
   } // namespace
 } // namespace SlipStep

@@ -75,6 +75,8 @@ namespace SlipStep
        &Perzyna::declare,
        [](const Parameters &parameters, const CoefficientBasis &basis) {
          return std::make_unique<Perzyna>(parameters, basis);
-       }});
+       },
+       {{"Viscosity", "1e-40"}},
+       {}});
   } // namespace
 } // namespace SlipStep

@@ -80,6 +80,8 @@ namespace SlipStep
        &Softening::declare,
        [](const Parameters &parameters, const CoefficientBasis &basis) {
          return std::make_unique<Softening>(parameters, basis);
-       }});
+       },
+       {{"Rate", "0"}},
+       {{"Rate", "5"}, {"Steepness", "3"}}});
   } // namespace
 } // namespace SlipStep

@@ -122,6 +122,8 @@ namespace SlipStep
        &Subloading::declare,
        [](const Parameters &parameters, const CoefficientBasis &basis) {
          return std::make_unique<Subloading>(parameters, basis);
-       }});
+       },
+       {{"Rate", "1e12"}},
+       {}});
   } // namespace
 } // namespace SlipStep

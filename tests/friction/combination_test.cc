@@ -1,0 +1,171 @@
+// Effects in random company: nothing fails, and tangents stay exact.
+
+#include "law_test_tools.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+using dealii::Tensor;
+
+namespace
+{
+  const unsigned int n_laws = 40;
+
+  class Combination : public ::testing::TestWithParam<unsigned int>
+  {
+  protected:
+    std::mt19937                 random{GetParam()};
+    std::unique_ptr<FrictionLaw> law = make_law(settings());
+
+    double uniform(const double from, const double to)
+    {
+      return std::uniform_real_distribution<double>(from, to)(random);
+    }
+
+    // Between 10^from and 10^to.
+    double magnitude(const double from, const double to)
+    {
+      return std::pow(10., uniform(from, to));
+    }
+
+    Tensor<1, 2> random_slip(const double from, const double to)
+    {
+      const double size = magnitude(from, to), angle = uniform(0., 6.3);
+      return vector(size * std::cos(angle), size * std::sin(angle));
+    }
+
+  private:
+    // Every second effect, of two for a slot the first that comes.
+    Settings settings()
+    {
+      Settings                      result = {{"Effects", ""}};
+      std::map<ExclusiveSlot, bool> is_taken;
+      for (const auto &entry : effect_registry())
+        {
+          const EffectInfo &info = entry.second;
+          if (uniform(0., 1.) < 0.5 || is_taken[info.slot])
+            continue;
+          is_taken[info.slot] = info.slot != ExclusiveSlot::none;
+          result[0].second +=
+            (result[0].second.empty() ? "" : ", ") + info.name;
+          for (const auto &value : info.typical_settings)
+            result.push_back({info.name + "/" + value.first, value.second});
+        }
+      if (result[0].second.find("expression") != std::string::npos)
+        vary_expression(result);
+      return result;
+    }
+
+    void vary_expression(Settings &settings)
+    {
+      const std::array<std::array<std::string, 4>, 5> formulas = {
+        {{{"log10 speed", "1.2 + 0.1 * tanh(x)", "-4", "3"}},
+         {{"pressure", "1 - 0.3 * tanh(x / 5)", "0", "30"}},
+         {{"path", "1 + 0.5 * exp(-x * 100)", "0", "0.1"}},
+         {{"hold time", "1 + 0.3 * tanh(x / 5)", "0", "100"}},
+         {{"angle", "1 + 0.2 * cos(x / 180 * pi)", "-180", "180"}}}};
+      const auto &formula = formulas[GetParam() % formulas.size()];
+      const std::array<std::string, 4> keys = {
+        {"Covariate", "Formula", "From", "To"}};
+      for (unsigned int i = 0; i < keys.size(); ++i)
+        settings.push_back({"expression/" + keys[i], formula[i]});
+      if (formula[0] != "hold time")
+        settings.push_back({"expression/Renewal length", "0.01"});
+    }
+  };
+} // namespace
+
+INSTANTIATE_TEST_SUITE_P(Law, Combination, ::testing::Range(0u, n_laws));
+
+
+
+TEST_P(Combination, random_loading_never_fails)
+{
+  ContactPoint point(*law);
+  for (unsigned int step = 0; step < 1000000 / n_laws; ++step)
+    {
+      // Every so often: no slip, no contact, tiny pressure.
+      const double       choice = uniform(0., 1.);
+      const Tensor<1, 2> slip =
+        choice < 0.1 ? vector(0.) : random_slip(-9., 2.);
+      const double f_n =
+        choice > 0.97 ? -1. : magnitude(choice > 0.9 ? -9. : -2., 3.);
+      const ContactState    last = point.committed();
+      const ContactResponse response =
+        point.update(*law, slip, f_n, magnitude(-6., 6.));
+      point.commit();
+
+      const ContactState &state = point.committed();
+      ASSERT_TRUE(std::isfinite(response.traction.norm()) &&
+                  std::isfinite(response.d_slip.norm()) &&
+                  std::isfinite(response.d_normal.norm()) &&
+                  std::isfinite(response.error))
+        << "step " << step;
+      ASSERT_TRUE(f_n < 0. || state.strength > 0.) << "step " << step;
+      ASSERT_GE(state.loading_ratio, 0.);
+      ASSERT_LE(state.loading_ratio, law->maximum_ratio() * (1. + 1e-9))
+        << "step " << step;
+      ASSERT_GE(state.normal_ratio, 0.);
+      ASSERT_LE(state.normal_ratio, 1.);
+      ASSERT_GT(state.coefficient, 0.);
+      ASSERT_GE(state.slip_path, last.slip_path);
+      ASSERT_GE(state.dissipation, last.dissipation);
+      for (const auto memory : ContactState::memories())
+        ASSERT_TRUE(std::isfinite(state.*memory) && state.*memory >= 0.);
+      ASSERT_NEAR(law->isotropic_traction(state.traction).norm(),
+                  state.loading_ratio * state.strength,
+                  1e-9 * state.strength * state.loading_ratio + 1e-300);
+    }
+}
+
+
+
+TEST_P(Combination, tangent_matches_finite_differences)
+{
+  unsigned int n_compared = 0;
+  ContactPoint point(*law);
+  for (unsigned int step = 0; step < 500; ++step)
+    {
+      const Tensor<1, 2>    slip = random_slip(-6., -2.);
+      const double          f_n = magnitude(0., 1.5), dt = magnitude(-3., 2.);
+      const ContactResponse response = point.update(*law, slip, f_n, dt);
+      const double length = slip.norm(), alpha_t = law->tangential_stiffness();
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          const auto at = [&](const double t) {
+            const Tensor<1, 2> du =
+              c == 2 ? vector(0.) :
+                       t * length * (c == 0 ? vector(1.) : vector(0., 1.));
+            return point
+              .update(*law, slip + du, f_n * (c == 2 ? 1. + t : 1.), dt)
+              .traction;
+          };
+          const double scale      = c == 2 ? f_n : alpha_t * length;
+          const auto   difference = [&](const double h) {
+            return (8. * (at(h) - at(-h)) - (at(2. * h) - at(-2. * h))) /
+                   (12. * h * scale);
+          };
+          const Tensor<1, 2> fd = difference(2e-4);
+          // Next to a kink there is no derivative.
+          if (!((fd - difference(1e-4)).norm() < 2e-8))
+            continue;
+          ++n_compared;
+          for (unsigned int d = 0; d < 2; ++d)
+            EXPECT_NEAR(c == 2 ? response.d_normal[d] :
+                                 response.d_slip[d][c] / alpha_t,
+                        fd[d],
+                        1e-7)
+              << "step " << step << ", derivative " << c;
+        }
+      point.update(*law, slip, f_n, dt);
+      point.commit();
+    }
+  // Of 1500.
+  EXPECT_GT(n_compared, 1000u);
+}
