@@ -82,6 +82,17 @@ namespace SlipStep
       static const DimensionEntry viscosity{
         "a viscosity",
         {{"s/mm", 1, 1}, {"min/mm", 60, 1}, {"s/um", 1e3, 1}, {"s/m", 1, 1e3}}};
+      static const DimensionEntry drag{"a drag",
+                                       {{"MPa s/mm", 1, 1},
+                                        {"MPa min/mm", 60, 1},
+                                        {"MPa s/m", 1, 1e3}}};
+      static const DimensionEntry per_temperature{"a value per temperature",
+                                                  {{"1/degC", 1, 1},
+                                                   {"1/K", 1, 1}}};
+      static const DimensionEntry heating{"a temperature per work and area",
+                                          {{"degC mm/N", 1, 1},
+                                           {"K mm/N", 1, 1},
+                                           {"K m^2/kJ", 1, 1}}};
       static const DimensionEntry angle{"an angle",
                                         {{"deg", 1, 1},
                                          {"rad", 180, dealii::numbers::PI}}};
@@ -105,6 +116,12 @@ namespace SlipStep
             return per_time;
           case Dimension::viscosity:
             return viscosity;
+          case Dimension::drag:
+            return drag;
+          case Dimension::per_temperature:
+            return per_temperature;
+          case Dimension::heating:
+            return heating;
           case Dimension::angle:
             return angle;
         }

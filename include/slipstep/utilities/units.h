@@ -13,16 +13,19 @@ namespace SlipStep
   /// every number is in the consistent system mm, s, N, MPa, degC.
   enum class Dimension
   {
-    number,     ///< no unit
-    length,     ///< mm
-    time,       ///< s
-    speed,      ///< mm/s
-    stress,     ///< MPa
-    stiffness,  ///< MPa/mm
-    per_length, ///< 1/mm
-    per_time,   ///< 1/s
-    viscosity,  ///< s/mm
-    angle       ///< deg in text, rad inside
+    number,          ///< no unit
+    length,          ///< mm
+    time,            ///< s
+    speed,           ///< mm/s
+    stress,          ///< MPa
+    stiffness,       ///< MPa/mm
+    per_length,      ///< 1/mm
+    per_time,        ///< 1/s
+    viscosity,       ///< s/mm
+    drag,            ///< MPa s/mm
+    per_temperature, ///< 1/degC
+    heating,         ///< degC per work and area, degC mm/N
+    angle            ///< deg in text, rad inside
   };
 
   /// The unit that a bare number of this dimension is taken to be in, as shown
