@@ -123,10 +123,9 @@ namespace SlipStep
         row.coefficient     = single(state.coefficient);
         row.slip_fraction   = response.slips ? 1. : 0.;
         row.dissipated_energy = state.dissipation;
-        row.stored_energy     = stored_normal + state.traction.norm_square() /
-                                              (2. * law.tangential_stiffness());
-        row.external_work     = work;
-        row.step_size         = step;
+        row.stored_energy = stored_normal + law.stored_energy(state.traction);
+        row.external_work = work;
+        row.step_size     = step;
         row.newton_iterations = 1;
         observe(row);
       }

@@ -247,3 +247,43 @@ TEST(ClosedForms, power_law_overstress)
   const ContactState end = slide(*law, 5.8, V, 1., 50, law->initial_state());
   EXPECT_NEAR(end.loading_ratio, law->steady_ratio(V), 1e-10);
 }
+
+
+
+TEST(ClosedForms, elliptic_cone)
+{
+  // Traction in steady sliding along e: r tau_y P^2 e / |P e|, whose work is
+  // dissipated; slip along the traction of the axes only.
+  const double rho = 0.6, axis = 35. * PI / 180., mu = 0.1, V = 0.5, f_n = 4.;
+  const auto   law = make_law({{"Effects", "anisotropy, overstress"},
+                               {"Static coefficient", "0.1"},
+                               {"anisotropy/Ratio", "0.6"},
+                               {"anisotropy/Angle", "35 deg"}});
+  for (const double angle : {0., 0.4, axis, 1.2, axis + PI / 2., -2.})
+    {
+      const double along   = std::cos(angle - axis);
+      const double across  = std::sin(angle - axis);
+      const double stretch = std::hypot(along, rho * across);
+      const auto   e       = vector(std::cos(angle), std::sin(angle));
+      const double strength =
+        law->steady_ratio(V * stretch) * mu * f_n / stretch;
+      const double first  = strength * along;
+      const double second = strength * rho * rho * across;
+      ContactState state  = law->initial_state(), before;
+      for (unsigned int i = 0; i < 200; ++i)
+        {
+          before = state;
+          law->update(before, V * 0.01 * e, f_n, 0.01, state);
+        }
+      EXPECT_NEAR(state.traction[0],
+                  first * std::cos(axis) - second * std::sin(axis),
+                  1e-9);
+      EXPECT_NEAR(state.traction[1],
+                  first * std::sin(axis) + second * std::cos(axis),
+                  1e-9);
+      EXPECT_NEAR(state.slip_rate, V * stretch, 1e-9);
+      EXPECT_NEAR(state.dissipation - before.dissipation,
+                  0.01 * V * (state.traction * e),
+                  1e-10);
+    }
+}

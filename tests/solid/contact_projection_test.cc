@@ -18,7 +18,8 @@ namespace
     "softening, healing, subloading, overstress",
     "softening, subloading",
     "softening",
-    "softening, perzyna"};
+    "softening, perzyna",
+    "softening, subloading, overstress, anisotropy, heating"};
 
   FrictionLaw make_law(const std::string &effects)
   {
