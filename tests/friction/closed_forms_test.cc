@@ -287,3 +287,45 @@ TEST(ClosedForms, elliptic_cone)
                   1e-10);
     }
 }
+
+
+
+TEST(ClosedForms, memories_at_rest_and_off_the_plane)
+{
+  const auto   law   = make_law({{"Effects", "heating, expression"},
+                                 {"expression/Covariate", "hold time"},
+                                 {"heating/Cooling time", "3 s"}});
+  ContactState state = slide(*law, 5., 10., 100., 50, law->initial_state());
+  const double hot = state.temperature_rise, young = state.contact_age;
+  EXPECT_GT(hot, 1.);
+  EXPECT_NEAR(young, 0.01 / 10., 1e-10); // D_c / V
+  ContactState end;
+  law->update(state, vector(0.), 5., 2., end);
+  EXPECT_NEAR(end.temperature_rise, hot * std::exp(-2. / 3.), 1e-10 * hot);
+  EXPECT_NEAR(end.contact_age, young + 2., 1e-6);
+  law->update(state, vector(1.), -1., 2., end);
+  EXPECT_NEAR(end.temperature_rise, hot * std::exp(-2. / 3.), 1e-10 * hot);
+  EXPECT_EQ(end.contact_age, 0.);
+}
+
+
+
+TEST(ClosedForms, formulas_are_clamped_and_smooth)
+{
+  // x^3 is no polynomial of the table, but 1001 values come near.
+  const auto law = make_law({{"Effects", "expression"},
+                             {"Static coefficient", "0.1"},
+                             {"expression/Covariate", "pressure"},
+                             {"expression/Formula", "0.5 + (x / 10)^3"},
+                             {"expression/From", "2"},
+                             {"expression/To", "10"}});
+  for (const double pressure : {1., 2., 3.333, 7.1234, 10., 20.})
+    {
+      const double       x = std::min(std::max(pressure, 2.), 10.);
+      const ContactState end =
+        slide(*law, pressure, 1., 1., 1, law->initial_state());
+      EXPECT_NEAR(end.traction[0] / pressure,
+                  0.1 * (0.5 + std::pow(x / 10., 3)),
+                  1e-7);
+    }
+}

@@ -1,0 +1,278 @@
+#include <deal.II/base/numbers.h>
+
+#include <slipstep/friction/effect.h>
+
+#include <muParser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// A function of one variable, sampled at equal distances, with the
+    /// monotone cubic of Fritsch and Butland (1984), SIAM J. Sci. Stat. Comput.
+    /// 5, 300, in between: smooth, and never outside its samples. Constant
+    /// beyond its range.
+    class Table
+    {
+    public:
+      Table(const double               from,
+            const double               to,
+            const std::vector<double> &samples)
+        : from(from)
+        , width((to - from) / (samples.size() - 1))
+        , samples(samples)
+        , slopes(samples.size())
+      {
+        for (unsigned int i = 0; i < samples.size(); ++i)
+          {
+            const unsigned int next     = std::min(i, last() - 1) + 1;
+            const unsigned int previous = std::max(i, 1u) - 1;
+            const double       a = samples[previous + 1] - samples[previous];
+            const double       b = samples[next] - samples[next - 1];
+            slopes[i]            = a * b > 0. ? 2. * a * b / (a + b) : 0.;
+          }
+      }
+
+      /// Value and derivative.
+      Rate operator()(const double x) const
+      {
+        const double position = (x - from) / width;
+        if (!(position > 0.))
+          return {samples.front(), 0.};
+        if (position >= last())
+          return {samples.back(), 0.};
+        const unsigned int i = static_cast<unsigned int>(position);
+        const double       t = position - i, s = 1. - t;
+        const double       rise = samples[i + 1] - samples[i];
+        return {samples[i] + rise * t * t * (3. - 2. * t) +
+                  t * s * (slopes[i] * s - slopes[i + 1] * t),
+                (6. * rise * t * s + slopes[i] * s * (1. - 3. * t) +
+                 slopes[i + 1] * t * (3. * t - 2.)) /
+                  width};
+      }
+
+    private:
+      unsigned int last() const
+      {
+        return samples.size() - 1;
+      }
+
+      double              from;
+      double              width;
+      std::vector<double> samples;
+      std::vector<double> slopes; // per width
+    };
+
+
+
+    const char *const section = "Friction/expression/";
+
+    /// A formula of the user's own, of one covariate x:
+    /// \f[ G = g\left(\min(\max(x, x_0), x_1)\right). \f]
+    /// x is the logarithm log10 of the slip rate [mm/s], the pressure [MPa],
+    /// the slip path [mm], the contact age \f$\theta\f$ [s], the temperature
+    /// rise at the beginning of the step [degC] or the angle of slip [deg]. The
+    /// age is that of Dieterich (1979), J. Geophys. Res. 84, 2161: it grows
+    /// with time and is renewed by slip, \f$\dot\theta = 1 -
+    /// \lambda\theta/D_c\f$, integrated exactly for a constant slip rate. The
+    /// formula is sampled when it is read; the law uses a monotone cubic
+    /// through 1001 values.
+    class Expression : public StrengthEffect
+    {
+    public:
+      Expression(const Parameters &parameters, const CoefficientBasis &)
+        : covariate(parameters.text(key("Covariate")))
+        , D_c(parameters.number(key("Renewal length")))
+        , table(read_table(parameters))
+      {
+        const std::vector<std::string> effects =
+          parameters.list("Friction/Effects");
+        if (covariate == "temperature" &&
+            std::find(effects.begin(), effects.end(), "heating") ==
+              effects.end())
+          parameters.reject(key("Covariate"),
+                            "the temperature comes from effect 'heating': add "
+                            "it to Friction/Effects");
+        // What was set has to have an effect.
+        if (covariate != "hold time" &&
+            parameters.text(key("Renewal length")) !=
+              parameters.entry(key("Renewal length")).default_value)
+          parameters.reject(key("Renewal length"),
+                            "it is used with Covariate = hold time only");
+        if (covariate == "angle" &&
+            std::abs(table(180.).value - table(-180.).value) > 1e-9)
+          parameters.reject(key("Formula"),
+                            "at -180 and 180 deg, the same direction, it must "
+                            "have the same value");
+      }
+
+      virtual bool depends_on_rate() const override
+      {
+        return covariate == "log10 speed";
+      }
+
+      virtual Strength strength_factor(const SlipStepData &step) const override
+      {
+        Strength factor;
+        if (covariate == "log10 speed")
+          {
+            const double speed = std::max(step.slip_rate(), 1e-300);
+            const Rate   rate  = table(std::log10(speed));
+            factor.value       = rate.value;
+            factor.d_rate = rate.derivative / (dealii::numbers::LN10 * speed);
+          }
+        else if (covariate == "angle")
+          {
+            const dealii::Tensor<1, 2> &m     = step.direction;
+            const double                scale = 180. / dealii::numbers::PI;
+            const Rate rate       = table(scale * std::atan2(m[1], m[0]));
+            factor.value          = rate.value;
+            factor.d_direction[0] = -scale * rate.derivative * m[1];
+            factor.d_direction[1] = scale * rate.derivative * m[0];
+          }
+        else if (covariate == "pressure")
+          {
+            const Rate rate = table(step.normal_traction);
+            factor.value    = rate.value;
+            factor.d_normal = rate.derivative;
+          }
+        else if (covariate == "temperature")
+          factor.value = table(step.start.temperature_rise).value;
+        else
+          {
+            const Rate x    = (covariate == "path" ?
+                                 Rate{step.start.slip_path + step.slip, 1.} :
+                                 contact_age(step));
+            const Rate rate = table(x.value);
+            factor.value    = rate.value;
+            factor.d_slip   = rate.derivative * x.derivative;
+          }
+        return factor;
+      }
+
+      virtual void remember(const SlipStepData &step,
+                            ContactState       &end) const override
+      {
+        if (covariate == "hold time")
+          end.contact_age =
+            step.normal_traction > 0. ? contact_age(step).value : 0.;
+      }
+
+      static void declare(Parameters &parameters)
+      {
+        parameters.declare(
+          key("Covariate"),
+          "log10 speed",
+          dealii::Patterns::Selection(
+            "log10 speed|pressure|path|hold time|temperature|angle"),
+          "What x is: 'log10 speed' of the slip rate in mm/s, 'pressure' in "
+          "MPa, slip 'path' in mm, 'hold time' in s, 'temperature' rise in degC "
+          "(needs effect heating) or 'angle' of slip in deg.");
+        parameters.declare(
+          key("Formula"),
+          "1",
+          dealii::Patterns::Anything(),
+          "Factor G as a formula of x, as muParser reads it: + "
+          "- * / ^ exp ln log10 sqrt tanh min max, a ? b : c. "
+          "Between 1e-6 and 1e6 over the range, no unit.");
+        parameters.declare(
+          key("From"),
+          "-3",
+          Quantity(Dimension::number),
+          "Least x of the formula; below, G stays. A number in "
+          "the unit of the covariate.");
+        parameters.declare(key("To"),
+                           "2",
+                           Quantity(Dimension::number),
+                           "Largest x of the formula; above, G stays. A number "
+                           "in the unit of the covariate, greater than From.");
+        parameters.declare(key("Renewal length"),
+                           "0.01",
+                           Quantity(Dimension::length, 0., 1e30, true),
+                           "Slip D_c after which the hold time is forgotten; "
+                           "for that covariate only. More than 0, in mm.");
+      }
+
+    private:
+      static std::string key(const std::string &name)
+      {
+        return section + name;
+      }
+
+      static Table read_table(const Parameters &parameters)
+      {
+        const double from = parameters.number(key("From"));
+        const double to   = parameters.number(key("To"));
+        if (!(from < to))
+          parameters.reject(key("To"), "must be greater than From");
+        std::vector<double> samples(1001);
+        double              x = from;
+        try
+          {
+            mu::Parser parser;
+            parser.DefineVar("x", &x);
+            parser.DefineConst("pi", dealii::numbers::PI);
+            parser.SetExpr(parameters.text(key("Formula")));
+            for (unsigned int i = 0; i < samples.size(); ++i)
+              {
+                const double share = i / (samples.size() - 1.);
+                x                  = (1. - share) * from + share * to;
+                const double at    = x;
+                samples[i]         = parser.Eval();
+                if (samples[i] >= 1e-6 && samples[i] <= 1e6)
+                  continue;
+                std::ostringstream why;
+                why << "its value " << samples[i] << " at x = " << at
+                    << " is not between 1e-6 and 1e6";
+                parameters.reject(key("Formula"), why.str());
+              }
+          }
+        catch (const mu::ParserError &error)
+          {
+            parameters.reject(key("Formula"), error.GetMsg());
+          }
+        return Table(from, to, samples);
+      }
+
+      // theta at the end of the step, and its derivative with respect to slip.
+      Rate contact_age(const SlipStepData &step) const
+      {
+        const double x = step.slip / D_c, decay = std::exp(-x);
+        // (1 - e^-x) / x and its derivative.
+        const bool   is_small = x < 1e-4;
+        const double share =
+          is_small ? 1. - x / 2. + x * x / 6. : -std::expm1(-x) / x;
+        const double slope =
+          is_small ? -0.5 + x / 3. - x * x / 8. : (decay - share) / x;
+        return {step.start.contact_age * decay + step.time_step * share,
+                (step.time_step * slope - step.start.contact_age * decay) /
+                  D_c};
+      }
+
+      const std::string covariate;
+      const double      D_c;
+      const Table       table;
+    };
+
+    const RegisterEffect registration(
+      {"expression",
+       ExclusiveSlot::none,
+       "G = formula of one covariate x, From <= x <= To",
+       "chosen; hold time as in Dieterich (1979), J. Geophys. Res. 84, 2161",
+       "Formula = 1",
+       &Expression::declare,
+       [](const Parameters &parameters, const CoefficientBasis &basis) {
+         return std::make_unique<Expression>(parameters, basis);
+       },
+       {{"Formula", "1"}},
+       {{"Covariate", "hold time"},
+        {"Formula", "1 + 0.3 * tanh(x / 5)"},
+        {"From", "0"},
+        {"To", "100"},
+        {"Renewal length", "0.002 mm"}}});
+  } // namespace
+} // namespace SlipStep
