@@ -239,7 +239,7 @@ namespace SlipStep
       check_all(the_case);
       if (line.command == "run")
         for (const Parameters &parameters : the_case.complete)
-          check_memory(parameters, n_launched());
+          check_block(parameters, n_launched());
       output = chosen_output(the_case, line);
       if (!line.is_child)
         check_output(the_case, line);

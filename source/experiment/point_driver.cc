@@ -28,6 +28,7 @@ namespace SlipStep
                        "Speed of every 'slide' that states none; the key to "
                        "sweep when one case runs at several speeds. More than "
                        "0, with its unit.");
+    Machine::declare_parameters(parameters);
     StepControl::declare_parameters(parameters);
   }
 
@@ -81,21 +82,28 @@ namespace SlipStep
   drive_point(const FrictionLaw                             &law,
               const Programme                               &programme,
               StepControl                                    control,
-              const std::function<void(const HistoryRow &)> &observe)
+              const std::function<void(const HistoryRow &)> &observe,
+              const Machine                                 &machine)
   {
     ContactPoint point(law);
-    double       work = 0.;
+    double       work = 0., snapped = 0.;
     while (!control.is_finished())
       {
-        const Loading      from = programme.at(control.time());
-        const Loading      to   = programme.at(control.end_of_step());
-        const Tensor<1, 2> slip = to.displacement - from.displacement;
+        const Loading      from   = programme.at(control.time());
+        const Loading      to     = programme.at(control.end_of_step());
+        const Tensor<1, 2> motion = to.displacement - from.displacement;
 
         const ContactResponse response =
-          point.update(law, slip, to.pressure, control.step_size());
+          machine.update(law, point, motion, to.pressure, control.step_size());
         const ContactState &state = point.trial();
         const double        step  = control.step_size();
-        if (!control.accept(response.error, state.strength))
+        // A jump of a soft machine takes no time: no step is small enough to
+        // resolve it.
+        const bool jumps =
+          machine
+            .contact_slip(motion, state.traction - point.committed().traction)
+            .norm() > 1e3 * motion.norm();
+        if (!control.accept(jumps ? 0. : response.error, state.strength))
           continue;
 
         // The normal stiffness is linear, so its work is what it stores.
@@ -105,10 +113,13 @@ namespace SlipStep
         const double stored_normal =
           std::pow(state.normal_traction, 2) / (2. * law.normal_stiffness());
         work += stored_normal - stored_before +
-                0.5 * (point.committed().traction + state.traction) * slip;
+                0.5 * (point.committed().traction + state.traction) * motion;
+        // A contact that opens lets the machine's spring go.
+        const bool is_closed = to.pressure > 0.;
+        if (!is_closed)
+          snapped += machine.stored_energy(point.committed().traction);
         point.commit();
 
-        const bool is_closed = to.pressure > 0.;
         HistoryRow row;
         row.time            = control.time();
         row.displacement    = to.displacement[0];
@@ -122,10 +133,11 @@ namespace SlipStep
         row.normal_ratio    = single(state.normal_ratio);
         row.coefficient     = single(state.coefficient);
         row.slip_fraction   = response.slips ? 1. : 0.;
-        row.dissipated_energy = state.dissipation;
-        row.stored_energy = stored_normal + law.stored_energy(state.traction);
-        row.external_work = work;
-        row.step_size     = step;
+        row.dissipated_energy = state.dissipation + snapped;
+        row.stored_energy = stored_normal + law.stored_energy(state.traction) +
+                            machine.stored_energy(state.traction);
+        row.external_work     = work;
+        row.step_size         = step;
         row.newton_iterations = 1;
         observe(row);
       }
@@ -138,6 +150,7 @@ namespace SlipStep
   {
     const FrictionLaw law(parameters);
     const Programme   programme = parse_programme(parameters);
+    const Machine     machine(parameters);
     RunRecorder       recorder(parameters, options, "point", law, programme);
     if (options.resume)
       recorder.announce(
@@ -145,13 +158,17 @@ namespace SlipStep
     try
       {
         const StepControl control(parameters, programme, law);
-        recorder.summary.rejected_steps =
-          drive_point(law, programme, control, [&](const HistoryRow &row) {
+        recorder.summary.rejected_steps = drive_point(
+          law,
+          programme,
+          control,
+          [&](const HistoryRow &row) {
             recorder.record(row);
             if (SignalGuard::caught() != 0)
               throw RunError(SignalGuard::in_words());
             ++recorder.summary.newton_iterations;
-          });
+          },
+          machine);
         recorder.finish();
       }
     catch (const RunError &error)

@@ -130,6 +130,8 @@ namespace SlipStep
     : alpha_n(parameters.number("Friction/Normal stiffness"))
     , alpha_t(parameters.number("Friction/Tangential stiffness"))
     , names(active_effects(parameters))
+    , cone(neutral.cone())
+    , inverse_cone(neutral.cone())
   {
     reject_values_of_inactive_effects(parameters, names);
 

@@ -1,6 +1,7 @@
 #include <slipstep/solid/case.h>
 
 #include <slipstep/experiment/checkpoint.h>
+#include <slipstep/experiment/machine.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/refinement_study.h>
 #include <slipstep/experiment/report.h>
@@ -165,6 +166,7 @@ namespace SlipStep
     const Programme       programme = parse_programme(parameters);
     const BlockParameters block(parameters, programme);
     const StepControl     control(parameters, programme, law);
+    const Machine         machine(parameters);
     check_probes(parameters, block, parse_quantities(parameters, programme));
     check_report_parameters(parameters);
     for (const std::string &path : parameters.paths("Refinement study/"))
@@ -177,9 +179,12 @@ namespace SlipStep
 
 
 
-  void check_memory(const Parameters  &parameters,
-                    const unsigned int n_processes)
+  void check_block(const Parameters &parameters, const unsigned int n_processes)
   {
+    if (!Machine(parameters).is_rigid())
+      parameters.reject("Loading/Machine stiffness",
+                        "only 'slipstep point' knows a machine; the block is "
+                        "elastic itself: take 'rigid'");
     const BlockParameters block(parameters, parse_programme(parameters));
     const double          installed = 1e-6 * sysconf(_SC_PHYS_PAGES) *
                              static_cast<double>(sysconf(_SC_PAGESIZE));

@@ -28,7 +28,7 @@ namespace SlipStep
           {
             const Parameters complete = parameters_of(run, parameters);
             check_case(complete);
-            check_memory(complete, 1);
+            check_block(complete, 1);
           }
         catch (const InputError &error)
           {

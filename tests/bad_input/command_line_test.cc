@@ -146,6 +146,20 @@ TEST(CaseFile, ABlockMustFitIntoMemory)
 
 
 
+TEST(CaseFile, ABlockHasNoMachine)
+{
+  const SlipstepProcess process;
+  process.write("soft.prm",
+                "set Loading/Machine stiffness = 50 MPa/mm\n"
+                "set Output/Quantities = peak coefficient\n");
+  for (const std::string command : {"run", "refine"})
+    expect_refusal(process.run({command, "soft.prm"}),
+                   {"soft.prm:1: Loading/Machine stiffness", "'rigid'"});
+  EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
+}
+
+
+
 TEST(OutputFolder, MustHaveAName)
 {
   const SlipstepProcess process;

@@ -2,6 +2,7 @@
 #define slipstep_experiment_point_driver_h
 
 #include <slipstep/experiment/history.h>
+#include <slipstep/experiment/machine.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/step_control.h>
 #include <slipstep/experiment/summary.h>
@@ -24,15 +25,17 @@ namespace SlipStep
   Parameters relocated_case(const Parameters            &parameters,
                             const std::filesystem::path &folder);
 
-  /// Drive one contact point of 1 mm^2 through a programme: slip and normal
-  /// traction are those of the programme.
+  /// Drive one contact point of 1 mm^2 through a programme: normal traction and
+  /// the displacement of the load point are those of the programme, and with a
+  /// rigid machine the load point is the contact.
   /// @param observe called with the row of every step made
   /// @return number of steps that were repeated smaller
   unsigned int
   drive_point(const FrictionLaw                             &law,
               const Programme                               &programme,
               StepControl                                    control,
-              const std::function<void(const HistoryRow &)> &observe);
+              const std::function<void(const HistoryRow &)> &observe,
+              const Machine                                 &machine = {});
 
   /// `slipstep point`: the case on one contact point, with all its files.
   Summary run_point(const Parameters &parameters, const RunOptions &options);

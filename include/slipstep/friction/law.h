@@ -83,6 +83,12 @@ namespace SlipStep
       return is_anisotropic ? inverse_cone * traction : traction;
     }
 
+    /// d traction / d slip increment while nothing slips [MPa/mm].
+    dealii::Tensor<2, 2> elastic_tangent() const
+    {
+      return alpha_t * cone * cone;
+    }
+
     /// Energy stored per area in the tangential stiffness [MPa mm].
     double stored_energy(const dealii::Tensor<1, 2> &traction) const
     {
@@ -154,7 +160,7 @@ namespace SlipStep
     bool depends_on_rate = false;
 
     bool                 is_anisotropic = false;
-    dealii::Tensor<2, 2> cone, inverse_cone; ///< of the anisotropy
+    dealii::Tensor<2, 2> cone, inverse_cone; ///< unity without anisotropy
 
     static const Effect neutral;
   };

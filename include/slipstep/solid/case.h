@@ -62,11 +62,11 @@ namespace SlipStep
   /// @throws InputError
   void check_case(const Parameters &parameters);
 
-  /// Refuse a block that this machine, or @p n_processes of its kind, cannot
-  /// hold in memory.
+  /// Refuse a block that this computer, or @p n_processes of its kind, cannot
+  /// hold in memory, and a machine in series with a block.
   /// @throws InputError
-  void check_memory(const Parameters  &parameters,
-                    const unsigned int n_processes);
+  void check_block(const Parameters  &parameters,
+                   const unsigned int n_processes);
 } // namespace SlipStep
 
 #endif
