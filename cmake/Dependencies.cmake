@@ -2,7 +2,8 @@
 # Their headers are system headers: warnings in them are not ours.
 string(CONCAT slipstep_deal_II_remedy
     "On Debian 12: apt-get install libdeal.ii-dev. A deal.II of your own needs "
-    "-DDEAL_II_WITH_MPI=ON -DDEAL_II_WITH_P4EST=ON -DDEAL_II_WITH_TRILINOS=ON; "
+    "-DDEAL_II_WITH_MPI=ON -DDEAL_II_WITH_P4EST=ON -DDEAL_II_WITH_TRILINOS=ON "
+    "-DDEAL_II_WITH_MUPARSER=ON; "
     "name its folder with -Ddeal.II_DIR=<folder>.")
 
 find_package(deal.II 9.4.1 QUIET HINTS "$ENV{DEAL_II_DIR}")
@@ -13,7 +14,7 @@ if(NOT deal.II_FOUND)
   message(FATAL_ERROR "slipstep needs deal.II 9.4.1 or newer${slipstep_found}. "
                       "${slipstep_deal_II_remedy}")
 endif()
-foreach(feature IN ITEMS MPI P4EST TRILINOS)
+foreach(feature IN ITEMS MPI P4EST TRILINOS MUPARSER)
   if(NOT DEAL_II_WITH_${feature})
     message(FATAL_ERROR "The deal.II in ${DEAL_II_PATH} was built without "
                         "${feature}, which slipstep needs. "
