@@ -542,6 +542,10 @@ namespace SlipStep
           {
             Parameters used = declared;
             used.read(folder / "used_parameters.prm");
+            // Left out is what the run had no use for.
+            for (const std::string &path : used.paths())
+              if (!used.is_set(path))
+                used.set(path, parameters.text(path), "");
             CaseIdentity(used).require_same(parameters,
                                             "the finished run in " +
                                               folder.string());

@@ -23,11 +23,12 @@ namespace SlipStep
     {
       std::string name;
       std::string key;
+      bool        counts_steps; ///< else it is a tolerance
     };
 
     const std::vector<StepKind> step_kinds = {
-      {"equal steps", time_section + "Equal steps per statement"},
-      {"tolerance", time_section + "Tolerance"}};
+      {"equal steps", time_section + "Equal steps per statement", true},
+      {"tolerance", time_section + "Tolerance", false}};
 
     std::string folder_name(std::string label)
     {
@@ -77,6 +78,27 @@ namespace SlipStep
         }
     }
 
+    double number_in(const std::string &text)
+    {
+      return std::strtod(text.c_str(), nullptr);
+    }
+
+    /// Runs go from coarse to fine, and no two are the same.
+    void check_order(const Parameters               &parameters,
+                     const std::string              &study_key,
+                     const std::vector<std::string> &values,
+                     const bool                      grows)
+    {
+      for (unsigned int i = 1; i < values.size(); ++i)
+        if (!(grows ? number_in(values[i]) > number_in(values[i - 1]) :
+                      number_in(values[i]) < number_in(values[i - 1])))
+          parameters.reject(study_key,
+                            "from coarse to fine, '" + values[i] +
+                              "' must be " +
+                              std::string(grows ? "more" : "less") + " than '" +
+                              values[i - 1] + "'");
+    }
+
     /// "equal steps 50, 100, 200"
     StudySequence read_time_steps(const Parameters  &parameters,
                                   const std::string &study_key)
@@ -89,13 +111,18 @@ namespace SlipStep
           StudySequence sequence;
           sequence.kind = StudySequence::Kind::time_step;
           sequence.name = kind.name;
-          for (const std::string &value : dealii::Utilities::split_string_list(
-                 text.substr(kind.name.size()), ','))
+          const auto values =
+            dealii::Utilities::split_string_list(text.substr(kind.name.size()),
+                                                 ',');
+          for (const std::string &value : values)
             {
               check_value(parameters, study_key, kind.key, value);
+              if (kind.counts_steps && number_in(value) < 1.)
+                parameters.reject(study_key, "a statement has 1 step or more");
               sequence.runs.push_back(
                 make_run(kind.name + " " + value, {{kind.key, value}}));
             }
+          check_order(parameters, study_key, values, kind.counts_steps);
           return sequence;
         }
       parameters.reject(study_key,
@@ -169,7 +196,8 @@ namespace SlipStep
       parameters.reject(section + "Uniform meshes",
                         "there is nothing to study: no meshes and no time "
                         "steps");
-    read_references(parameters);
+    read_mesh_reference(parameters);
+    read_time_reference(parameters);
   }
 
 
@@ -195,6 +223,7 @@ namespace SlipStep
         check_value(parameters, key, tolerance_key, tolerance);
         sequence.runs.push_back(adaptive_mesh(parameters, tolerance));
       }
+    check_order(parameters, key, parameters.list(key), false);
     if (!sequence.runs.empty())
       sequence_list.push_back(sequence);
   }
@@ -210,65 +239,94 @@ namespace SlipStep
 
 
 
-  void RefinementStudy::read_references(const Parameters &parameters)
+  const StudySequence *
+  RefinementStudy::sequence_of(const StudySequence::Kind kind) const
   {
-    const auto sequence_of = [this](const StudySequence::Kind kind) {
-      return std::find_if(sequence_list.begin(),
-                          sequence_list.end(),
-                          [kind](const StudySequence &sequence) {
-                            return sequence.kind == kind;
-                          });
-    };
-    const auto uniform   = sequence_of(StudySequence::Kind::uniform);
-    const auto time_step = sequence_of(StudySequence::Kind::time_step);
-    const bool has_meshes =
-      sequence_list.front().kind != StudySequence::Kind::time_step;
+    for (const StudySequence &sequence : sequence_list)
+      if (sequence.kind == kind)
+        return &sequence;
+    return nullptr;
+  }
 
-    const std::string mesh_reference = section + "Mesh reference";
-    const std::string text           = parameters.text(mesh_reference);
-    if (has_meshes && is_richardson(text))
+
+
+  void RefinementStudy::read_mesh_reference(const Parameters &parameters)
+  {
+    const StudySequence *uniform  = sequence_of(StudySequence::Kind::uniform);
+    const StudySequence *adaptive = sequence_of(StudySequence::Kind::adaptive);
+    if (uniform == nullptr && adaptive == nullptr)
+      return;
+    const std::string  key  = section + "Mesh reference";
+    const std::string  text = parameters.text(key);
+    const unsigned int n_uniform =
+      uniform == nullptr ? 0 : uniform->runs.size();
+    if (is_richardson(text))
       {
-        if (uniform == sequence_list.end() || uniform->runs.size() < 3)
+        if (n_uniform < 3)
           parameters.reject(section + "Uniform meshes",
                             "the reference by Richardson extrapolation needs "
                             "3 meshes");
-      }
-    else if (has_meshes)
-      {
-        const std::string kind = text.substr(0, text.find(' '));
-        const std::string rest =
-          text.substr(std::min(kind.size() + 1, text.size()));
-        if (kind == "uniform" && !rest.empty())
-          {
-            check_value(parameters, mesh_reference, mesh_key, text);
-            mesh_reference_run = uniform_mesh(rest);
-          }
-        else if (kind == "adaptive" && !rest.empty())
-          {
-            check_value(parameters, mesh_reference, tolerance_key, rest);
-            mesh_reference_run = adaptive_mesh(parameters, rest);
-          }
-        else
-          parameters.reject(mesh_reference,
-                            "allowed are 'Richardson', 'uniform <number>' and "
-                            "'adaptive <tolerance>'" +
-                              did_you_mean(text, {"Richardson"}));
+        return;
       }
 
-    const std::string time_key = section + "Time reference";
-    if (time_step == sequence_list.end())
-      return;
-    if (!is_richardson(parameters.text(time_key)))
+    const std::string kind = text.substr(0, text.find(' '));
+    const std::string rest =
+      text.substr(std::min(kind.size() + 1, text.size()));
+    if (kind == "uniform" && !rest.empty())
       {
-        const StudySequence finer = read_time_steps(parameters, time_key);
-        if (finer.runs.size() != 1)
-          parameters.reject(time_key, "this is one run: give one number");
-        time_reference_run = finer.runs.front();
+        if (rest.find_first_not_of("0123456789") != std::string::npos ||
+            number_in(rest) > 10. || number_in(rest) < n_uniform)
+          parameters.reject(key,
+                            "take a mesh finer than those compared with it, "
+                            "from 'uniform " +
+                              std::to_string(n_uniform) + "' to 'uniform 10'");
+        mesh_reference_run = uniform_mesh(rest);
       }
-    else if (time_step->runs.size() < 3)
-      parameters.reject(section + "Time steps",
-                        "the reference by Richardson extrapolation needs 3 "
-                        "steps");
+    else if (kind == "adaptive" && !rest.empty())
+      {
+        check_value(parameters, key, tolerance_key, rest);
+        if (adaptive != nullptr)
+          {
+            std::vector<std::string> tolerances =
+              parameters.list(section + "Adaptive tolerances");
+            tolerances.push_back(rest);
+            check_order(parameters, key, tolerances, false);
+          }
+        mesh_reference_run = adaptive_mesh(parameters, rest);
+      }
+    else
+      parameters.reject(key,
+                        "allowed are 'Richardson', 'uniform <number>' and "
+                        "'adaptive <tolerance>'" +
+                          did_you_mean(text, {"Richardson"}));
+  }
+
+
+
+  void RefinementStudy::read_time_reference(const Parameters &parameters)
+  {
+    const StudySequence *steps = sequence_of(StudySequence::Kind::time_step);
+    if (steps == nullptr)
+      return;
+    const std::string key = section + "Time reference";
+    if (is_richardson(parameters.text(key)))
+      {
+        if (steps->runs.size() < 3)
+          parameters.reject(section + "Time steps",
+                            "the reference by Richardson extrapolation needs 3 "
+                            "steps");
+        return;
+      }
+    const StudySequence reference = read_time_steps(parameters, key);
+    if (reference.runs.size() != 1)
+      parameters.reject(key, "this is one run: give one number");
+    if (reference.name == steps->name)
+      check_order(parameters,
+                  key,
+                  {steps->runs.back().settings.front().second,
+                   reference.runs.front().settings.front().second},
+                  reference.name == step_kinds[0].name);
+    time_reference_run = reference.runs.front();
   }
 
 

@@ -249,7 +249,7 @@ namespace SlipStep
       "Block/Solver",
       "automatic",
       Selection("automatic|multigrid|amg|direct"),
-      "Preconditioner of GMRES: 'multigrid' is geometric, with "
+      "Preconditioner of the Krylov solver: 'multigrid' is geometric, with "
       "matrix-free products, for meshes that can be coarsened; "
       "'amg' is algebraic multigrid with rigid-body modes; "
       "'direct' factorises a recent tangent, on one process; "

@@ -235,7 +235,13 @@ TEST_F(Restart, KeepsFinishedRunsOfARefinementStudy)
                   "set Output/Fields = none\n"
                   "set Refinement study/Uniform meshes = 3\n");
   const auto refine = [](std::vector<std::string> more) {
-    more.insert(more.begin(), {"refine", "case.prm", "--output", "study"});
+    more.insert(more.begin(),
+                {"refine",
+                 "case.prm",
+                 "--output",
+                 "study",
+                 "--set",
+                 "Block/Adaptivity/Merging share=0.1"});
     return more;
   };
   const auto is_finished = [&](const std::string &folder) {

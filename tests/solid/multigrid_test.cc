@@ -151,29 +151,39 @@ TEST(Multigrid, solves_what_a_factorisation_solves)
 
 
 
+// With reactions at the supports. Where nodes hang, one has moved the forces to
+// their neighbours already.
 TEST(Multigrid, elastic_forces_are_those_of_the_matrix)
 {
-  // With reactions at the supports, on a mesh with hanging nodes.
-  const SolverProblem<3> problem(elements(3, 2), 1, 1);
-  Vector                 u = problem.random();
-  problem.constraints.distribute(u);
-  u.update_ghost_values();
-  Vector forces = problem.zero(), expected = problem.zero();
-  problem.system(SolverType::multigrid)->add_elastic_forces(u, forces);
-  problem.system(SolverType::direct)->add_elastic_forces(u, expected);
-  forces.compress(dealii::VectorOperation::add);
-  expected.compress(dealii::VectorOperation::add);
-  // At hanging nodes the one has moved forces to the neighbours already.
-  for (const auto &line : problem.constraints.get_lines())
-    for (Vector *vector : {&forces, &expected})
-      if (!line.entries.empty())
-        {
-          for (const auto &entry : line.entries)
-            (*vector)(entry.first) += entry.second * (*vector)(line.index);
-          (*vector)(line.index) = 0.;
-        }
-  forces -= expected;
-  EXPECT_LT(forces.l2_norm(), 1e-12 * expected.l2_norm());
+  const auto compare = [](const auto &problem) {
+    Vector u = problem.random();
+    problem.constraints.distribute(u);
+    u.update_ghost_values();
+    Vector forces = problem.zero(), expected = problem.zero();
+    problem.system(SolverType::multigrid)->add_elastic_forces(u, forces);
+    problem.system(SolverType::direct)->add_elastic_forces(u, expected);
+    forces.compress(dealii::VectorOperation::add);
+    expected.compress(dealii::VectorOperation::add);
+    for (const auto &line : problem.constraints.get_lines())
+      for (Vector *vector : {&forces, &expected})
+        if (!line.entries.empty())
+          {
+            for (const auto &entry : line.entries)
+              (*vector)(entry.first) += entry.second * (*vector)(line.index);
+            (*vector)(line.index) = 0.;
+          }
+    forces -= expected;
+    EXPECT_LT(forces.l2_norm(), 1e-12 * expected.l2_norm())
+      << problem.dof_handler.n_dofs() << " unknowns of degree "
+      << problem.parameters.degree;
+  };
+  for (const unsigned int n_local : {0, 1, 2})
+    {
+      compare(SolverProblem<2>(elements(2, 2), 3, n_local));
+      compare(SolverProblem<3>(elements(3, 1), 3, n_local));
+      compare(SolverProblem<3>(elements(3, 2), 1, n_local));
+      compare(SolverProblem<3>(elements(3, 2), 2, n_local));
+    }
 }
 
 

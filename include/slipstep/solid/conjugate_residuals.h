@@ -49,7 +49,9 @@ namespace SlipStep
         }
       if (!(norm <= tolerance))
         throw RunError("the linear solver did not converge in " +
-                       std::to_string(n) + " iterations");
+                       std::to_string(n) +
+                       " iterations; try 'set Solver = direct' in section "
+                       "Block, or a Poisson ratio less close to 0.5");
       return n;
     }
 

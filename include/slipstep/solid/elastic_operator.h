@@ -152,10 +152,10 @@ namespace SlipStep
 
     NodeTable find_nodes(const dealii::AffineConstraints<Number> &constraints,
                          const unsigned int                       index) const;
-    bool      append_nodes(const unsigned int                         batch,
-                           const dealii::AffineConstraints<Number>   &constraints,
-                           const dealii::Utilities::MPI::Partitioner &partitioner,
-                           std::vector<unsigned int>                 &offsets) const;
+    bool      append_nodes(const unsigned int                       batch,
+                           const dealii::AffineConstraints<Number> &constraints,
+                           const unsigned int                       index,
+                           std::vector<unsigned int>               &offsets) const;
     void      find_contact_cells();
     void      find_face_nodes();
     unsigned int face_node(const unsigned int i) const;
@@ -239,10 +239,7 @@ namespace SlipStep
     for (unsigned int batch = 0; batch < table.start_of_batch.size(); ++batch)
       {
         const unsigned int start = table.offsets.size();
-        if (append_nodes(batch,
-                         constraints,
-                         *matrix_free.get_vector_partitioner(index),
-                         table.offsets))
+        if (append_nodes(batch, constraints, index, table.offsets))
           table.start_of_batch[batch] = start;
         else
           table.offsets.resize(start);
@@ -254,18 +251,29 @@ namespace SlipStep
 
   // Four numbers are loaded and stored per node, for which there must be room.
   // Supported unknowns need no care: they are zero when read, and what is added
-  // to them is not used.
+  // to them is not used. At hanging nodes the library reads and writes other
+  // unknowns, those of the coarse side, even without constraints; its loops
+  // set entries to zero and communicate accordingly.
   template <int dim, int degree, typename Number, typename Simd>
   bool ElasticOperator<dim, degree, Number, Simd>::append_nodes(
-    const unsigned int                         batch,
-    const dealii::AffineConstraints<Number>   &constraints,
-    const dealii::Utilities::MPI::Partitioner &partitioner,
-    std::vector<unsigned int>                 &offsets) const
+    const unsigned int                       batch,
+    const dealii::AffineConstraints<Number> &constraints,
+    const unsigned int                       index,
+    std::vector<unsigned int>               &offsets) const
   {
     const unsigned int n_lanes = Simd::size();
     if (matrix_free.n_active_entries_per_cell_batch(batch) < n_lanes)
       return false;
-    const auto &fe = matrix_free.get_dof_handler().get_fe();
+    const auto &masks =
+      matrix_free.get_dof_info(index).hanging_node_constraint_masks;
+    for (unsigned int lane = 0; lane < n_lanes && !masks.empty(); ++lane)
+      if (masks[batch * n_lanes + lane] !=
+          dealii::internal::MatrixFreeFunctions::
+            unconstrained_compressed_constraint_kind)
+        return false;
+
+    const auto &partitioner = *matrix_free.get_vector_partitioner(index);
+    const auto &fe          = matrix_free.get_dof_handler().get_fe();
     const auto  hierarchic =
       dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
     const unsigned int n_owned  = partitioner.locally_owned_size();

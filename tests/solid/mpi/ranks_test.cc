@@ -114,6 +114,32 @@ TEST(Ranks, agree_on_adaptive_meshes)
 
 
 // Most ranks have nothing to do, at first or ever.
+// The pressure is given, so the forces of a mesh with hanging nodes and of
+// batches of cells at the borders of ranks are known.
+TEST(Ranks, adaptive_meshes_in_space_carry_the_load)
+{
+  for (const std::string degree : {"1", "2"})
+    {
+      const auto result = run_block_case<3>(
+        make_parameters(
+          {{"Loading/Programme", "press 5.8 MPa in 1 s"},
+           {"Time stepping/Equal steps per statement", "1"},
+           {"Block/Size", "10 mm, 6 mm, 5 mm"},
+           {"Block/Subdivisions", "2, 2, 1"},
+           {"Block/Degree", degree},
+           {"Block/Solver", "multigrid"},
+           {"Block/Refinement", "adaptive 3"},
+           {"Block/Adaptivity/Tolerance", degree == "1" ? "0.15" : "0.06"}}),
+        MPI_COMM_WORLD);
+      EXPECT_EQ(result.failure, "");
+      EXPECT_GT(result.summary.cells, 500u);
+      EXPECT_NEAR(result.history.back().normal_load, 348., 1e-7) << degree;
+      EXPECT_LT(result.history.back().newton_iterations, 7u) << degree;
+    }
+}
+
+
+
 TEST(Ranks, more_than_cells)
 {
   const Settings one_cell = {{"Loading/Programme",
