@@ -21,6 +21,7 @@ namespace SlipStep
       std::string name;
       double      numerator;
       double      denominator;
+      double      offset = 0.;
     };
 
     struct DimensionEntry
@@ -96,6 +97,20 @@ namespace SlipStep
       static const DimensionEntry angle{"an angle",
                                         {{"deg", 1, 1},
                                          {"rad", 180, dealii::numbers::PI}}};
+      static const DimensionEntry force{"a force",
+                                        {{"N", 1, 1},
+                                         {"kN", 1e3, 1},
+                                         {"mN", 1, 1e3},
+                                         {"uN", 1, 1e6},
+                                         {"MN", 1e6, 1},
+                                         {"kgf", 9.80665, 1},
+                                         {"gf", 9.80665, 1e3},
+                                         {"lbf", 4.4482216152605, 1}}};
+      static const DimensionEntry area{
+        "an area",
+        {{"mm^2", 1, 1}, {"um^2", 1, 1e6}, {"cm^2", 100, 1}, {"m^2", 1e6, 1}}};
+      static const DimensionEntry temperature{
+        "a temperature", {{"degC", 1, 1}, {"C", 1, 1}, {"K", 1, 1, -273.15}}};
       switch (dimension)
         {
           case Dimension::number:
@@ -124,6 +139,12 @@ namespace SlipStep
             return heating;
           case Dimension::angle:
             return angle;
+          case Dimension::force:
+            return force;
+          case Dimension::area:
+            return area;
+          case Dimension::temperature:
+            return temperature;
         }
       Assert(false, dealii::ExcInternalError());
       return number;
@@ -147,6 +168,46 @@ namespace SlipStep
       for (const std::string &name : unit_names(dimension))
         text += (text.empty() ? "" : ", ") + name;
       return text;
+    }
+
+
+
+    // Replace what instruments write instead of ASCII.
+    std::string plain_unit(std::string unit)
+    {
+      const std::vector<std::pair<std::string, std::string>> spellings = {
+        {"\xC2\xB5", "u"}, // micro sign, UTF-8
+        {"\xCE\xBC", "u"}, // Greek mu, UTF-8
+        {"\xC2\xB0", "deg"},
+        {"\xC2\xB2", "^2"},
+        {"\xB5", "u"}, // the same three in Latin-1
+        {"\xB0", "deg"},
+        {"\xB2", "^2"}};
+      for (const auto &[written, plain] : spellings)
+        for (std::size_t at = unit.find(written); at != std::string::npos;
+             at             = unit.find(written))
+          unit.replace(at, written.size(), plain);
+      return unit;
+    }
+
+
+
+    const Unit *find_unit(const std::string &name, const Dimension dimension)
+    {
+      for (const Unit &known : entry(dimension).units)
+        if (known.name == name)
+          return &known;
+      return nullptr;
+    }
+
+
+
+    std::string why_no_unit(const std::string &unit, const Dimension dimension)
+    {
+      const std::string nearest = nearest_name(unit, unit_names(dimension));
+      return "\"" + unit + "\" is not a unit of " + entry(dimension).name +
+             (nearest.empty() ? "" : ", nearest is " + nearest) +
+             " (known: " + joined_unit_names(dimension) + ")";
     }
 
 
@@ -184,16 +245,11 @@ namespace SlipStep
                  "the unit is missing (known: " + joined_unit_names(dimension) +
                    ")" :
                  "";
-      for (const Unit &known : entry(dimension).units)
-        if (known.name == unit)
-          {
-            value = value * known.numerator / known.denominator;
-            return "";
-          }
-      const std::string nearest = nearest_name(unit, unit_names(dimension));
-      return "\"" + unit + "\" is not a unit of " + entry(dimension).name +
-             (nearest.empty() ? "" : ", nearest is " + nearest) +
-             " (known: " + joined_unit_names(dimension) + ")";
+      const Unit *const known = find_unit(unit, dimension);
+      if (known == nullptr)
+        return why_no_unit(unit, dimension);
+      value = value * known->numerator / known->denominator + known->offset;
+      return "";
     }
 
 
@@ -240,6 +296,21 @@ namespace SlipStep
     if (!why.empty())
       throw InputError("\"" + dealii::Utilities::trim(text) + "\": " + why);
     return degrees_to_base(value, dimension);
+  }
+
+
+
+  UnitConversion unit_conversion(const std::string &unit,
+                                 const Dimension    dimension)
+  {
+    const std::string plain = plain_unit(dealii::Utilities::trim(unit));
+    const Unit       *known = find_unit(plain, dimension);
+    if (known == nullptr)
+      throw InputError(dimension == Dimension::number ?
+                         "a plain number has no unit \"" + plain + "\"" :
+                         why_no_unit(plain, dimension));
+    Assert(dimension != Dimension::angle, dealii::ExcNotImplemented());
+    return {known->numerator, known->denominator, known->offset};
   }
 
 

@@ -99,3 +99,38 @@ TEST(Units, QuantityKeepsItsBounds)
   EXPECT_FALSE(speed.clone()->match("3"));
   EXPECT_NE(speed.why_not("0 mm/s").find("out of range"), std::string::npos);
 }
+
+
+
+TEST(Units, ColumnsOfFilesAreConverted)
+{
+  EXPECT_EQ(unit_conversion("uN", Dimension::force)(5e6), 5.);
+  EXPECT_EQ(unit_conversion("\xC2\xB5m", Dimension::length)(2.), 2e-3);
+  EXPECT_EQ(unit_conversion("\xB5m/s", Dimension::speed)(2.), 2e-3);
+  EXPECT_EQ(unit_conversion(" N/mm\xC2\xB2", Dimension::stress)(3.), 3.);
+  EXPECT_EQ(unit_conversion("\xC2\xB0"
+                            "C",
+                            Dimension::temperature)(25.),
+            25.);
+  EXPECT_EQ(unit_conversion("K", Dimension::temperature)(273.15), 0.);
+  EXPECT_EQ(parse_quantity("300 K", Dimension::temperature), 300. - 273.15);
+  EXPECT_EQ(parse_quantity("3 cm^2", Dimension::area), 300.);
+}
+
+
+
+TEST(Units, AnUnknownUnitOfAColumnComesWithTheNearest)
+{
+  try
+    {
+      unit_conversion("MPA", Dimension::stress);
+      FAIL();
+    }
+  catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("nearest is MPa"),
+                std::string::npos)
+        << error.what();
+    }
+  EXPECT_THROW(unit_conversion("N", Dimension::number), InputError);
+}

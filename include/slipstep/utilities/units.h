@@ -25,7 +25,10 @@ namespace SlipStep
     drag,            ///< MPa s/mm
     per_temperature, ///< 1/degC
     heating,         ///< degC per work and area, degC mm/N
-    angle            ///< deg in text, rad inside
+    angle,           ///< deg in text, rad inside
+    force,           ///< N
+    area,            ///< mm^2
+    temperature      ///< degC
   };
 
   /// The unit that a bare number of this dimension is taken to be in, as shown
@@ -41,6 +44,26 @@ namespace SlipStep
   double parse_quantity(const std::string &text,
                         const Dimension    dimension,
                         const bool         unit_required = false);
+
+  /// From the numbers of a column to base units.
+  struct UnitConversion
+  {
+    double numerator   = 1.;
+    double denominator = 1.;
+    double offset      = 0.; ///< added last, in base units
+
+    double operator()(const double value) const
+    {
+      return value * numerator / denominator + offset;
+    }
+  };
+
+  /// The conversion from a unit as column headers have it: "um", "µm" (in
+  /// UTF-8 or Latin-1), "mm/min", "N/mm²", "°C".
+  /// @throws InputError if it is no unit of the dimension, naming the known
+  /// ones and the nearest
+  UnitConversion unit_conversion(const std::string &unit,
+                                 const Dimension    dimension);
 
   /// A deal.II pattern for a physical quantity with bounds (in base units,
   /// degrees for angles), so that units can be written in a case file.
