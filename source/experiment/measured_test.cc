@@ -1,36 +1,190 @@
 #include <slipstep/experiment/measured_test.h>
 
+#include <slipstep/experiment/test_rows.h>
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/nearest_name.h>
 
-#include <cmath>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <set>
 
 namespace SlipStep
 {
+  std::string Channel::column() const
+  {
+    return unit.empty() ? name : name + "_" + unit;
+  }
+
+
+
+  const std::vector<Channel> &channels()
+  {
+    using Test                            = MeasuredTest;
+    using D                               = Dimension;
+    static const std::vector<Channel> all = {
+      {"time", D::time, "s", true, &Test::time},
+      {"displacement", D::length, "mm", true, &Test::displacement},
+      {"pressure", D::stress, "MPa", true, &Test::pressure},
+      {"friction", D::number, "", true, &Test::friction},
+      {"displacement_y", D::length, "mm", false, &Test::displacement_y},
+      {"friction_y", D::number, "", false, &Test::friction_y},
+      {"temperature", D::temperature, "C", false, &Test::temperature}};
+    return all;
+  }
+
+
+
   namespace
   {
-    void check_rows(const CsvTable                 &table,
-                    const std::vector<std::string> &columns)
+    /// A name in a header, as "displacement" and "mm" of "Displacement [mm]".
+    struct Heading
     {
-      for (const std::string &column : columns)
-        for (std::size_t row = 0; row < table[column].size(); ++row)
-          if (!std::isfinite(table[column][row]))
-            table.reject(row, column, column + " is not finite");
+      std::string name;
+      std::string unit;
+      bool        has_brackets = false;
+    };
 
-      const std::vector<double> &time = table["time_s"];
-      for (std::size_t row = 1; row < time.size(); ++row)
-        if (time[row] <= time[row - 1])
-          table.reject(row,
-                       "time_s",
-                       "time must increase: " + exact_text(time[row]) +
-                         " s follows " + exact_text(time[row - 1]) + " s");
+    Heading split_brackets(const std::string &cell)
+    {
+      Heading result{cell, "", false};
+      for (const std::string brackets : {"[]", "()"})
+        {
+          const std::size_t open = cell.rfind(brackets[0]);
+          if (!cell.empty() && cell.back() == brackets[1] &&
+              open != std::string::npos)
+            result = {cell.substr(0, open),
+                      cell.substr(open + 1, cell.size() - open - 2),
+                      true};
+        }
+      std::string &name = result.name;
+      while (!name.empty() && name.back() == ' ')
+        name.pop_back();
+      for (char &c : name)
+        c = c == ' ' ? '_' : std::tolower(static_cast<unsigned char>(c));
+      return result;
+    }
 
-      const std::vector<double> &pressure = table["pressure_MPa"];
-      for (std::size_t row = 0; row < pressure.size(); ++row)
-        if (pressure[row] < 0.)
-          table.reject(row,
-                       "pressure_MPa",
-                       "pressure is " + exact_text(pressure[row]) +
-                         " MPa, but must not be negative");
+    /// The column that holds a channel, and how its numbers become base units.
+    struct Source
+    {
+      std::size_t    position;
+      UnitConversion conversion;
+    };
+
+    /// Finds the columns of the channels in a header.
+    class HeaderReader
+    {
+    public:
+      explicit HeaderReader(const CsvTable &table)
+        : table(table)
+      {}
+
+      /// @return whether there is such a column
+      bool find(const Channel &channel, Source &source);
+
+    private:
+      bool matches(const std::size_t position,
+                   const Channel    &channel,
+                   UnitConversion   &conversion);
+
+      [[noreturn]] void reject_missing(const Channel &channel) const;
+
+      const CsvTable &table;
+      /// Columns that would do but for their unit, with what is wrong of it.
+      std::vector<std::pair<std::size_t, std::string>> nearly;
+
+    public:
+      /// What was found of optional columns that cannot be read.
+      std::vector<std::string> ignored;
+    };
+
+    bool HeaderReader::find(const Channel &channel, Source &source)
+    {
+      nearly.clear();
+      bool is_found = false;
+      for (std::size_t i = 0; i < table.header().size(); ++i)
+        {
+          UnitConversion conversion;
+          if (!matches(i, channel, conversion))
+            continue;
+          if (is_found)
+            table.reject_header(i,
+                                "column '" + channel.column() +
+                                  "' is given twice");
+          is_found = true;
+          source   = {i, conversion};
+        }
+      if (!is_found && !nearly.empty() && !channel.is_required)
+        ignored.push_back(nearly.front().second + "; the column is not read");
+      else if (!is_found && !nearly.empty())
+        table.reject_header(nearly.front().first, nearly.front().second);
+      if (!is_found && channel.is_required)
+        reject_missing(channel);
+      return is_found;
+    }
+
+    bool HeaderReader::matches(const std::size_t position,
+                               const Channel    &channel,
+                               UnitConversion   &conversion)
+    {
+      const std::string &cell    = table.header()[position];
+      Heading            heading = split_brackets(cell);
+      const std::string  start   = channel.name + "_";
+      if (!heading.has_brackets && heading.name.rfind(start, 0) == 0)
+        heading = {channel.name, cell.substr(start.size()), false};
+      if (heading.name != channel.name)
+        return false;
+
+      if (channel.dimension == Dimension::number)
+        return heading.unit.empty() || heading.unit == "-" ||
+               heading.unit == "1";
+      if (heading.unit.empty())
+        nearly.emplace_back(position,
+                            "the unit of '" + cell +
+                              "' is missing: write it as '" + channel.column() +
+                              "' or '" + channel.name + " [" + channel.unit +
+                              "]'");
+      else
+        try
+          {
+            conversion = unit_conversion(heading.unit, channel.dimension);
+            return true;
+          }
+        catch (const InputError &error)
+          {
+            // Columns such as displacement_y_mm or time_of_day mean no harm.
+            nearly.emplace_back(position,
+                                "'" + cell + "': " + std::string(error.what()));
+          }
+      return false;
+    }
+
+    void HeaderReader::reject_missing(const Channel &channel) const
+    {
+      std::string found;
+      for (const std::string &name : table.header())
+        found += (found.empty() ? "" : ", ") + name;
+      table.reject_header(0,
+                          "column '" + channel.column() +
+                            "' is missing (the header has: " + found + ")" +
+                            did_you_mean(channel.column(), table.header()) +
+                            "; slipstep import converts other files");
+    }
+
+    void read_notes(const CsvTable &table, MeasuredTest &test)
+    {
+      const auto note = [&](const std::string &key) {
+        const auto found = table.comments().find(key);
+        return found == table.comments().end() ? std::string() : found->second;
+      };
+      test.notes     = table.comments();
+      test.condition = note("condition");
+      test.name      = note("name");
+      if (test.name.empty())
+        test.name = test.file.stem().string();
     }
   } // namespace
 
@@ -38,34 +192,123 @@ namespace SlipStep
 
   MeasuredTest read_measured_test(const std::filesystem::path &file)
   {
-    const std::vector<std::string> required = {"time_s",
-                                               "displacement_mm",
-                                               "pressure_MPa",
-                                               "friction"};
-    const std::vector<std::string> optional = {"displacement_y_mm",
-                                               "friction_y",
-                                               "temperature_C"};
-
-    const CsvTable table(file, required, optional);
-    check_rows(table, required);
-    check_rows(table, optional);
-    if (table.size() < 2)
-      throw InputError(file.string() + ": a test needs at least two rows, " +
-                       std::to_string(table.size()) + " found");
+    CsvFormat format;
+    format.may_have_gaps = true;
+    CsvTable                           table(file, format);
+    HeaderReader                       header(table);
+    std::map<std::string, Source>      sources;
+    std::map<std::string, std::size_t> positions;
+    for (const Channel &channel : channels())
+      {
+        Source source;
+        if (header.find(channel, source))
+          {
+            sources[channel.name]       = source;
+            positions[channel.column()] = source.position;
+          }
+      }
+    table.read(positions);
 
     MeasuredTest test;
-    test.notes = table.comments();
-    test.name =
-      test.notes.count("name") ? test.notes.at("name") : file.stem().string();
-    test.condition =
-      test.notes.count("condition") ? test.notes.at("condition") : "";
-    test.time           = table["time_s"];
-    test.displacement   = table["displacement_mm"];
-    test.pressure       = table["pressure_MPa"];
-    test.friction       = table["friction"];
-    test.displacement_y = table["displacement_y_mm"];
-    test.friction_y     = table["friction_y"];
-    test.temperature    = table["temperature_C"];
+    test.file = file;
+    read_notes(table, test);
+    for (const std::string &text : header.ignored)
+      test.warnings.push_back(file.string() + ": " + text);
+    for (const Channel &channel : channels())
+      if (sources.count(channel.name))
+        {
+          std::vector<double> &values = test.*channel.values;
+          values                      = table[channel.column()];
+          for (double &value : values)
+            value = sources[channel.name].conversion(value);
+        }
+
+    const auto column = [](const std::string &name) {
+      for (const Channel &channel : channels())
+        if (channel.name == name)
+          return channel.column();
+      return name;
+    };
+    tidy_rows(test,
+              {[&](const std::size_t  row,
+                   const std::string &channel,
+                   const std::string &why) {
+                 table.reject(row, column(channel), why);
+               },
+               [&](const std::size_t row) { return table.line(row); }});
     return test;
+  }
+
+
+
+  namespace
+  {
+    std::string one_line(std::string text)
+    {
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      return text;
+    }
+
+    std::string text_of_test(const MeasuredTest &test,
+                             const unsigned int  n_digits)
+    {
+      std::string text = "# name: " + one_line(test.name) + '\n';
+      if (!test.condition.empty())
+        text += "# condition: " + one_line(test.condition) + '\n';
+      for (const auto &[key, value] : test.notes)
+        if (key != "name" && key != "condition" && !value.empty())
+          text += "# " + key + ": " + one_line(value) + '\n';
+
+      std::vector<const Channel *> written;
+      for (const Channel &channel : channels())
+        if (!(test.*channel.values).empty())
+          written.push_back(&channel);
+      const char *separator = "";
+      for (const Channel *channel : written)
+        {
+          text += separator + channel->column();
+          separator = ",";
+        }
+      for (std::size_t row = 0; row < test.time.size(); ++row)
+        {
+          separator = "\n";
+          for (const Channel *channel : written)
+            {
+              const double value = (test.*(channel->values))[row];
+              text += separator;
+              text +=
+                n_digits == 0 ?
+                  exact_text(value) :
+                  rounded_text(value,
+                               n_digits + (channel->name == "time" ? 3 : 0));
+              separator = ",";
+            }
+        }
+      return text + '\n';
+    }
+  } // namespace
+
+
+
+  void write_measured_test(const std::filesystem::path &file,
+                           const MeasuredTest          &test,
+                           const unsigned int           n_digits)
+  {
+    const std::filesystem::path temporary =
+      file.parent_path() / ("." + file.filename().string() + "." +
+                            std::to_string(getpid()) + ".tmp");
+    std::ofstream out(temporary, std::ios::binary);
+    if (!out)
+      throw InputError(file.string() + ": this file cannot be written");
+    out << text_of_test(test, n_digits);
+    out.close();
+    std::error_code error;
+    if (out)
+      std::filesystem::rename(temporary, file, error);
+    if (out && !error)
+      return;
+    std::filesystem::remove(temporary, error);
+    throw RunError(file.string() +
+                   ": this file cannot be written (is the disk full?)");
   }
 } // namespace SlipStep

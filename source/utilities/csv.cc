@@ -1,52 +1,137 @@
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/nearest_name.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cctype>
+#include <cstring>
 #include <fstream>
+#include <limits>
 #include <utility>
 
 namespace SlipStep
 {
   namespace
   {
-    const char *const blanks = " \t\r";
-
-    std::string trim(const std::string &text)
+    bool is_blank(const char c)
     {
-      const auto begin = text.find_first_not_of(blanks);
-      if (begin == std::string::npos)
-        return "";
-      return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+      return c == ' ' || c == '\t' || c == '\r';
     }
 
-    /// The cells of a line and the index at which each one's text begins.
-    std::vector<std::pair<std::string, std::size_t>>
-    split(const std::string &line)
+    std::string_view trim(std::string_view text)
     {
-      std::vector<std::pair<std::string, std::size_t>> cells;
-      for (std::size_t begin = 0; begin <= line.size();)
-        {
-          const std::size_t end  = std::min(line.find(',', begin), line.size());
-          const std::string cell = line.substr(begin, end - begin);
-          const auto        skip = cell.find_first_not_of(blanks);
-          cells.emplace_back(trim(cell),
-                             begin + (skip == std::string::npos ? 0 : skip));
-          begin = end + 1;
-        }
-      return cells;
+      while (!text.empty() && is_blank(text.front()))
+        text.remove_prefix(1);
+      while (!text.empty() && is_blank(text.back()))
+        text.remove_suffix(1);
+      return text;
+    }
+
+    std::string lower(std::string_view text)
+    {
+      std::string result(text);
+      for (char &c : result)
+        c = std::tolower(static_cast<unsigned char>(c));
+      return result;
+    }
+
+    bool begins_with(const std::string_view text, const std::string_view start)
+    {
+      return text.substr(0, start.size()) == start;
+    }
+
+    /// Cuts a line into cells.
+    class Cells
+    {
+    public:
+      Cells(const std::string_view line, const char delimiter)
+        : rest(delimiter == ' ' ? trim(line) : line)
+        , delimiter(delimiter)
+      {}
+
+      /// @return whether there is one more cell
+      bool next(std::string_view &cell)
+      {
+        if (at_end)
+          return false;
+        const std::size_t length = length_of_next();
+        cell                     = trim(rest.substr(0, length));
+        if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
+          cell = trim(cell.substr(1, cell.size() - 2));
+        at_end = length == rest.size();
+        rest.remove_prefix(at_end ? length : length + 1);
+        if (delimiter == ' ')
+          rest = trim(rest);
+        return true;
+      }
+
+    private:
+      std::size_t length_of_next() const
+      {
+        // A delimiter inside quotes separates nothing.
+        std::size_t begin = 0;
+        while (begin < rest.size() && is_blank(rest[begin]) &&
+               rest[begin] != delimiter)
+          ++begin;
+        const bool        is_quoted = begin < rest.size() && rest[begin] == '"';
+        const std::size_t quote =
+          is_quoted ? rest.find('"', begin + 1) : std::string_view::npos;
+        begin = quote == std::string_view::npos ? 0 : quote;
+        if (delimiter == ' ')
+          return std::min(rest.find_first_of(" \t", begin), rest.size());
+        const void *found =
+          begin == rest.size() ?
+            nullptr :
+            std::memchr(rest.data() + begin, delimiter, rest.size() - begin);
+        return found == nullptr ?
+                 rest.size() :
+                 static_cast<const char *>(found) - rest.data();
+      }
+
+      std::string_view rest;
+      const char       delimiter;
+      bool             at_end = false;
+    };
+
+    bool is_gap(const std::string_view cell)
+    {
+      if (cell.empty())
+        return true;
+      if (cell.size() > 4)
+        return false;
+      const std::string word = lower(cell);
+      for (const char *gap : {"nan", "na", "n/a", "null", "none", "-", "--"})
+        if (word == gap)
+          return true;
+      return false;
     }
 
     /// Independent of the locale, unlike strtod.
-    bool read_number(const std::string &text, double &value)
+    bool read_number(std::string_view cell, double &value)
     {
-      const char *begin = text.data();
-      const char *end   = begin + text.size();
-      if (text.size() > 1 && text[0] == '+' && text[1] != '-')
-        ++begin;
-      const auto [stop, error] = std::from_chars(begin, end, value);
-      return error == std::errc() && stop == end && begin != end;
+      if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-')
+        cell.remove_prefix(1);
+      const char *const end    = cell.data() + cell.size();
+      const auto [stop, error] = std::from_chars(cell.data(), end, value);
+      return error == std::errc() && stop == end && !cell.empty();
+    }
+
+    bool read_number_with_comma(const std::string_view cell, double &value)
+    {
+      std::array<char, 64> copy;
+      if (cell.size() > copy.size())
+        return false;
+      std::replace_copy(cell.begin(), cell.end(), copy.begin(), ',', '.');
+      return read_number({copy.data(), cell.size()}, value);
+    }
+
+    std::string joined(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (const std::string &name : names)
+        text += (text.empty() ? "" : ", ") + name;
+      return text;
     }
   } // namespace
 
@@ -62,109 +147,278 @@ namespace SlipStep
 
 
 
-  CsvTable::CsvTable(const std::filesystem::path    &file,
-                     const std::vector<std::string> &required,
-                     const std::vector<std::string> &optional)
-    : file(file)
+  std::string rounded_text(const double value, const unsigned int n_digits)
   {
-    std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file))
-      throw InputError(file.string() + ": this file cannot be read");
-
-    bool        header_seen = false;
-    std::string line;
-    while (std::getline(in, line))
-      {
-        ++line_number;
-        if (line_number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
-          line.erase(0, 3);
-        const std::string content = trim(line);
-        if (content.empty())
-          continue;
-        if (content[0] == '#')
-          {
-            const auto  colon = content.find(':');
-            std::string key   = trim(content.substr(1, colon - 1));
-            for (char &c : key)
-              c = std::tolower(static_cast<unsigned char>(c));
-            if (colon != std::string::npos && !key.empty())
-              comment_values[key] = trim(content.substr(colon + 1));
-          }
-        else if (!header_seen)
-          {
-            read_header(line, required, optional);
-            header_seen = true;
-          }
-        else
-          read_row(line);
-      }
-    if (!header_seen)
-      fail(std::max<std::size_t>(line_number, 1),
-           1,
-           "the header line with the names of the columns is missing");
+    std::array<char, 64> buffer;
+    const auto           result  = std::to_chars(buffer.data(),
+                                      buffer.data() + buffer.size(),
+                                      value,
+                                      std::chars_format::scientific,
+                                      n_digits - 1);
+    double               rounded = value;
+    std::from_chars(buffer.data(), result.ptr, rounded);
+    return exact_text(rounded == 0. ? 0. : rounded);
   }
 
 
 
-  void CsvTable::read_header(const std::string              &line,
-                             const std::vector<std::string> &required,
-                             const std::vector<std::string> &optional)
+  CsvTable::CsvTable(const std::filesystem::path &file, const CsvFormat &format)
+    : format(format)
   {
-    const auto cells = split(line);
-    n_cells          = cells.size();
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      {
-        const std::string &name = cells[i].first;
-        const bool         is_wanted =
-          std::count(required.begin(), required.end(), name) +
-            std::count(optional.begin(), optional.end(), name) >
-          0;
-        if (!is_wanted)
-          continue;
-        if (!cell_of.emplace(name, i).second)
-          fail(line_number,
-               cells[i].second + 1,
-               "column '" + name + "' is given twice");
-        values[name];
-      }
+    load(file);
+    read_header();
+  }
 
+
+
+  CsvTable::CsvTable(const std::filesystem::path    &file,
+                     const std::vector<std::string> &required,
+                     const std::vector<std::string> &optional)
+    : CsvTable(file, CsvFormat())
+  {
+    std::map<std::string, std::size_t> wanted;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (std::count(required.begin(), required.end(), names[i]) +
+            std::count(optional.begin(), optional.end(), names[i]) >
+          0)
+        if (!wanted.emplace(names[i], i).second)
+          reject_header(i, "column '" + names[i] + "' is given twice");
     for (const std::string &name : required)
-      if (!has(name))
+      if (wanted.count(name) == 0)
+        fail(header_text.data(),
+             "column '" + name + "' is missing (the header has: " +
+               joined(names) + ")" + did_you_mean(name, names));
+    read(wanted);
+  }
+
+
+
+  void CsvTable::load(const std::filesystem::path &name)
+  {
+    file = name;
+    std::ifstream in(file, std::ios::binary | std::ios::ate);
+    if (!in || std::filesystem::is_directory(file))
+      throw InputError(file.string() + ": this file cannot be read");
+    std::string content(static_cast<std::size_t>(in.tellg()), '\0');
+    in.seekg(0);
+    if (!content.empty() && !in.read(content.data(), content.size()))
+      throw InputError(file.string() + ": this file cannot be read");
+    text = std::make_shared<const std::string>(std::move(content));
+    next = text->data();
+    if (begins_with(*text, "\xEF\xBB\xBF"))
+      next += 3;
+    if (begins_with(*text, "\xFF\xFE") || begins_with(*text, "\xFE\xFF"))
+      throw InputError(file.string() +
+                       ": this text is in UTF-16; save it as UTF-8");
+  }
+
+
+
+  bool CsvTable::next_line(std::string_view &line)
+  {
+    const char *const end = text->data() + text->size();
+    while (next != end)
+      {
+        const void *const newline = std::memchr(next, '\n', end - next);
+        const char *const stop =
+          newline == nullptr ? end : static_cast<const char *>(newline);
+        line                           = {next, std::size_t(stop - next)};
+        next                           = newline == nullptr ? end : stop + 1;
+        const std::string_view content = trim(line);
+        if (content.empty())
+          continue;
+        const bool is_comment = std::any_of(format.comment_marks.begin(),
+                                            format.comment_marks.end(),
+                                            [&](const std::string &mark) {
+                                              return begins_with(content, mark);
+                                            });
+        if (!is_comment)
+          return true;
+        read_comment(content);
+      }
+    return false;
+  }
+
+
+
+  void CsvTable::read_comment(const std::string_view line)
+  {
+    const auto colon = line.find(':');
+    if (line.front() != '#' || colon == std::string_view::npos)
+      return;
+    const std::string key = lower(trim(line.substr(1, colon - 1)));
+    if (!key.empty())
+      comment_values[key] = trim(line.substr(colon + 1));
+  }
+
+
+
+  void CsvTable::read_header()
+  {
+    const char *const end = text->data() + text->size();
+    for (std::size_t n = 1; n < format.header_line && next != end; ++n)
+      {
+        next = std::find(next, end, '\n');
+        next += next != end;
+      }
+    const char *const begin = next;
+    std::string_view  line;
+    if (format.header_line > 0 && format.has_header)
+      {
+        // Told where it is, even if it looks like a comment.
+        line = {next, std::size_t(std::find(next, end, '\n') - next)};
+        next += line.size() + (next + line.size() != end);
+        if (!line.empty() && line.front() == '#')
+          line.remove_prefix(line.find_first_not_of('#') ==
+                                 std::string_view::npos ?
+                               line.size() :
+                               line.find_first_not_of('#'));
+      }
+    else
+      next_line(line);
+    if (trim(line).empty())
+      fail(begin,
+           format.has_header ?
+             "the header line with the names of the columns is missing" :
+             "there are no rows");
+    choose_delimiter(line);
+    header_text = line;
+    Cells            cells(line, format.delimiter);
+    std::string_view cell;
+    while (cells.next(cell))
+      names.emplace_back(cell);
+    n_cells = names.size();
+    if (format.has_header)
+      return;
+    next = begin;
+    comment_values.clear();
+    for (std::size_t i = 0; i < n_cells; ++i)
+      names[i] = "column " + std::to_string(i + 1);
+  }
+
+
+
+  void CsvTable::choose_delimiter(const std::string_view line)
+  {
+    if (format.delimiter != '\0')
+      return;
+    // What is left to separate cells.
+    format.delimiter = ' ';
+    for (const char delimiter : {'\t', ';', ','})
+      if (line.find(delimiter) != std::string_view::npos)
         {
-          std::string found;
-          for (const auto &cell : cells)
-            found += (found.empty() ? "" : ", ") + cell.first;
-          fail(line_number,
-               1,
-               "column '" + name + "' is missing (the header has: " + found +
-                 ")");
+          format.delimiter = delimiter;
+          return;
         }
   }
 
 
 
-  void CsvTable::read_row(const std::string &line)
+  void CsvTable::read(const std::map<std::string, std::size_t> &wanted)
   {
-    const auto cells = split(line);
-    if (cells.size() != n_cells)
-      fail(line_number,
-           cells[std::min(cells.size() - 1, n_cells)].second + 1,
-           "this row has " + std::to_string(cells.size()) +
-             " cells, the header has " + std::to_string(n_cells));
+    for (const auto &[name, position] : wanted)
+      columns.push_back({name, position, {}});
+    std::sort(columns.begin(),
+              columns.end(),
+              [](const Column &a, const Column &b) {
+                return a.position < b.position;
+              });
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      index_of_column[columns[i].name] = i;
 
-    line_of_row.push_back(line_number);
-    for (const auto &[name, i] : cell_of)
+    std::string_view line;
+    while (next_line(line))
+      read_row(line);
+  }
+
+
+
+  void CsvTable::read_row(const std::string_view line)
+  {
+    begin_of_row.push_back(line.data());
+    Cells            cells(line, format.delimiter);
+    std::string_view cell;
+    std::size_t      n = 0, column = 0;
+    bool             is_too_long = false;
+    for (; cells.next(cell); ++n)
       {
-        double value = 0.;
-        if (!read_number(cells[i].first, value))
-          fail(line_number,
-               cells[i].second + 1,
-               cells[i].first.empty() ?
-                 "the value of " + name + " is missing" :
-                 "'" + cells[i].first + "' is not a number (" + name + ")");
-        values[name].push_back(value);
-        begin_of_cell.push_back(cells[i].second);
+        // Spreadsheets like to end a row with delimiters.
+        is_too_long = is_too_long || (n >= n_cells && !cell.empty());
+        if (column < columns.size() && columns[column].position == n)
+          {
+            columns[column].values.push_back(read_cell(cell, column));
+            ++column;
+          }
       }
+    if (n < n_cells || is_too_long)
+      fail_at_length(line);
+  }
+
+
+
+  void CsvTable::fail_at_length(const std::string_view line) const
+  {
+    std::string_view cell;
+    std::size_t      n = 0;
+    for (Cells cells(line, format.delimiter); cells.next(cell);)
+      ++n;
+    Cells again(line, format.delimiter);
+    for (std::size_t i = 0; i <= std::min(n - 1, n_cells); ++i)
+      again.next(cell);
+    fail(cell.data(),
+         "this row has " + std::to_string(n) + " cells, the header has " +
+           std::to_string(n_cells) +
+           (n > n_cells && format.delimiter == ',' ?
+              " (numbers with a decimal comma need ';' or tabs between the "
+              "columns)" :
+              ""));
+  }
+
+
+
+  double CsvTable::read_cell(const std::string_view cell,
+                             const std::size_t      column) const
+  {
+    double      value = 0.;
+    const auto &name  = columns[column].name;
+    if (format.may_have_gaps && is_gap(cell))
+      return std::numeric_limits<double>::quiet_NaN();
+
+    const char *other = nullptr;
+    if (read_number(cell, value))
+      {
+        if (cell.find('.') != std::string_view::npos)
+          {
+            other = format.decimal_mark == ',' ? cell.data() : first_comma;
+            if (first_point == nullptr)
+              first_point = cell.data();
+          }
+      }
+    else if (format.delimiter != ',' && format.decimal_mark != '.' &&
+             cell.find(',') != std::string_view::npos &&
+             read_number_with_comma(cell, value))
+      {
+        other = first_point;
+        if (first_comma == nullptr)
+          first_comma = cell.data();
+      }
+    else
+      fail(cell.data(),
+           cell.empty() ?
+             "the value of " + columns[column].name + " is missing" :
+             "'" + std::string(cell) + "' is not a number (" + name + ")");
+    if (other != nullptr)
+      fail(cell.data(),
+           "'" + std::string(cell) +
+             "': decimal comma and decimal point in one file (" + name + ")");
+    return value;
+  }
+
+
+
+  const std::vector<std::string> &CsvTable::header() const
+  {
+    return names;
   }
 
 
@@ -178,7 +432,7 @@ namespace SlipStep
 
   bool CsvTable::has(const std::string &column) const
   {
-    return cell_of.count(column) > 0;
+    return index_of_column.count(column) > 0;
   }
 
 
@@ -187,15 +441,23 @@ namespace SlipStep
   CsvTable::operator[](const std::string &column) const
   {
     static const std::vector<double> none;
-    const auto                       found = values.find(column);
-    return found == values.end() ? none : found->second;
+    const auto                       found = index_of_column.find(column);
+    return found == index_of_column.end() ? none :
+                                            columns[found->second].values;
   }
 
 
 
   std::size_t CsvTable::size() const
   {
-    return line_of_row.size();
+    return begin_of_row.size();
+  }
+
+
+
+  std::size_t CsvTable::line(const std::size_t row) const
+  {
+    return 1 + std::count(text->data(), begin_of_row.at(row), '\n');
   }
 
 
@@ -204,19 +466,43 @@ namespace SlipStep
                         const std::string &column,
                         const std::string &why) const
   {
-    const auto position = std::distance(cell_of.begin(), cell_of.find(column));
-    fail(line_of_row.at(row),
-         begin_of_cell.at(row * cell_of.size() + position) + 1,
-         why);
+    const char *const begin = begin_of_row.at(row);
+    const char *const end   = text->data() + text->size();
+    Cells cells({begin, std::size_t(std::find(begin, end, '\n') - begin)},
+                format.delimiter);
+    std::string_view cell{begin, 0};
+    const auto       found = index_of_column.find(column);
+    if (found != index_of_column.end())
+      for (std::size_t i = 0; i <= columns[found->second].position; ++i)
+        cells.next(cell);
+    fail(cell.data(), why);
   }
 
 
 
-  void CsvTable::fail(const std::size_t  line,
-                      const std::size_t  column,
-                      const std::string &why) const
+  void CsvTable::reject_header(const std::size_t  position,
+                               const std::string &why) const
   {
+    Cells            cells(header_text, format.delimiter);
+    std::string_view cell = header_text;
+    for (std::size_t i = 0; i <= position; ++i)
+      cells.next(cell);
+    fail(cell.data(), why);
+  }
+
+
+
+  void CsvTable::fail(const char *place, const std::string &why) const
+  {
+    const char *const begin =
+      text->data() + (begins_with(*text, "\xEF\xBB\xBF") ? 3 : 0);
+    const std::size_t line =
+      1 + std::count(text->data(), std::max(text->data(), place), '\n');
+    const char *start = std::max(begin, place);
+    const char *here  = start;
+    while (start > begin && start[-1] != '\n')
+      --start;
     throw InputError(file.string() + ":" + std::to_string(line) + ":" +
-                     std::to_string(column) + ": " + why);
+                     std::to_string(here - start + 1) + ": " + why);
   }
 } // namespace SlipStep

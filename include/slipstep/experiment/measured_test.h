@@ -2,6 +2,7 @@
 #define slipstep_experiment_measured_test_h
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/units.h>
 
 #include <filesystem>
 #include <map>
@@ -17,6 +18,10 @@ namespace SlipStep
   /// columns time_s, displacement_mm, pressure_MPa, friction and, if wanted,
   /// displacement_y_mm, friction_y, temperature_C. Friction is tangential over
   /// normal load, positive where it resists motion in the positive direction.
+  ///
+  /// Other units may stand in the header (displacement_um, "Time [ms]",
+  /// "pressure (kPa)"). Columns are separated by commas, semicolons, tabs or
+  /// blanks; where it is not a comma, decimals may have one.
   struct MeasuredTest
   {
     /// "name" of the file's comments, else the file's own name.
@@ -25,6 +30,8 @@ namespace SlipStep
     std::string condition;
     /// All `key: value` comments.
     std::map<std::string, std::string> notes;
+    /// The file it was read from.
+    std::filesystem::path file;
 
     std::vector<double> time;         ///< increasing [s]
     std::vector<double> displacement; ///< [mm]
@@ -37,13 +44,43 @@ namespace SlipStep
     std::vector<double> friction_y;
     std::vector<double> temperature; ///< [degC]
     ///@}
+
+    /// What was done to the rows, see tidy_rows(): a line each, to be shown.
+    std::vector<std::string> warnings;
   };
 
-  /// Read a test.
-  /// @throws InputError naming file:line:column for a missing column, text or
-  /// a non-finite value in place of a number, negative pressure, time that does
-  /// not increase, or fewer than two rows
+  /// One of the time series of a test.
+  struct Channel
+  {
+    std::string         name; ///< in a header, without unit
+    Dimension           dimension;
+    std::string         unit; ///< that is written, as part of the column's name
+    bool                is_required;
+    std::vector<double> MeasuredTest::*values;
+
+    /// "displacement_mm"
+    std::string column() const;
+  };
+
+  /// Time, displacement, pressure, friction, then the optional ones.
+  const std::vector<Channel> &channels();
+
+  /// Read a test, with its rows put in order, see tidy_rows().
+  /// @throws InputError naming file:line:column for a missing column or unit,
+  /// text or an infinite value in place of a number, time that goes backwards,
+  /// pressure that is not positive, friction of the wrong sign throughout, or
+  /// fewer than two rows
   MeasuredTest read_measured_test(const std::filesystem::path &file);
+
+  /// Write a test; a file of that name is replaced in one go.
+  /// @param n_digits significant digits of numbers, 0: all that it takes to
+  ///   read them back exactly; times get three more
+  /// @throws InputError if the folder cannot be written to, RunError if the
+  /// disk
+  ///   is full
+  void write_measured_test(const std::filesystem::path &file,
+                           const MeasuredTest          &test,
+                           const unsigned int           n_digits = 0);
 } // namespace SlipStep
 
 #endif

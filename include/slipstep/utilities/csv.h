@@ -5,14 +5,44 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace SlipStep
 {
-  /// The chosen columns of a comma-separated file with one header line, blank
-  /// lines and `# key: value` comments. A byte-order mark and Windows line
-  /// ends are accepted; other columns of the file may hold anything.
+  /// How a table of numbers is written.
+  struct CsvFormat
+  {
+    /// Between cells. 0: tab, semicolon, comma or blanks, the first of them
+    /// that the header has. ' ': any number of blanks and tabs.
+    char delimiter = '\0';
+
+    /// 0: comma or point, whichever the numbers have; both in one file is an
+    /// error.
+    char decimal_mark = '\0';
+
+    /// Lines that begin with one of these are no rows.
+    std::vector<std::string> comment_marks = {"#"};
+
+    /// Line with the names of the columns, counted from 1; what comes before is
+    /// skipped. 0: the first line that is neither blank nor a comment.
+    std::size_t header_line = 0;
+
+    /// Without one, columns have numbers only and rows begin at header_line.
+    bool has_header = true;
+
+    /// Whether an empty cell (or NaN, NA, n/a, null, none, -, --) is read as a
+    /// quiet NaN instead of being refused.
+    bool may_have_gaps = false;
+  };
+
+
+
+  /// The chosen columns of a text file with rows of numbers, a header line,
+  /// blank lines and `# key: value` comments. A byte-order mark, Windows line
+  /// ends and quoted cells are accepted; other columns may hold anything.
   class CsvTable
   {
   public:
@@ -25,6 +55,17 @@ namespace SlipStep
              const std::vector<std::string> &required,
              const std::vector<std::string> &optional = {});
 
+    /// Read the header only, so that columns can be chosen by looking at it.
+    CsvTable(const std::filesystem::path &file, const CsvFormat &format);
+
+    /// Read the rows.
+    /// @param columns position in the header of each column wanted, by the name
+    ///   that it is to have here
+    void read(const std::map<std::string, std::size_t> &columns);
+
+    /// The names in the header line.
+    const std::vector<std::string> &header() const;
+
     /// What the `# key: value` comments say, keys in lower case.
     const std::map<std::string, std::string> &comments() const;
 
@@ -36,40 +77,76 @@ namespace SlipStep
     /// Number of rows.
     std::size_t size() const;
 
+    /// The line in which a row stands, counted from 1.
+    std::size_t line(const std::size_t row) const;
+
     /// Report a value that is a number but makes no sense.
     /// @throws InputError "file:line:column: why"
     [[noreturn]] void reject(const std::size_t  row,
                              const std::string &column,
                              const std::string &why) const;
 
+    /// The same for a cell of the header.
+    [[noreturn]] void reject_header(const std::size_t  position,
+                                    const std::string &why) const;
+
   private:
-    void read_header(const std::string              &line,
-                     const std::vector<std::string> &required,
-                     const std::vector<std::string> &optional);
+    void load(const std::filesystem::path &file);
 
-    void read_row(const std::string &line);
+    void read_header();
 
-    [[noreturn]] void fail(const std::size_t  line,
-                           const std::size_t  column,
-                           const std::string &why) const;
+    void choose_delimiter(const std::string_view line);
 
-    std::filesystem::path                      file;
-    std::map<std::string, std::string>         comment_values;
-    std::map<std::string, std::vector<double>> values;
+    void read_row(const std::string_view line);
 
-    /// Position in the file of each column that is read.
-    std::map<std::string, std::size_t> cell_of;
-    std::size_t                        n_cells     = 0;
-    std::size_t                        line_number = 0;
+    [[noreturn]] void fail_at_length(const std::string_view line) const;
 
-    /// Line of each row, and, flattened, where each of its read cells begins:
-    /// kept so that later checks can point at a cell.
-    std::vector<std::size_t>  line_of_row;
-    std::vector<unsigned int> begin_of_cell;
+    double read_cell(const std::string_view cell,
+                     const std::size_t      column) const;
+
+    /// Find the next line from @p next on that is neither blank nor a comment.
+    bool next_line(std::string_view &line);
+
+    void read_comment(const std::string_view line);
+
+    /// @param place a character of the text
+    [[noreturn]] void fail(const char *place, const std::string &why) const;
+
+    std::filesystem::path file;
+    CsvFormat             format;
+
+    /// The whole file; shared, since nobody changes it.
+    std::shared_ptr<const std::string> text;
+    const char                        *next = nullptr;
+
+    std::map<std::string, std::string> comment_values;
+    std::vector<std::string>           names;
+    std::string_view                   header_text;
+    std::size_t                        n_cells = 0;
+
+    /// The columns in the order in which they stand in the file.
+    struct Column
+    {
+      std::string         name;
+      std::size_t         position;
+      std::vector<double> values;
+    };
+    std::vector<Column>        columns;
+    std::map<std::string, int> index_of_column;
+
+    /// Kept so that later checks can point at a cell.
+    std::vector<const char *> begin_of_row;
+
+    /// Where each mark was met first.
+    mutable const char *first_comma = nullptr;
+    mutable const char *first_point = nullptr;
   };
 
   /// Shortest decimal text that reads back as exactly the same number.
   std::string exact_text(const double value);
+
+  /// Shortest decimal text with at most so many significant digits.
+  std::string rounded_text(const double value, const unsigned int n_digits);
 } // namespace SlipStep
 
 #endif

@@ -1,0 +1,56 @@
+#ifndef slipstep_experiment_test_rows_h
+#define slipstep_experiment_test_rows_h
+
+#include <slipstep/experiment/measured_test.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Where the rows of a test come from, for messages.
+  struct RowOrigin
+  {
+    /// Throws InputError "file:line:column: why"; rows counted from 0, channels
+    /// named as in channels().
+    std::function<void(const std::size_t  row,
+                       const std::string &channel,
+                       const std::string &why)>
+      reject;
+
+    /// The line in which a row stands.
+    std::function<std::size_t(const std::size_t row)> line;
+  };
+
+  /// Put the rows of a test as recorded in order and check them. What is done
+  /// is told in the test's warnings:
+  ///
+  /// - A row with a gap (NaN) in any column is left out.
+  /// - Rows that stand newest first are turned round.
+  /// - Rows out of order by at most 1 % of the duration are sorted. Time that
+  ///   goes back further is an error: a clock set back, or two tests in a file.
+  /// - Rows of the same time are averaged.
+  ///
+  /// Pressure must be positive; it may be zero where friction is, too, as
+  /// before the first touch. Friction that drives the motion instead of
+  /// resisting it is an error, since only the user knows what the sign of the
+  /// record means.
+  ///
+  /// @throws InputError through @p origin, or if fewer than two rows are left
+  void tidy_rows(MeasuredTest &test, const RowOrigin &origin);
+
+  /// The displacement with changes of direction less than 2 @p band left out:
+  /// it follows only where it would be farther off than @p band.
+  std::vector<double> without_jitter(const std::vector<double> &displacement,
+                                     const double               band);
+
+  /// Standard deviation of the noise in a series: robust, from its second
+  /// differences, and not less than that of rounding to the recorded digits.
+  double noise_level(const std::vector<double> &values);
+
+  /// Largest minus smallest value; 0 for none.
+  double range_of(const std::vector<double> &values);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,334 @@
+#include <slipstep/experiment/test_rows.h>
+
+#include <slipstep/utilities/csv.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// Rows out of order by no more than this share of the duration are
+    /// sorted: more is no matter of a logger that mixed up a few rows.
+    constexpr double largest_disorder = 0.01;
+
+    std::vector<const Channel *> filled_channels(const MeasuredTest &test)
+    {
+      std::vector<const Channel *> filled;
+      for (const Channel &channel : channels())
+        if (!(test.*channel.values).empty())
+          filled.push_back(&channel);
+      return filled;
+    }
+
+    /// The rows of a test, on their way to being in order.
+    class Rows
+    {
+    public:
+      Rows(MeasuredTest &test, const RowOrigin &origin)
+        : test(test)
+        , origin(origin)
+        , filled(filled_channels(test))
+        , kept(test.time.size())
+      {
+        std::iota(kept.begin(), kept.end(), 0);
+      }
+
+      void leave_out_gaps();
+
+      void put_in_order();
+
+      void average_repeated();
+
+      void check_pressure() const;
+
+      void check_sign_of_friction() const;
+
+      std::size_t size() const
+      {
+        return kept.size();
+      }
+
+    private:
+      void keep(const std::vector<std::size_t> &rows);
+
+      void warn(const std::string &text, const std::size_t first)
+      {
+        test.warnings.push_back(
+          (test.file.empty() ? test.name : test.file.string()) + ": " + text +
+          " (first: line " + std::to_string(origin.line(first)) + ")");
+      }
+
+      MeasuredTest                &test;
+      const RowOrigin             &origin;
+      std::vector<const Channel *> filled;
+      /// Where each row stood at first.
+      std::vector<std::size_t> kept;
+    };
+
+
+
+    /// Keep some rows, in that order.
+    void Rows::keep(const std::vector<std::size_t> &rows)
+    {
+      const auto choose = [&](auto &values) {
+        auto chosen = values;
+        chosen.resize(rows.size());
+        for (std::size_t i = 0; i < rows.size(); ++i)
+          chosen[i] = values[rows[i]];
+        values = std::move(chosen);
+      };
+      for (const Channel *channel : filled)
+        choose(test.*(channel->values));
+      choose(kept);
+    }
+
+
+
+    void Rows::leave_out_gaps()
+    {
+      std::vector<bool> has_gap(kept.size(), false);
+      for (const Channel *channel : filled)
+        {
+          const std::vector<double> &values = test.*(channel->values);
+          for (std::size_t i = 0; i < values.size(); ++i)
+            {
+              if (std::isinf(values[i]))
+                origin.reject(i,
+                              channel->name,
+                              channel->name + " is not finite");
+              has_gap[i] = has_gap[i] || std::isnan(values[i]);
+            }
+        }
+      const std::size_t n = std::count(has_gap.begin(), has_gap.end(), true);
+      if (n == 0)
+        return;
+      std::vector<std::size_t> rows;
+      for (std::size_t i = 0; i < has_gap.size(); ++i)
+        if (!has_gap[i])
+          rows.push_back(i);
+      warn("rows without a value, left out: " + std::to_string(n),
+           std::find(has_gap.begin(), has_gap.end(), true) - has_gap.begin());
+      keep(rows);
+    }
+
+
+
+    void Rows::put_in_order()
+    {
+      const std::vector<double> &time = test.time;
+      if (std::is_sorted(time.begin(), time.end()))
+        return;
+      std::vector<std::size_t> rows(time.size());
+      std::iota(rows.begin(), rows.end(), 0);
+      if (std::is_sorted(time.rbegin(), time.rend()))
+        {
+          warn("rows that stand newest first, turned round: all", kept[0]);
+          std::reverse(rows.begin(), rows.end());
+          keep(rows);
+          return;
+        }
+
+      std::size_t n = 0, first = 0;
+      double      latest = time.front();
+      for (std::size_t i = 1; i < time.size(); ++i)
+        {
+          if (time[i] < latest)
+            first = n++ == 0 ? i : first;
+          if (latest - time[i] > largest_disorder * range_of(time))
+            origin.reject(kept[i],
+                          "time",
+                          "time goes backwards: " + rounded_text(time[i], 9) +
+                            " s follows " + rounded_text(latest, 9) +
+                            " s (a clock that was set back, or two tests in "
+                            "one file?)");
+          latest = std::max(latest, time[i]);
+        }
+      warn("rows out of the order of time, sorted: " + std::to_string(n),
+           kept[first]);
+      std::stable_sort(rows.begin(), rows.end(), [&](auto a, auto b) {
+        return time[a] < time[b];
+      });
+      keep(rows);
+    }
+
+
+
+    void Rows::average_repeated()
+    {
+      std::vector<std::size_t> rows;
+      double                   largest_spread = 0.;
+      std::size_t              n = 0, first = 0;
+      for (std::size_t begin = 0, end = 0; begin < kept.size(); begin = end)
+        {
+          while (end < kept.size() && test.time[end] == test.time[begin])
+            ++end;
+          rows.push_back(begin);
+          if (end == begin + 1)
+            continue;
+          first = n == 0 ? begin + 1 : first;
+          n += end - begin - 1;
+          const auto [least, most] =
+            std::minmax_element(test.friction.begin() + begin,
+                                test.friction.begin() + end);
+          largest_spread = std::max(largest_spread, *most - *least);
+          for (const Channel *channel : filled)
+            if (channel->name != "time")
+              {
+                auto &values  = test.*(channel->values);
+                values[begin] = std::accumulate(values.begin() + begin,
+                                                values.begin() + end,
+                                                0.) /
+                                (end - begin);
+              }
+        }
+      if (n == 0)
+        return;
+      warn("rows with the time of the row before, averaged: " +
+             std::to_string(n) + "; their friction differs by up to " +
+             rounded_text(largest_spread, 3),
+           kept[first]);
+      keep(rows);
+    }
+
+
+
+    void Rows::check_pressure() const
+    {
+      for (std::size_t i = 0; i < kept.size(); ++i)
+        {
+          const double pressure = test.pressure[i];
+          const bool   slides =
+            test.friction[i] != 0. ||
+            (!test.friction_y.empty() && test.friction_y[i] != 0.);
+          if (pressure < 0.)
+            origin.reject(kept[i],
+                          "pressure",
+                          "pressure is " + exact_text(pressure) +
+                            " MPa, but compression counts positive");
+          if (pressure == 0. && slides)
+            origin.reject(kept[i],
+                          "pressure",
+                          "pressure is zero where friction is not");
+        }
+      if (range_of(test.pressure) == 0. && test.pressure.front() == 0.)
+        origin.reject(kept[0], "pressure", "pressure is zero throughout");
+    }
+
+
+
+    void Rows::check_sign_of_friction() const
+    {
+      double     work = 0., possible = 0.;
+      const auto add = [&](const std::vector<double> &displacement,
+                           const std::vector<double> &friction) {
+        if (displacement.empty() || friction.empty())
+          return;
+        // Measured positions tremble, and the tremble knows no direction.
+        const std::vector<double> smooth =
+          without_jitter(displacement, 0.005 * range_of(displacement));
+        for (std::size_t i = 1; i < kept.size(); ++i)
+          {
+            const double done = 0.5 * (friction[i] + friction[i - 1]) *
+                                (smooth[i] - smooth[i - 1]);
+            work += done;
+            possible += std::abs(done);
+          }
+      };
+      add(test.displacement, test.friction);
+      add(test.displacement_y, test.friction_y);
+      if (work >= -0.5 * possible)
+        return;
+
+      std::size_t row = 0;
+      while (test.friction[row] == 0. && row + 1 < kept.size())
+        ++row;
+      origin.reject(kept[row],
+                    "friction",
+                    "friction drives the motion instead of resisting it, "
+                    "nearly throughout: is its sign, or that of the "
+                    "displacement, to be reversed? Say so in a map of "
+                    "slipstep import (Convention)");
+    }
+  } // namespace
+
+
+
+  void tidy_rows(MeasuredTest &test, const RowOrigin &origin)
+  {
+    const std::size_t n_recorded = test.time.size();
+    Rows              rows(test, origin);
+    rows.leave_out_gaps();
+    rows.put_in_order();
+    rows.average_repeated();
+    if (rows.size() < 2)
+      throw InputError((test.file.empty() ? test.name : test.file.string()) +
+                       ": a test needs at least two rows of different time, " +
+                       std::to_string(rows.size()) + " found" +
+                       (n_recorded > rows.size() ?
+                          " (of " + std::to_string(n_recorded) + " recorded)" :
+                          ""));
+    rows.check_pressure();
+    rows.check_sign_of_friction();
+  }
+
+
+
+  std::vector<double> without_jitter(const std::vector<double> &displacement,
+                                     const double               band)
+  {
+    std::vector<double> smooth(displacement);
+    for (std::size_t i = 1; i < smooth.size(); ++i)
+      smooth[i] = std::clamp(smooth[i - 1],
+                             displacement[i] - band,
+                             displacement[i] + band);
+    return smooth;
+  }
+
+
+
+  double range_of(const std::vector<double> &values)
+  {
+    if (values.empty())
+      return 0.;
+    const auto [least, most] =
+      std::minmax_element(values.begin(), values.end());
+    return *most - *least;
+  }
+
+
+
+  namespace
+  {
+    double median(std::vector<double> values)
+    {
+      if (values.empty())
+        return 0.;
+      const auto middle = values.begin() + values.size() / 2;
+      std::nth_element(values.begin(), middle, values.end());
+      return *middle;
+    }
+  } // namespace
+
+
+
+  double noise_level(const std::vector<double> &values)
+  {
+    std::vector<double> bends, steps;
+    for (std::size_t i = 1; i + 1 < values.size(); ++i)
+      bends.push_back(std::abs(values[i - 1] - 2. * values[i] + values[i + 1]));
+    for (std::size_t i = 1; i < values.size(); ++i)
+      if (values[i] != values[i - 1])
+        steps.push_back(std::abs(values[i] - values[i - 1]));
+
+    // For normal deviates the median of the absolute value is 0.6745 sigma, and
+    // the second difference has the variance 6 sigma^2.
+    const double from_bends = median(std::move(bends)) / 0.6745 / std::sqrt(6.);
+    if (from_bends > 0. || steps.empty())
+      return from_bends;
+    // Mostly constant: rounded to steps, uniformly distributed within one.
+    return median(std::move(steps)) / std::sqrt(12.);
+  }
+} // namespace SlipStep

@@ -1,0 +1,154 @@
+// What is done to the rows of a test as recorded, and what is refused.
+
+#include <slipstep/experiment/measured_test.h>
+#include <slipstep/experiment/test_rows.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "tests/temporary_folder.h"
+
+using namespace SlipStep;
+
+namespace
+{
+  const std::string header = "time_s,displacement_mm,pressure_MPa,friction\n";
+
+  MeasuredTest read(const std::string &rows)
+  {
+    const auto file = test_folder() / "rows.csv";
+    std::ofstream(file, std::ios::binary) << header << rows;
+    return read_measured_test(file);
+  }
+
+  std::string message(const std::string &rows)
+  {
+    try
+      {
+        read(rows);
+      }
+    catch (const InputError &error)
+      {
+        const std::string text = error.what();
+        return text.substr(text.find("rows.csv") + 8);
+      }
+    return "";
+  }
+
+  void expect_warning(const MeasuredTest &test, const std::string &words)
+  {
+    ASSERT_EQ(test.warnings.size(), 1u);
+    EXPECT_NE(test.warnings[0].find(words), std::string::npos)
+      << test.warnings[0];
+  }
+} // namespace
+
+
+
+TEST(TestRows, RowsWithGapsAreLeftOutAndCounted)
+{
+  const MeasuredTest test =
+    read("0,0,1,0\n1,1,,0.1\n2,2,1,NaN\n3,n/a,1,0.1\n4,4,1,0.1\n");
+  EXPECT_EQ(test.time, std::vector<double>({0., 4.}));
+  expect_warning(test, "without a value, left out: 3 (first: line 3)");
+}
+
+
+
+TEST(TestRows, NewestFirstIsTurnedRound)
+{
+  const MeasuredTest test = read("3,3,1,0.3\n2,2,1,0.2\n0,0,1,0\n");
+  EXPECT_EQ(test.time, std::vector<double>({0., 2., 3.}));
+  EXPECT_EQ(test.friction, std::vector<double>({0., 0.2, 0.3}));
+  expect_warning(test, "newest first");
+}
+
+
+
+TEST(TestRows, AFewRowsOutOfOrderAreSorted)
+{
+  const MeasuredTest test =
+    read("0,0,1,0\n1,1,1,0.1\n1.05,3,1,0.3\n1.02,2,1,0.2\n10,4,1,0.4\n");
+  EXPECT_EQ(test.friction, std::vector<double>({0., 0.1, 0.2, 0.3, 0.4}));
+  expect_warning(test, "order of time, sorted: 1 (first: line 5)");
+}
+
+
+
+TEST(TestRows, RepeatedTimesAreAveraged)
+{
+  const MeasuredTest test =
+    read("0,0,1,0\n1,1,1,0.1\n1,3,1,0.3\n2,4,1,0.4\n2,4,1,0.4\n2,4,1,0.4\n");
+  EXPECT_EQ(test.time, std::vector<double>({0., 1., 2.}));
+  EXPECT_EQ(test.displacement, std::vector<double>({0., 2., 4.}));
+  expect_warning(test,
+                 "averaged: 3; their friction differs by up to 0.2 "
+                 "(first: line 4)");
+}
+
+
+
+TEST(TestRows, TimeThatGoesBackIsRefused)
+{
+  const std::string text =
+    message("0,0,1,0\n1,1,1,0.1\n2,1,1,0.1\n0,2,1,0.1\n1,3,1,0.1\n");
+  EXPECT_EQ(text.substr(0, 6), ":5:1: ") << text;
+  EXPECT_NE(text.find("0 s follows 2 s"), std::string::npos) << text;
+}
+
+
+
+TEST(TestRows, PressureIsPositiveWhereThereIsFriction)
+{
+  EXPECT_EQ(message("0,0,0,0\n1,0,1,0\n2,1,1,0.1\n"), "");
+  EXPECT_EQ(message("0,0,0,0\n1,1,0,0.1\n2,1,1,0.1\n").substr(0, 6), ":3:5: ");
+  EXPECT_EQ(message("0,0,1,0\n1,1,-2,0.1\n").substr(0, 6), ":3:5: ");
+  EXPECT_NE(message("0,0,0,0\n1,1,0,0\n").find("zero throughout"),
+            std::string::npos);
+}
+
+
+
+TEST(TestRows, AWrongSignIsAskedNotGuessed)
+{
+  std::string                      back_and_forth, wrong;
+  std::mt19937                     random(1);
+  std::normal_distribution<double> noise;
+  for (int i = 0; i < 2000; ++i)
+    {
+      const double phase = 0.01 * i;
+      // The position trembles more between two rows than it moves.
+      const std::string row =
+        std::to_string(i) + ',' +
+        std::to_string(std::sin(phase) + 0.02 * noise(random)) + ",1,";
+      const double friction = 0.3 * std::tanh(5. * std::cos(phase));
+      back_and_forth += row + std::to_string(friction) + '\n';
+      wrong += row + std::to_string(-friction) + '\n';
+    }
+  EXPECT_EQ(message(back_and_forth), "");
+  const std::string text = message(wrong);
+  EXPECT_EQ(text.substr(0, 3), ":2:") << text;
+  EXPECT_NE(text.find("slipstep import"), std::string::npos) << text;
+}
+
+
+
+TEST(TestRows, NoiseIsMeasuredUnderASignal)
+{
+  std::mt19937                     random(2);
+  std::normal_distribution<double> noise(0., 0.003);
+  std::vector<double>              values, rounded;
+  for (int i = 0; i < 5000; ++i)
+    {
+      const double signal = 0.1 + 0.05 * std::exp(-i / 800.);
+      values.push_back(signal + noise(random));
+      rounded.push_back(0.01 * std::round(signal / 0.01));
+    }
+  EXPECT_NEAR(noise_level(values), 0.003, 0.0002);
+  EXPECT_NEAR(noise_level(rounded), 0.01 / std::sqrt(12.), 1e-6);
+  EXPECT_EQ(noise_level({1., 1., 1.}), 0.);
+}
