@@ -1,0 +1,233 @@
+#include <slipstep/experiment/resample.h>
+
+#include <slipstep/experiment/test_rows.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// A displacement trembles at least by this share of its range without
+    /// turning.
+    constexpr double least_stroke = 0.005;
+
+    struct Series
+    {
+      const std::vector<double> *values;
+      double                     tolerance;
+    };
+
+    /// Chooses the rows to keep.
+    class Selection
+    {
+    public:
+      Selection(const MeasuredTest &test, const ResampleOptions &options);
+
+      /// @param factor on all tolerances
+      std::vector<std::size_t> rows(const double factor) const;
+
+      double tolerance(const std::vector<double> &values) const;
+
+    private:
+      void keep_landmarks();
+
+      void keep_extremes_of_friction(const std::size_t begin,
+                                     const std::size_t end);
+
+      std::pair<std::size_t, double> farthest(const std::size_t begin,
+                                              const std::size_t end) const;
+
+      const MeasuredTest   &test;
+      std::vector<Series>   series;
+      std::set<std::size_t> landmarks;
+    };
+
+
+
+    Selection::Selection(const MeasuredTest    &test,
+                         const ResampleOptions &options)
+      : test(test)
+    {
+      for (const Channel &channel : channels())
+        {
+          const std::vector<double> &values = test.*(channel.values);
+          if (channel.name == "time" || values.empty())
+            continue;
+          series.push_back(
+            {&values,
+             std::max(options.noise_multiple * noise_level(values),
+                      options.least_share * range_of(values))});
+        }
+      keep_landmarks();
+    }
+
+
+
+    double Selection::tolerance(const std::vector<double> &values) const
+    {
+      for (const Series &one : series)
+        if (one.values == &values)
+          return one.tolerance;
+      return 0.;
+    }
+
+
+
+    void Selection::keep_extremes_of_friction(const std::size_t begin,
+                                              const std::size_t end)
+    {
+      const auto [least, most] =
+        std::minmax_element(test.friction.begin() + begin,
+                            test.friction.begin() + end);
+      landmarks.insert(least - test.friction.begin());
+      landmarks.insert(most - test.friction.begin());
+    }
+
+
+
+    // A stroke ends at the farthest point before the displacement turns.
+    void Selection::keep_landmarks()
+    {
+      const std::size_t n = test.time.size();
+      landmarks           = {0, n - 1};
+      keep_extremes_of_friction(0, n);
+
+      const std::vector<double> &position = test.displacement;
+      const std::vector<double>  smooth =
+        without_jitter(position,
+                       std::max(least_stroke * range_of(position),
+                                tolerance(position)));
+      std::size_t start = 0, farthest = 0;
+      double      direction = 0.;
+      for (std::size_t i = 1; i < n; ++i)
+        {
+          const double step = smooth[i] - smooth[i - 1];
+          if (step != 0. && direction == 0.)
+            {
+              landmarks.insert(i - 1);
+              direction = std::copysign(1., step);
+            }
+          if (step * direction < 0.)
+            {
+              landmarks.insert(farthest);
+              keep_extremes_of_friction(start, farthest + 1);
+              start     = farthest;
+              farthest  = i;
+              direction = -direction;
+            }
+          if (direction * (position[i] - position[farthest]) > 0.)
+            farthest = i;
+        }
+      keep_extremes_of_friction(start, n);
+    }
+
+
+
+    // The row between two others that is farthest from the line between them,
+    // and how many tolerances that is.
+    std::pair<std::size_t, double>
+    Selection::farthest(const std::size_t begin, const std::size_t end) const
+    {
+      std::pair<std::size_t, double> result{begin, 0.};
+      const std::vector<double>     &time = test.time;
+      for (const Series &one : series)
+        {
+          const std::vector<double> &values = *one.values;
+          if (one.tolerance == 0.)
+            continue; // constant
+          const double slope =
+            (values[end] - values[begin]) / (time[end] - time[begin]);
+          for (std::size_t i = begin + 1; i < end; ++i)
+            {
+              const double distance =
+                std::abs(values[i] - values[begin] -
+                         slope * (time[i] - time[begin])) /
+                one.tolerance;
+              if (distance > result.second)
+                result = {i, distance};
+            }
+        }
+      return result;
+    }
+
+
+
+    std::vector<std::size_t> Selection::rows(const double factor) const
+    {
+      std::vector<std::size_t> kept(landmarks.begin(), landmarks.end());
+      std::vector<std::pair<std::size_t, std::size_t>> open;
+      for (std::size_t i = 1; i < kept.size(); ++i)
+        open.emplace_back(kept[i - 1], kept[i]);
+      while (!open.empty())
+        {
+          const auto [begin, end] = open.back();
+          open.pop_back();
+          const auto [row, distance] = farthest(begin, end);
+          if (distance <= factor)
+            continue;
+          kept.push_back(row);
+          open.emplace_back(begin, row);
+          open.emplace_back(row, end);
+        }
+      std::sort(kept.begin(), kept.end());
+      return kept;
+    }
+  } // namespace
+
+
+
+  ResampledTest resample(const MeasuredTest    &test,
+                         const ResampleOptions &options)
+  {
+    const Selection selection(test, options);
+    ResampledTest   result;
+    double          factor = 1.;
+    result.rows            = selection.rows(factor);
+    // 1.25^60 tolerances are more than any range.
+    for (unsigned int i = 0; i < 60 && result.rows.size() > options.most_rows;
+         ++i)
+      {
+        factor *= 1.25;
+        result.rows = selection.rows(factor);
+      }
+
+    result.displacement_tolerance =
+      factor * selection.tolerance(test.displacement);
+    result.pressure_tolerance = factor * selection.tolerance(test.pressure);
+    result.friction_tolerance = factor * selection.tolerance(test.friction);
+    result.test               = test;
+    for (const Channel &channel : channels())
+      {
+        std::vector<double> &values = result.test.*(channel.values);
+        if (values.empty())
+          continue;
+        for (std::size_t i = 0; i < result.rows.size(); ++i)
+          values[i] = values[result.rows[i]];
+        values.resize(result.rows.size());
+      }
+    return result;
+  }
+
+
+
+  double frictional_work(const MeasuredTest &test)
+  {
+    double     work = 0.;
+    const auto add  = [&](const std::vector<double> &displacement,
+                         const std::vector<double> &friction) {
+      for (std::size_t i = 1; i < displacement.size() && i < friction.size();
+           ++i)
+        work += 0.5 *
+                (friction[i] * test.pressure[i] +
+                 friction[i - 1] * test.pressure[i - 1]) *
+                (displacement[i] - displacement[i - 1]);
+    };
+    add(test.displacement, test.friction);
+    add(test.displacement_y, test.friction_y);
+    return work;
+  }
+} // namespace SlipStep

@@ -1,0 +1,183 @@
+// What is kept when a test is resampled: peaks to the last bit, everything else
+// within the tolerances it states.
+
+#include <slipstep/experiment/resample.h>
+#include <slipstep/experiment/test_rows.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace SlipStep;
+
+namespace
+{
+  // A static peak, the fall to the kinetic level and two reversals, 1 kHz, with
+  // noise.
+  MeasuredTest loop(const double noise_of_friction)
+  {
+    std::mt19937                     random(3);
+    std::normal_distribution<double> noise;
+    MeasuredTest                     test;
+    double                           position = 0., slip = 0., friction = 0.;
+    for (int i = 0; i < 30000; ++i)
+      {
+        const double time  = 1e-3 * i;
+        const double speed = time < 2.  ? 0. :
+                             time < 12. ? 1. :
+                             time < 22. ? -1. :
+                                          1.;
+        position += 1e-3 * speed;
+        slip += 1e-3 * std::abs(speed);
+        const double limit = 0.098 + 0.017 * std::exp(-slip / 3.);
+        friction           = std::clamp(friction + 0.01 * speed, -limit, limit);
+        test.time.push_back(time);
+        test.displacement.push_back(position + 1e-4 * noise(random));
+        test.pressure.push_back(5.8 + 0.01 * noise(random));
+        test.friction.push_back(friction + noise_of_friction * noise(random));
+      }
+    return test;
+  }
+
+  double largest_distance(const MeasuredTest  &test,
+                          const ResampledTest &resampled,
+                          std::vector<double> MeasuredTest::*channel)
+  {
+    double      largest = 0.;
+    std::size_t right   = 1;
+    for (std::size_t i = 0; i < test.time.size(); ++i)
+      {
+        while (resampled.rows[right] < i)
+          ++right;
+        const std::size_t a = resampled.rows[right - 1];
+        const std::size_t b = resampled.rows[right];
+        const double      w =
+          (test.time[i] - test.time[a]) / (test.time[b] - test.time[a]);
+        largest =
+          std::max(largest,
+                   std::abs((test.*channel)[i] - (1. - w) * (test.*channel)[a] -
+                            w * (test.*channel)[b]));
+      }
+    return largest;
+  }
+} // namespace
+
+
+
+TEST(Resample, EveryRowIsWithinTheStatedTolerances)
+{
+  const MeasuredTest  test   = loop(3e-4);
+  const ResampledTest result = resample(test);
+  EXPECT_LT(result.rows.size(), test.time.size() / 20);
+  const double rounding = 1e-12;
+  EXPECT_LE(largest_distance(test, result, &MeasuredTest::friction),
+            result.friction_tolerance + rounding);
+  EXPECT_LE(largest_distance(test, result, &MeasuredTest::displacement),
+            result.displacement_tolerance + rounding);
+  EXPECT_LE(largest_distance(test, result, &MeasuredTest::pressure),
+            result.pressure_tolerance + rounding);
+  EXPECT_NEAR(result.friction_tolerance, 4. * 3e-4, 1e-4);
+  for (std::size_t i = 0; i < result.rows.size(); ++i)
+    EXPECT_EQ(result.test.friction[i], test.friction[result.rows[i]]);
+}
+
+
+
+TEST(Resample, PeaksAreExact)
+{
+  const MeasuredTest  test   = loop(3e-4);
+  const ResampledTest result = resample(test);
+  const auto [low, high] =
+    std::minmax_element(test.friction.begin(), test.friction.end());
+  const auto [kept_low, kept_high] =
+    std::minmax_element(result.test.friction.begin(),
+                        result.test.friction.end());
+  EXPECT_EQ(*low, *kept_low);
+  EXPECT_EQ(*high, *kept_high);
+  EXPECT_EQ(result.test.time[kept_high - result.test.friction.begin()],
+            test.time[high - test.friction.begin()]);
+
+  // In each stroke, too: this one is the second.
+  const auto in_stroke = [](const MeasuredTest &any) {
+    double least = 1.;
+    for (std::size_t i = 0; i < any.time.size(); ++i)
+      if (any.time[i] > 12.5 && any.time[i] < 21.5)
+        least = std::min(least, any.friction[i]);
+    return least;
+  };
+  EXPECT_EQ(in_stroke(test), in_stroke(result.test));
+}
+
+
+
+TEST(Resample, OnsetAndReversalsAreKept)
+{
+  const MeasuredTest  test   = loop(3e-4);
+  const ResampledTest result = resample(test);
+  // Each within the time in which the displacement passes its tremble.
+  const double tremble = 0.06;
+  for (const double event : {2., 12., 22.})
+    {
+      double nearest = 1.;
+      for (const double time : result.test.time)
+        nearest = std::min(nearest, std::abs(time - event));
+      EXPECT_LT(nearest, tremble) << event;
+    }
+}
+
+
+
+TEST(Resample, TheWorkOfFrictionIsKept)
+{
+  for (const double noise : {0., 3e-4, 3e-3})
+    {
+      const MeasuredTest  test   = loop(noise);
+      const ResampledTest result = resample(test);
+      const double        path   = 28.;
+      const double        exact  = frictional_work(test);
+      const double        bound  = path * (result.friction_tolerance * 5.8 +
+                                   0.12 * result.pressure_tolerance) +
+                           0.12 * 5.8 * 6. * result.displacement_tolerance;
+      EXPECT_LE(std::abs(frictional_work(result.test) - exact), bound);
+      EXPECT_NEAR(frictional_work(result.test) / exact, 1., 0.01) << noise;
+    }
+}
+
+
+
+TEST(Resample, WithoutNoiseOnlyTheShapeCounts)
+{
+  const MeasuredTest  test   = loop(0.);
+  const ResampledTest result = resample(test);
+  EXPECT_LE(result.friction_tolerance, 0.0011 * range_of(test.friction));
+}
+
+
+
+TEST(Resample, TheNumberOfRowsCanBeLimited)
+{
+  const MeasuredTest test = loop(3e-3);
+  ResampleOptions    options;
+  options.most_rows          = 60;
+  const ResampledTest result = resample(test, options);
+  EXPECT_LE(result.rows.size(), 60u);
+  EXPECT_EQ(*std::max_element(result.test.friction.begin(),
+                              result.test.friction.end()),
+            *std::max_element(test.friction.begin(), test.friction.end()));
+  EXPECT_LE(largest_distance(test, result, &MeasuredTest::friction),
+            result.friction_tolerance + 1e-12);
+}
+
+
+
+TEST(Resample, AFewRowsStay)
+{
+  MeasuredTest test;
+  test.time         = {0., 1.};
+  test.displacement = {0., 1.};
+  test.pressure     = {1., 1.};
+  test.friction     = {0.1, 0.1};
+  EXPECT_EQ(resample(test).rows.size(), 2u);
+}
