@@ -1,0 +1,140 @@
+#include <slipstep/experiment/test_set.h>
+
+#include <slipstep/experiment/test_rows.h>
+#include <slipstep/utilities/csv.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace SlipStep
+{
+  namespace
+  {
+    constexpr double largest_ratio = 1.2;
+
+    std::string shown(const MeasuredTest &test)
+    {
+      return test.file.empty() ? test.name : test.file.string();
+    }
+
+    struct Motion
+    {
+      double path     = 0.; ///< [mm]
+      double duration = 0.; ///< from first to last motion [s]
+    };
+
+    Motion motion_of(const MeasuredTest &test)
+    {
+      Motion      result;
+      std::size_t first = test.time.size(), last = 0;
+      for (const auto *displacement :
+           {&test.displacement, &test.displacement_y})
+        {
+          const std::vector<double> smooth =
+            without_jitter(*displacement, 0.005 * range_of(*displacement));
+          for (std::size_t i = 1; i < smooth.size(); ++i)
+            if (smooth[i] != smooth[i - 1])
+              {
+                result.path += std::abs(smooth[i] - smooth[i - 1]);
+                first = std::min(first, i - 1);
+                last  = std::max(last, i);
+              }
+        }
+      if (first < last)
+        result.duration = test.time[last] - test.time[first];
+      return result;
+    }
+
+    void compare(const MeasuredTest &one,
+                 const MeasuredTest &other,
+                 const std::string  &quantity,
+                 const std::string  &unit,
+                 double (*value)(const MeasuredTest &))
+    {
+      const double a = value(one), b = value(other);
+      if (std::max(a, b) <= largest_ratio * std::min(a, b))
+        return;
+      throw InputError(shown(other) + ": the condition '" + other.condition +
+                       "' is that of " + shown(one) + ", but its " + quantity +
+                       " is " + rounded_text(b, 3) + " " + unit + ", not " +
+                       rounded_text(a, 3) + " " + unit +
+                       "; replicates are made alike, within 20 %");
+    }
+  } // namespace
+
+
+
+  std::vector<MeasuredTest> read_test_set(const std::filesystem::path &folder)
+  {
+    if (!std::filesystem::is_directory(folder))
+      throw InputError(folder.string() + ": there is no such folder");
+    std::vector<std::filesystem::path> files;
+    for (const auto &entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().extension() == ".csv" && entry.is_regular_file())
+        files.push_back(entry.path());
+    if (files.empty())
+      throw InputError(folder.string() +
+                       ": this is a folder without tests (no *.csv)");
+    std::sort(files.begin(), files.end());
+
+    std::vector<MeasuredTest> tests;
+    for (const auto &file : files)
+      tests.push_back(read_measured_test(file));
+    check_conditions(tests);
+    return tests;
+  }
+
+
+
+  void check_conditions(const std::vector<MeasuredTest> &tests)
+  {
+    std::map<std::string, const MeasuredTest *> first;
+    for (const MeasuredTest &test : tests)
+      {
+        if (test.condition.empty())
+          continue;
+        const MeasuredTest &other =
+          *first.emplace(test.condition, &test).first->second;
+        compare(other, test, "pressure", "MPa", typical_pressure);
+        compare(other, test, "mean speed", "mm/s", mean_speed);
+      }
+  }
+
+
+
+  double typical_pressure(const MeasuredTest &test)
+  {
+    std::vector<double> pressed;
+    for (const double pressure : test.pressure)
+      if (pressure > 0.)
+        pressed.push_back(pressure);
+    if (pressed.empty())
+      return 0.;
+    const auto middle = pressed.begin() + pressed.size() / 2;
+    std::nth_element(pressed.begin(), middle, pressed.end());
+    return *middle;
+  }
+
+
+
+  double mean_speed(const MeasuredTest &test)
+  {
+    const Motion motion = motion_of(test);
+    return motion.duration > 0. ? motion.path / motion.duration : 0.;
+  }
+
+
+
+  std::string describe(const MeasuredTest &test)
+  {
+    const auto [least, most] =
+      std::minmax_element(test.friction.begin(), test.friction.end());
+    return std::to_string(test.time.size()) + " rows, " +
+           rounded_text(test.time.back() - test.time.front(), 4) + " s, path " +
+           rounded_text(motion_of(test).path, 4) + " mm, " +
+           rounded_text(typical_pressure(test), 4) + " MPa, friction " +
+           rounded_text(*least, 3) + " to " + rounded_text(*most, 3) +
+           ", noise " + rounded_text(noise_level(test.friction), 2);
+  }
+} // namespace SlipStep

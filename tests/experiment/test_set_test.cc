@@ -1,0 +1,83 @@
+// Folders of tests, and tests that say to be replicates.
+
+#include <slipstep/experiment/test_set.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/temporary_folder.h"
+
+using namespace SlipStep;
+
+namespace
+{
+  const std::string header = "time_s,displacement_mm,pressure_MPa,friction\n";
+
+  void write(const std::string &name,
+             const std::string &condition,
+             const double       pressure,
+             const double       speed)
+  {
+    std::ofstream out(test_folder() / name);
+    out << "# condition: " << condition << '\n' << header;
+    for (int i = 0; i < 20; ++i)
+      out << i << ',' << i * speed << ',' << pressure << ",0.1\n";
+  }
+
+  std::string message_of_set()
+  {
+    try
+      {
+        read_test_set(test_folder());
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+} // namespace
+
+
+
+TEST(TestSet, AFolderIsASetInTheOrderOfNames)
+{
+  write("b.csv", "slow", 1., 0.1);
+  write("a.csv", "slow", 1.1, 0.11);
+  write("c.csv", "fast", 1., 10.);
+  std::ofstream(test_folder() / "README.md") << "no test";
+  const auto tests = read_test_set(test_folder());
+  ASSERT_EQ(tests.size(), 3u);
+  EXPECT_EQ(tests[0].name, "a");
+  EXPECT_EQ(tests[2].condition, "fast");
+  EXPECT_NEAR(mean_speed(tests[2]), 10., 0.1);
+  EXPECT_EQ(typical_pressure(tests[0]), 1.1);
+}
+
+
+
+TEST(TestSet, AnEmptyFolderIsNamed)
+{
+  EXPECT_NE(message_of_set().find("without tests"), std::string::npos);
+  EXPECT_THROW(read_test_set(test_folder() / "nowhere"), InputError);
+}
+
+
+
+TEST(TestSet, ReplicatesMustHaveBeenMadeAlike)
+{
+  write("a.csv", "dry", 1., 0.1);
+  write("b.csv", "dry", 1.5, 0.1);
+  std::string text = message_of_set();
+  EXPECT_NE(text.find("b.csv: the condition 'dry' is that of"),
+            std::string::npos)
+    << text;
+  EXPECT_NE(text.find("pressure is 1.5 MPa, not 1 MPa"), std::string::npos);
+  write("b.csv", "dry", 1., 0.2);
+  text = message_of_set();
+  EXPECT_NE(text.find("but its mean speed is"), std::string::npos) << text;
+  write("b.csv", "dry, faster", 1., 0.2);
+  EXPECT_EQ(message_of_set(), "");
+}
