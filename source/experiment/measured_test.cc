@@ -37,36 +37,30 @@ namespace SlipStep
 
 
 
+  Heading split_heading(const std::string &cell)
+  {
+    Heading result{cell, "", false};
+    for (const std::string brackets : {"[]", "()"})
+      {
+        const std::size_t open = cell.rfind(brackets[0]);
+        if (!cell.empty() && cell.back() == brackets[1] &&
+            open != std::string::npos)
+          result = {cell.substr(0, open),
+                    cell.substr(open + 1, cell.size() - open - 2),
+                    true};
+      }
+    std::string &name = result.name;
+    while (!name.empty() && name.back() == ' ')
+      name.pop_back();
+    for (char &c : name)
+      c = c == ' ' ? '_' : std::tolower(static_cast<unsigned char>(c));
+    return result;
+  }
+
+
+
   namespace
   {
-    /// A name in a header, as "displacement" and "mm" of "Displacement [mm]".
-    struct Heading
-    {
-      std::string name;
-      std::string unit;
-      bool        has_brackets = false;
-    };
-
-    Heading split_brackets(const std::string &cell)
-    {
-      Heading result{cell, "", false};
-      for (const std::string brackets : {"[]", "()"})
-        {
-          const std::size_t open = cell.rfind(brackets[0]);
-          if (!cell.empty() && cell.back() == brackets[1] &&
-              open != std::string::npos)
-            result = {cell.substr(0, open),
-                      cell.substr(open + 1, cell.size() - open - 2),
-                      true};
-        }
-      std::string &name = result.name;
-      while (!name.empty() && name.back() == ' ')
-        name.pop_back();
-      for (char &c : name)
-        c = c == ' ' ? '_' : std::tolower(static_cast<unsigned char>(c));
-      return result;
-    }
-
     /// The column that holds a channel, and how its numbers become base units.
     struct Source
     {
@@ -131,7 +125,7 @@ namespace SlipStep
                                UnitConversion   &conversion)
     {
       const std::string &cell    = table.header()[position];
-      Heading            heading = split_brackets(cell);
+      Heading            heading = split_heading(cell);
       const std::string  start   = channel.name + "_";
       if (!heading.has_brackets && heading.name.rfind(start, 0) == 0)
         heading = {channel.name, cell.substr(start.size()), false};

@@ -344,11 +344,9 @@ namespace SlipStep
       {
         // Spreadsheets like to end a row with delimiters.
         is_too_long = is_too_long || (n >= n_cells && !cell.empty());
-        if (column < columns.size() && columns[column].position == n)
-          {
-            columns[column].values.push_back(read_cell(cell, column));
-            ++column;
-          }
+        for (; column < columns.size() && columns[column].position == n;
+             ++column)
+          columns[column].values.push_back(read_cell(cell, column));
       }
     if (n < n_cells || is_too_long)
       fail_at_length(line);

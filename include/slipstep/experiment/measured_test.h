@@ -65,6 +65,17 @@ namespace SlipStep
   /// Time, displacement, pressure, friction, then the optional ones.
   const std::vector<Channel> &channels();
 
+  /// A name in a header: "displacement" and "mm" of "Displacement [mm]".
+  struct Heading
+  {
+    std::string name; ///< lower case, blanks as underscores
+    std::string unit; ///< as written; "" if there is none in brackets
+    bool        has_brackets = false;
+  };
+
+  /// Take the unit in brackets or parentheses off a name in a header.
+  Heading split_heading(const std::string &cell);
+
   /// Read a test, with its rows put in order, see tidy_rows().
   /// @throws InputError naming file:line:column for a missing column or unit,
   /// text or an infinite value in place of a number, time that goes backwards,

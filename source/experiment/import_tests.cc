@@ -1,0 +1,128 @@
+#include <slipstep/experiment/import_tests.h>
+
+#include <slipstep/experiment/import_map.h>
+#include <slipstep/experiment/test_set.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
+
+#include <iostream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    /// A test to be converted: the map as it is for this test, and the name of
+    /// its file without extension, "" = that of the raw file.
+    struct Job
+    {
+      Parameters  map;
+      std::string stem;
+    };
+
+
+
+    std::vector<Job> read_jobs(const CommandLine &line)
+    {
+      Parameters as_written;
+      declare_import_parameters(as_written);
+      as_written.read(line.files.front());
+      const auto with_settings = [&](Parameters map) {
+        for (const auto &setting : line.settings)
+          map.set(setting.first, setting.second, "--set");
+        return map;
+      };
+
+      std::vector<Job>         jobs;
+      std::vector<std::string> labels;
+      for (const Variant &variant : as_written.variants())
+        {
+          labels.push_back(variant.label);
+          if (line.variant.empty() || line.variant == variant.label ||
+              line.variant == variant.folder)
+            jobs.push_back({with_settings(as_written.with_variant(variant)),
+                            variant.folder});
+        }
+      if (!line.variant.empty() && jobs.empty())
+        throw InputError("--variant " + line.variant + ": " +
+                         line.files.front().string() + " has no such variant" +
+                         did_you_mean(line.variant, labels));
+      if (jobs.empty())
+        jobs.push_back({with_settings(as_written), ""});
+      return jobs;
+    }
+
+
+
+    fs::path raw_file_of(const Job &job, const CommandLine &line)
+    {
+      const std::string name = job.map.text("Raw file/Name");
+      const bool        is_told =
+        line.files.size() > 1 && !fs::is_directory(line.files[1]);
+      if (!is_told && name.empty())
+        throw InputError(line.files.front().string() +
+                         ": the raw file is missing: set Raw file/Name, or "
+                         "name it behind the map");
+      const fs::path file = is_told               ? line.files[1] :
+                            line.files.size() > 1 ? line.files[1] / name :
+                                                    job.map.resolve(name);
+      if (!fs::is_regular_file(file))
+        throw InputError((is_told ? std::string("slipstep import") :
+                                    job.map.origin("Raw file/Name")) +
+                         ": there is no file " + file.string() +
+                         (is_told ? "" :
+                                    "; name the folder of the raw files behind "
+                                    "the map"));
+      return file;
+    }
+
+
+
+    void create_folder(const fs::path &folder)
+    {
+      std::error_code error;
+      fs::create_directories(folder, error);
+      if (error || !fs::is_directory(folder))
+        throw InputError(folder.string() + ": this folder cannot be created");
+    }
+  } // namespace
+
+
+
+  int import_tests(const CommandLine &line)
+  {
+    const std::vector<Job> jobs = read_jobs(line);
+    if (jobs.size() > 1 && line.files.size() > 1 &&
+        !fs::is_directory(line.files[1]))
+      throw InputError(line.files[1].string() +
+                       ": the map has variants, which need a folder of raw "
+                       "files (or choose one with --variant)");
+    const fs::path folder = line.output.empty() ?
+                              line.files.front().parent_path() / "measured" :
+                              fs::path(line.output);
+
+    std::vector<MeasuredTest> tests;
+    for (const Job &job : jobs)
+      {
+        const fs::path raw = raw_file_of(job, line);
+        tests.push_back(import_test(job.map, raw));
+        tests.back().file =
+          folder /
+          ((job.stem.empty() ? raw.stem().string() : job.stem) + ".csv");
+      }
+    check_conditions(tests);
+
+    create_folder(folder);
+    constexpr unsigned int n_digits = 7;
+    for (const MeasuredTest &test : tests)
+      {
+        write_measured_test(test.file, test, n_digits);
+        print_warnings(test.warnings);
+        if (!line.quiet)
+          std::cout << test.file.string() << ": " << describe(test)
+                    << std::endl;
+      }
+    return 0;
+  }
+} // namespace SlipStep
