@@ -6,11 +6,14 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/experiment/checkpoint.h>
+#include <slipstep/experiment/import_map.h>
+#include <slipstep/experiment/import_tests.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/report.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/experiment/sweep.h>
+#include <slipstep/experiment/test_set.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/solid/case.h>
 #include <slipstep/solid/refine_block.h>
@@ -194,6 +197,19 @@ namespace SlipStep
 
 
 
+    // What was done to the rows of tests that programmes follow, once.
+    void print_warnings_of_programmes(const Case &the_case)
+    {
+      std::set<std::string> warnings;
+      for (const Parameters &parameters : the_case.complete)
+        for (const std::string &warning :
+             parse_programme(parameters).warnings())
+          warnings.insert(warning);
+      print_warnings({warnings.begin(), warnings.end()});
+    }
+
+
+
     // ----------------------------------------------------------- run, point
 
     class Runner
@@ -243,6 +259,8 @@ namespace SlipStep
       output = chosen_output(the_case, line);
       if (!line.is_child)
         check_output(the_case, line);
+      if (is_first_rank && !line.is_child)
+        print_warnings_of_programmes(the_case);
       earlier.assign(the_case.complete.size(), EarlierRun::none);
       if (line.resume)
         look_for_earlier_runs();
@@ -478,23 +496,53 @@ namespace SlipStep
 
     // ------------------------------------------------------- other commands
 
+    void check_case_file(const fs::path &file, const CommandLine &line)
+    {
+      const Case the_case = read_case(file, line);
+      check_all(the_case);
+      if (!line.output.empty())
+        check_output(the_case, line);
+      print_warnings_of_programmes(the_case);
+      if (!line.quiet)
+        std::cout << file.string() << ": OK"
+                  << (the_case.is_sweep() ?
+                        ", " + std::to_string(the_case.variants.size()) +
+                          " variants" :
+                        "")
+                  << std::endl;
+    }
+
+
+
+    // A measured test, or a folder of them.
+    void check_tests(const fs::path &file, const CommandLine &line)
+    {
+      std::vector<MeasuredTest> tests;
+      if (fs::is_directory(file))
+        tests = read_test_set(file);
+      else
+        tests.push_back(read_measured_test(file));
+      for (const MeasuredTest &test : tests)
+        {
+          print_warnings(test.warnings);
+          if (!line.quiet)
+            std::cout << test.file.string() << ": OK, " << describe(test)
+                      << std::endl;
+        }
+    }
+
+
+
     Outcome check_cases(const CommandLine &line)
     {
       Outcome worst;
       for (const fs::path &file : line.files)
         {
           const Outcome outcome = guarded([&]() {
-            const Case the_case = read_case(file, line);
-            check_all(the_case);
-            if (!line.output.empty())
-              check_output(the_case, line);
-            if (!line.quiet)
-              std::cout << file.string() << ": OK"
-                        << (the_case.is_sweep() ?
-                              ", " + std::to_string(the_case.variants.size()) +
-                                " variants" :
-                              "")
-                        << std::endl;
+            if (fs::is_directory(file) || file.extension() == ".csv")
+              check_tests(file, line);
+            else
+              check_case_file(file, line);
             return done;
           });
           if (!outcome.message.empty())
@@ -508,14 +556,24 @@ namespace SlipStep
 
     int print_parameters(const CommandLine &line)
     {
-      Parameters parameters = declared_parameters();
+      const bool of_a_map = !line.files.empty();
+      if (of_a_map && line.files.front() != "import")
+        throw InputError("slipstep parameters: \"" +
+                         line.files.front().string() +
+                         "\" is not known; allowed is: import");
+      Parameters parameters;
+      if (of_a_map)
+        declare_import_parameters(parameters);
+      else
+        declare_all_parameters(parameters);
       apply_settings(line, parameters);
       parameters.print(std::cout,
                        line.format == "json" ? Parameters::Format::json :
                        line.format == "md"   ? Parameters::Format::markdown :
                                                Parameters::Format::prm,
                        {},
-                       inactive_sections(parameters));
+                       of_a_map ? std::set<std::string>() :
+                                  inactive_sections(parameters));
       return done;
     }
 
@@ -549,6 +607,8 @@ namespace SlipStep
         return check_cases(line);
       else if (line.command == "refine")
         return guarded([&]() { return refine_block(line); });
+      else if (line.command == "import")
+        return guarded([&]() { return import_tests(line); });
       else if (line.command == "effects")
         return guarded([&]() {
           print_effects(std::cout, line.format == "md");

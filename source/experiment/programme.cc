@@ -92,6 +92,9 @@ namespace SlipStep
 
       std::vector<Segment> parse();
 
+      /// What was done to the rows of tests that are followed.
+      std::vector<std::string> warnings;
+
     private:
       /// A verb and what follows it, by keyword; the part right after the verb
       /// has the keyword "".
@@ -300,7 +303,10 @@ namespace SlipStep
       if (!std::filesystem::is_regular_file(file))
         fail(name.column, "there is no file " + file.string());
 
-      const MeasuredTest   test   = read_measured_test(file);
+      const MeasuredTest test = read_measured_test(file);
+      warnings.insert(warnings.end(),
+                      test.warnings.begin(),
+                      test.warnings.end());
       const auto           origin = present.displacement;
       dealii::Tensor<1, 2> moved;
       for (std::size_t i = 1; i < test.time.size(); ++i)
@@ -466,8 +472,11 @@ namespace SlipStep
   Programme::Programme(const std::string           &text,
                        const double                 default_speed,
                        const std::filesystem::path &directory)
-    : segment_list(Parser(text, default_speed, directory).parse())
-  {}
+  {
+    Parser parser(text, default_speed, directory);
+    segment_list = parser.parse();
+    warning_list = parser.warnings;
+  }
 
 
 
@@ -502,6 +511,13 @@ namespace SlipStep
   double Programme::end_time() const
   {
     return segment_list.empty() ? 0. : segment_list.back().end_time;
+  }
+
+
+
+  const std::vector<std::string> &Programme::warnings() const
+  {
+    return warning_list;
   }
 
 

@@ -70,10 +70,23 @@ namespace SlipStep
          1,
          {"set", "output", "variant", "resume", "quiet"},
          {}},
+        {"import",
+         "MAP.prm [RAW]",
+         "convert files of instruments into measured tests",
+         "MAP.prm says which column holds what in which unit, what is not in\n"
+         "the file (area, pressure), and what its signs mean; \"slipstep\n"
+         "parameters import\" prints one to start from. RAW is the file, or the\n"
+         "folder of the files, that the map names. The tests, one per variant\n"
+         "of the map, go into the folder \"measured\" beside it.\n",
+         1,
+         2,
+         {"set", "output", "variant", "quiet"},
+         {}},
         {"check",
          "CASE.prm ...",
-         "read and cross-check cases, compute nothing",
-         "Prints one line per case; writes no file.\n",
+         "read and cross-check cases and tests, compute nothing",
+         "Prints one line per case; writes no file. Reads measured tests, too:\n"
+         "a .csv file, or a folder of them, whose replicates are compared.\n",
          1,
          any,
          {"set", "output", "variant", "quiet"},
@@ -87,12 +100,13 @@ namespace SlipStep
          {"format"},
          {"text", "md"}},
         {"parameters",
-         "",
+         "[import]",
          "list all parameters with their defaults",
          "As a commented .prm file to start from, for programs (json), or as\n"
-         "tables (md).\n",
+         "tables (md). \"slipstep parameters import\" lists the keys of a map for\n"
+         "slipstep import.\n",
          0,
-         0,
+         1,
          {"set", "format"},
          {"prm", "json", "md"}},
         {"help",

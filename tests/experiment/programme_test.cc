@@ -193,6 +193,19 @@ TEST(Programme, ASlideWithoutAnySpeedIsRefused)
 
 
 
+TEST(Programme, WarningsOfAFollowedTestArePassedOn)
+{
+  const auto folder = test_folder();
+  std::ofstream(folder / "gap.csv")
+    << "time_s,displacement_mm,pressure_MPa,friction\n"
+       "0,0,5,0\n1,,5,0\n2,2,5,0.1\n";
+  const Programme programme("follow gap.csv", default_speed, folder);
+  ASSERT_EQ(programme.warnings().size(), 1u);
+  EXPECT_NE(programme.warnings()[0].find("left out: 1"), std::string::npos);
+}
+
+
+
 TEST(Programme, FollowReplaysATest)
 {
   const auto folder = test_folder();

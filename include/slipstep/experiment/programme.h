@@ -67,8 +67,12 @@ namespace SlipStep
     /// Largest nominal pressure met [MPa].
     double largest_pressure() const;
 
+    /// What was done to the rows of tests that are followed, to be shown.
+    const std::vector<std::string> &warnings() const;
+
   private:
-    std::vector<Segment> segment_list;
+    std::vector<Segment>     segment_list;
+    std::vector<std::string> warning_list;
   };
 
   /// The text of a programme whose file names are relative to @p from, as it

@@ -1,0 +1,127 @@
+// Measured tests, folders of them and maps that are wrong in one way each.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "slipstep_process.h"
+
+namespace
+{
+  const std::string header = "time_s,displacement_mm,pressure_MPa,friction\n";
+
+  void expect_refusal(const SlipstepProcess::Result  &result,
+                      const std::vector<std::string> &words)
+  {
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_LE(result.n_error_lines(), 2u) << result.err;
+    for (const std::string &word : words)
+      EXPECT_NE(result.err.find(word), std::string::npos)
+        << "  \"" << word << "\" is not in: " << result.err;
+  }
+
+  void expect_refused_test(const std::string              &content,
+                           const std::vector<std::string> &words)
+  {
+    const SlipstepProcess process;
+    process.write("a.csv", content);
+    expect_refusal(process.run({"check", "a.csv"}), words);
+  }
+
+  // Right but for what is appended.
+  const std::string map = "set Columns/Time = t in s\n"
+                          "set Columns/Displacement = x in mm\n"
+                          "set Constants/Pressure = 5 MPa\n";
+} // namespace
+
+
+
+TEST(MeasuredTests, WrongFilesAreRefused)
+{
+  const std::string row = "0,0,1,0\n";
+  expect_refused_test("time_s,displacement_mm,friction\n0,0,0\n1,1,0.1\n",
+                      {"a.csv:1:1: ", "'pressure_MPa' is missing"});
+  expect_refused_test("time,displacement_mm,pressure_MPa,friction\n" + row,
+                      {"a.csv:1:1: ", "unit", "'time_s'"});
+  expect_refused_test("time_s,displacement_mm,pressure_MPA,friction\n" + row,
+                      {"a.csv:1:24: ", "nearest is MPa"});
+  expect_refused_test(header + row + "1,1,1,o.1\n",
+                      {"a.csv:3:7: ", "'o.1' is not a number (friction)"});
+  expect_refused_test(header + row + "2,1,1,0.1\n1,1,1,0.1\n",
+                      {"a.csv:4:1: ", "time goes backwards"});
+  expect_refused_test(header + row + "1,1,0,0.1\n",
+                      {"a.csv:3:5: ", "pressure is zero"});
+  expect_refused_test(header + row + "1,1,-1,0.1\n",
+                      {"a.csv:3:5: ", "pressure is -1 MPa"});
+  expect_refused_test(header + row + "1,1,1,-0.1\n",
+                      {"a.csv:3:7: ", "sign", "slipstep import"});
+  expect_refused_test(header, {"a.csv", "two rows"});
+  expect_refused_test("", {"a.csv:1:1: ", "header"});
+  const SlipstepProcess process;
+  expect_refusal(process.run({"check", "nowhere.csv"}),
+                 {"nowhere.csv", "cannot be read"});
+}
+
+
+
+TEST(MeasuredTests, WarningsAreShownAndRightFilesDescribed)
+{
+  const SlipstepProcess process;
+  process.write("a.csv", header + "0,0,1,0\n1,,1,0.1\n2,2,1,0.1\n");
+  const auto result = process.run({"check", "a.csv"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("left out: 1 (first: line 3)"), std::string::npos)
+    << result.err;
+  EXPECT_NE(result.out.find("a.csv: OK, 2 rows, 2 s"), std::string::npos)
+    << result.out;
+}
+
+
+
+TEST(MeasuredTests, WrongFoldersAreRefused)
+{
+  const SlipstepProcess process;
+  std::filesystem::create_directory(process.folder() / "tests");
+  expect_refusal(process.run({"check", "tests"}), {"tests", "without tests"});
+  process.write("tests/a.csv",
+                "# condition: dry\n" + header + "0,0,1,0.1\n1,1,1,0.1\n");
+  process.write("tests/b.csv",
+                "# condition: dry\n" + header + "0,0,3,0.1\n1,1,3,0.1\n");
+  expect_refusal(process.run({"check", "tests", "--quiet"}),
+                 {"a.csv", "b.csv", "condition 'dry'", "3 MPa, not 1 MPa"});
+}
+
+
+
+TEST(MeasuredTests, WrongMapsAreRefused)
+{
+  const SlipstepProcess process;
+  process.write("raw.csv", "t,x,mu\n0,0,0\n1,1,-0.1\n");
+  const auto with = [&](const std::string &line) {
+    process.write("map.prm", map + line + "\n");
+    return process.run({"import", "map.prm", "raw.csv"});
+  };
+  expect_refusal(with(""), {"Columns/Friction", "either this column or"});
+  expect_refusal(with("set Columns/Friction = nu"),
+                 {"map.prm:4", "no column 'nu'", "mean mu?"});
+  expect_refusal(with("set Columns/Frction = mu"),
+                 {"map.prm:4", "mean Friction?"});
+  expect_refusal(with("set Columns/Friction = mu"),
+                 {"raw.csv:3:5: ", "sign", "Convention"});
+  expect_refusal(process.run({"import", "map.prm", "no.csv"}), {"no.csv"});
+  expect_refusal(process.run({"import", "map.prm"}), {"Raw file/Name"});
+  expect_refusal(process.run({"import"}), {"missing"});
+  EXPECT_FALSE(std::filesystem::exists(process.folder() / "measured"));
+
+  const auto result = process.run({"import",
+                                   "map.prm",
+                                   "raw.csv",
+                                   "--set",
+                                   "Convention/Friction sign=reversed"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(process.read("measured/raw.csv").find("1,1,5,0.1"),
+            std::string::npos);
+}
