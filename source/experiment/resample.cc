@@ -57,10 +57,15 @@ namespace SlipStep
           const std::vector<double> &values = test.*(channel.values);
           if (channel.name == "time" || values.empty())
             continue;
+          // What counts of a pressure is its share, however steady it is.
+          const double extent =
+            channel.name == "pressure" ?
+              *std::max_element(values.begin(), values.end()) :
+              range_of(values);
           series.push_back(
             {&values,
              std::max(options.noise_multiple * noise_level(values),
-                      options.least_share * range_of(values))});
+                      options.least_share * extent)});
         }
       keep_landmarks();
     }

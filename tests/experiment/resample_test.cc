@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 using namespace SlipStep;
 
@@ -180,4 +181,28 @@ TEST(Resample, AFewRowsStay)
   test.pressure     = {1., 1.};
   test.friction     = {0.1, 0.1};
   EXPECT_EQ(resample(test).rows.size(), 2u);
+}
+
+
+
+TEST(Resample, PublishedRecordsKeepPeaksAndWork)
+{
+  for (const std::string name :
+       {"sepiolite_velocity_step/measured/velstep3_TR2_exp013_sepiolite.csv",
+        "reciprocating_tribometer/measured/test_data_2.csv",
+        "pps_ptfe_pin_on_disc/measured/PPS_60N_1.csv",
+        "pps_ptfe_pin_on_disc/measured/PPS_45PTFE_60N_2.csv"})
+    {
+      SCOPED_TRACE(name);
+      const MeasuredTest test =
+        read_measured_test(std::string(SLIPSTEP_SOURCE_DIR "/prm/") + name);
+      const ResampledTest result = resample(test);
+      EXPECT_LT(result.rows.size(), test.time.size() / 6);
+      EXPECT_EQ(range_of(result.test.friction), range_of(test.friction));
+      EXPECT_NEAR(frictional_work(result.test) / frictional_work(test),
+                  1.,
+                  0.005);
+      EXPECT_LE(largest_distance(test, result, &MeasuredTest::friction),
+                result.friction_tolerance * (1. + 1e-9));
+    }
 }

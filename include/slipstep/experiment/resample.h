@@ -14,7 +14,8 @@ namespace SlipStep
     /// noise_level() ...
     double noise_multiple = 4.;
 
-    /// ... but not less than this share of the channel's range.
+    /// ... but not less than this share of the channel's range (of the largest
+    /// value for the pressure).
     double least_share = 0.001;
 
     /// The tolerances grow until no more rows are left; rows that are kept in
