@@ -108,7 +108,7 @@ TEST(MeasuredTests, WrongMapsAreRefused)
   expect_refusal(with("set Columns/Friction = nu"),
                  {"map.prm:4", "no column 'nu'", "mean mu?"});
   expect_refusal(with("set Columns/Frction = mu"),
-                 {"map.prm:4", "mean Friction?"});
+                 {"map.prm:4", "mean Columns/Friction?"});
   expect_refusal(with("set Columns/Friction = mu"),
                  {"raw.csv:3:5: ", "sign", "Convention"});
   expect_refusal(process.run({"import", "map.prm", "no.csv"}), {"no.csv"});
