@@ -8,7 +8,6 @@
 #include <slipstep/experiment/study_results.h>
 #include <slipstep/experiment/sweep.h>
 #include <slipstep/solid/case.h>
-#include <slipstep/solid/refinement_parameters.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 
@@ -40,13 +39,6 @@ namespace SlipStep
 
 
 
-    std::string section_of(const std::string &path)
-    {
-      return path.substr(0, path.rfind('/'));
-    }
-
-
-
     // With --resume: what there is of every run, in the order of study.runs().
     // A folder of another case is refused before anything is touched.
     std::vector<EarlierRun> find_earlier_runs(const RefinementStudy &study,
@@ -72,7 +64,6 @@ namespace SlipStep
 
     std::vector<SweepJob> study_jobs(const RefinementStudy         &study,
                                      const std::vector<EarlierRun> &earlier,
-                                     const Parameters              &parameters,
                                      const CommandLine             &line,
                                      const std::string             &variant,
                                      const fs::path                &output)
@@ -92,22 +83,19 @@ namespace SlipStep
             }
           SweepJob job =
             child_job(line, "run", run.label, output / run.folder, variant);
-          for (const auto &setting : run.settings)
-            job.arguments.push_back("--set=" + setting.first + "=" +
-                                    setting.second);
-          // What the study varies goes before what the user has set, and a
-          // uniform mesh has no use for settings of adaptive ones.
-          const auto inactive = RefinementParameters::inactive_sections(
-            parameters_of(run, parameters));
+          // What the study varies comes last, so that settings which mean
+          // nothing to a run, as those of adaptive meshes, are not wrong.
           for (const auto &typed : line.settings)
             if (std::none_of(run.settings.begin(),
                              run.settings.end(),
                              [&](const auto &setting) {
                                return setting.first == typed.first;
-                             }) &&
-                inactive.count(section_of(typed.first)) == 0)
+                             }))
               job.arguments.push_back("--set=" + typed.first + "=" +
                                       typed.second);
+          for (const auto &setting : run.settings)
+            job.arguments.push_back("--set=" + setting.first + "=" +
+                                    setting.second);
           if (line.resume)
             job.arguments.push_back("--resume");
           jobs.push_back(job);
@@ -173,15 +161,10 @@ namespace SlipStep
     write_used_parameters(the_case.parameters,
                           output,
                           inactive_sections(the_case.parameters));
-    const std::vector<int> exit_codes =
-      run_side_by_side(study_jobs(study,
-                                  earlier,
-                                  the_case.parameters,
-                                  line,
-                                  the_case.selected.folder,
-                                  output),
-                       the_case.parameters.case_file().stem().string(),
-                       line.quiet);
+    const std::vector<int> exit_codes = run_side_by_side(
+      study_jobs(study, earlier, line, the_case.selected.folder, output),
+      the_case.parameters.case_file().stem().string(),
+      line.quiet);
     report_study(study, the_case.parameters, output, line.quiet);
     return exit_codes.empty() ?
              0 :

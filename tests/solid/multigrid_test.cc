@@ -96,10 +96,11 @@ namespace
     for (const auto &face : levels[1].tangent)
       if (std::abs(face.cell->center()[t] - middle) >
           0.5 * face.cell->extent_in_direction(t))
-        for (const auto &value : face.values)
-          EXPECT_NEAR(value[0][0],
-                      face.cell->center()[t] > middle ? 2. : 1.,
-                      1e-12);
+        {
+          const double expected = face.cell->center()[t] > middle ? 2. : 1.;
+          for (const auto &value : face.values)
+            EXPECT_NEAR(value[0][0], expected, 1e-12);
+        }
   }
 } // namespace
 
