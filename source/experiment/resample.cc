@@ -205,15 +205,7 @@ namespace SlipStep
     result.pressure_tolerance = factor * selection.tolerance(test.pressure);
     result.friction_tolerance = factor * selection.tolerance(test.friction);
     result.test               = test;
-    for (const Channel &channel : channels())
-      {
-        std::vector<double> &values = result.test.*(channel.values);
-        if (values.empty())
-          continue;
-        for (std::size_t i = 0; i < result.rows.size(); ++i)
-          values[i] = values[result.rows[i]];
-        values.resize(result.rows.size());
-      }
+    keep_rows(result.test, result.rows);
     return result;
   }
 

@@ -14,6 +14,16 @@ namespace SlipStep
     /// sorted: more is no matter of a logger that mixed up a few rows.
     constexpr double largest_disorder = 0.01;
 
+    template <typename T>
+    void choose(std::vector<T> &values, const std::vector<std::size_t> &rows)
+    {
+      std::vector<T> chosen;
+      chosen.reserve(rows.size());
+      for (const std::size_t row : rows)
+        chosen.push_back(values[row]);
+      values = std::move(chosen);
+    }
+
     std::vector<const Channel *> filled_channels(const MeasuredTest &test)
     {
       std::vector<const Channel *> filled;
@@ -73,16 +83,8 @@ namespace SlipStep
     /// Keep some rows, in that order.
     void Rows::keep(const std::vector<std::size_t> &rows)
     {
-      const auto choose = [&](auto &values) {
-        auto chosen = values;
-        chosen.resize(rows.size());
-        for (std::size_t i = 0; i < rows.size(); ++i)
-          chosen[i] = values[rows[i]];
-        values = std::move(chosen);
-      };
-      for (const Channel *channel : filled)
-        choose(test.*(channel->values));
-      choose(kept);
+      keep_rows(test, rows);
+      choose(kept, rows);
     }
 
 
@@ -276,6 +278,14 @@ namespace SlipStep
 
 
 
+  void keep_rows(MeasuredTest &test, const std::vector<std::size_t> &rows)
+  {
+    for (const Channel *channel : filled_channels(test))
+      choose(test.*(channel->values), rows);
+  }
+
+
+
   std::vector<double> without_jitter(const std::vector<double> &displacement,
                                      const double               band)
   {
@@ -300,17 +310,14 @@ namespace SlipStep
 
 
 
-  namespace
+  double median(std::vector<double> values)
   {
-    double median(std::vector<double> values)
-    {
-      if (values.empty())
-        return 0.;
-      const auto middle = values.begin() + values.size() / 2;
-      std::nth_element(values.begin(), middle, values.end());
-      return *middle;
-    }
-  } // namespace
+    if (values.empty())
+      return 0.;
+    const auto middle = values.begin() + values.size() / 2;
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  }
 
 
 

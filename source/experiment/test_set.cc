@@ -109,11 +109,7 @@ namespace SlipStep
     for (const double pressure : test.pressure)
       if (pressure > 0.)
         pressed.push_back(pressure);
-    if (pressed.empty())
-      return 0.;
-    const auto middle = pressed.begin() + pressed.size() / 2;
-    std::nth_element(pressed.begin(), middle, pressed.end());
-    return *middle;
+    return median(std::move(pressed));
   }
 
 

@@ -49,6 +49,12 @@ namespace SlipStep
   /// differences, and not less than that of rounding to the recorded digits.
   double noise_level(const std::vector<double> &values);
 
+  /// Keep some rows of a test, in the order given.
+  void keep_rows(MeasuredTest &test, const std::vector<std::size_t> &rows);
+
+  /// The upper one of an even number; 0 for none.
+  double median(std::vector<double> values);
+
   /// Largest minus smallest value; 0 for none.
   double range_of(const std::vector<double> &values);
 } // namespace SlipStep
