@@ -416,8 +416,6 @@ namespace SlipStep
                                    variant.folder));
           for (const std::string &setting : line.settings_as_typed)
             jobs.back().arguments.push_back("--set=" + setting);
-          if (line.resume)
-            jobs.back().arguments.push_back("--resume");
           if (earlier[i] == EarlierRun::none)
             remove_earlier_results(output / variant.folder);
         }

@@ -372,6 +372,8 @@ namespace SlipStep
       job.arguments.push_back("--variant=" + variant);
     if (line.quiet)
       job.arguments.push_back("--quiet");
+    if (line.resume)
+      job.arguments.push_back("--resume");
     return job;
   }
 

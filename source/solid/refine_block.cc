@@ -96,8 +96,6 @@ namespace SlipStep
           for (const auto &setting : run.settings)
             job.arguments.push_back("--set=" + setting.first + "=" +
                                     setting.second);
-          if (line.resume)
-            job.arguments.push_back("--resume");
           jobs.push_back(job);
           if (earlier[i] == EarlierRun::none)
             remove_earlier_results(output / run.folder);
