@@ -115,9 +115,16 @@ public:
     return content(out_file);
   }
 
+  /// Without what Open MPI's daemon says when the program that it serves is
+  /// killed under its hands.
   std::string err() const
   {
-    return content(err_file);
+    std::istringstream in(content(err_file));
+    std::string        line, own;
+    while (std::getline(in, line))
+      if (line.find("ORTE_ERROR_LOG") == std::string::npos)
+        own += line + '\n';
+    return own;
   }
 
   static std::string content(const std::filesystem::path &file)
