@@ -2,17 +2,16 @@
 
 #include <slipstep/experiment/report_data.h>
 #include <slipstep/experiment/report_figures.h>
+#include <slipstep/experiment/repeat_command.h>
 #include <slipstep/experiment/report_html.h>
 #include <slipstep/utilities/figure.h>
-#include <slipstep/utilities/version.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 namespace SlipStep
@@ -62,44 +61,6 @@ namespace SlipStep
 
   namespace
   {
-    /// Length in characters, not bytes.
-    std::size_t text_width(const std::string &text)
-    {
-      return std::count_if(text.begin(), text.end(), [](const char c) {
-        return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-      });
-    }
-
-    /// Columns to the right, but the first, which holds names.
-    std::string text_table(const std::vector<TableLine> &lines)
-    {
-      std::vector<std::size_t> widths(lines[0].size(), 0);
-      for (const TableLine &line : lines)
-        for (std::size_t i = 0; i < line.size(); ++i)
-          widths[i] = std::max(widths[i], text_width(line[i]));
-
-      std::string text;
-      for (std::size_t n = 0; n < lines.size(); ++n)
-        {
-          for (std::size_t i = 0; i < lines[n].size(); ++i)
-            {
-              const std::string space(widths[i] - text_width(lines[n][i]), ' ');
-              text += (i == 0 ? "  " : "   ") +
-                      (i == 0 ? lines[n][i] + space : space + lines[n][i]);
-            }
-          text.erase(text.find_last_not_of(' ') + 1);
-          text += '\n';
-          if (n == 0)
-            {
-              std::size_t total = 0;
-              for (const std::size_t width : widths)
-                total += width + 3;
-              text += "  " + std::string(total - 3, '-') + '\n';
-            }
-        }
-      return text;
-    }
-
     bool is_reverse(const SlideSummary &slide)
     {
       return std::cos(slide.angle) < -1e-9;
@@ -335,57 +296,21 @@ namespace SlipStep
 
   namespace
   {
-    const char *const style = R"(
-:root { color-scheme: light; }
-body { font: 16px/1.5 "DejaVu Sans", Verdana, sans-serif; color: #222;
-  background: #fff; max-width: 900px; margin: 2em auto; padding: 0 1em; }
-h1 { font-size: 1.6em; margin: 0 0 .2em; }
-h2 { font-size: 1.2em; margin: 2em 0 .5em; border-bottom: 1px solid #ccc;
-  padding-bottom: .15em; }
-.headline { font-size: 1.1em; margin: .4em 0 1.2em; }
-.origin { color: #666; font-size: .85em; }
-.problem { border-left: 4px solid #D55E00; background: #fdf3ec;
-  padding: .5em .8em; margin: .8em 0; }
-.scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-size: .85em; margin: .5em 0 1em;
-  font-variant-numeric: tabular-nums; }
-th { text-align: left; vertical-align: bottom; border-bottom: 2px solid #888;
-  font-weight: 600; }
-th, td { padding: .25em .8em .25em 0; }
-td { border-bottom: 1px solid #e4e4e4; vertical-align: top; }
-.numbers th, .numbers td { text-align: right; }
-.numbers th:first-child, .numbers td:first-child { text-align: left;
-  white-space: nowrap; }
-.values td:last-child { font-family: "DejaVu Sans Mono", monospace; }
-figure { margin: 0 0 1.5em; break-inside: avoid; }
-figcaption { color: #555; font-size: .85em; }
-svg { width: 100%; height: auto; display: block; }
-.map svg path, .map svg polygon { shape-rendering: crispEdges; }
-summary { cursor: pointer; color: #0072B2; margin: 1em 0; }
-pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
-  font-size: .85em; }
-@media print { body { margin: 0; max-width: none; font-size: 11pt; }
-  .scroll { overflow: visible; } h2 { break-after: avoid; }
-  tr { break-inside: avoid; } pre { white-space: pre-wrap; } }
-)";
-
     std::string problem_boxes(const std::vector<RunResults>  &runs,
                               const std::vector<std::string> &warnings)
     {
       std::string html;
-      const auto  add = [&html](const std::string &text) {
-        html += "<p class='problem'>" + html_text(text) + "</p>\n";
-      };
       for (const RunResults &run : runs)
         {
           if (run.summary.status == "failed")
-            add("Run " + run_name(run) + " failed: " + run.summary.reason +
-                ". What follows shows it up to there.");
+            html += problem_box("Run " + run_name(run) +
+                                " failed: " + run.summary.reason +
+                                ". What follows shows it up to there.");
           for (const std::string &warning : run.summary.warnings)
-            add("Run " + run_name(run) + ": " + warning);
+            html += problem_box("Run " + run_name(run) + ": " + warning);
         }
       for (const std::string &warning : warnings)
-        add(warning);
+        html += problem_box(warning);
       return html;
     }
 
@@ -403,48 +328,23 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
       return shown;
     }
 
-    std::string quoted(const std::string &text)
-    {
-      return text.find_first_of(" '\"$&;()<>|*?`\\") == std::string::npos ?
-               text :
-               "\"" + text + "\"";
-    }
-
-    /// The options --set that the user gave.
-    std::string settings(const Parameters &parameters)
-    {
-      std::string text;
-      for (const std::string &path : parameters.paths())
-        if (parameters.is_set(path) &&
-            begins_with(parameters.origin(path), "--set"))
-          text += " --set \"" + path + "=" + parameters.text(path) + "\"";
-      return text;
-    }
-
     /// How to get these results again.
     std::string repetition(const Parameters              &parameters,
                            const std::vector<RunResults> &runs)
     {
-      // ./run tells how it was called.
-      const char *const script = std::getenv("SLIPSTEP_CALLED_AS");
-      const auto        call = [&](const Summary &s, const std::string &file) {
-        return (s.ranks > 1 ?
-                         "mpirun -np " + std::to_string(s.ranks) + " slipstep " :
-                       script != nullptr ? quoted(script) + " " :
-                                           "slipstep ") +
-               s.command + " " + quoted(file);
-      };
-      std::string html =
-        "<p>The whole case, as its file is now:</p>\n<pre>" +
-        html_text(call(runs[0].summary, parameters.case_file().string()) +
-                  settings(parameters)) +
-        "\n</pre>\n";
+      std::string html = "<p>The whole case, as its file is now:</p>\n<pre>" +
+                         html_text(program_call(runs[0].summary.command,
+                                                parameters.case_file().string(),
+                                                runs[0].summary.ranks) +
+                                   given_settings(parameters)) +
+                         "\n</pre>\n";
       std::string single;
       for (const RunResults &run : runs)
         if (std::filesystem::exists(run.folder / "used_parameters.prm"))
-          single +=
-            call(run.summary, (run.folder / "used_parameters.prm").string()) +
-            "\n";
+          single += program_call(run.summary.command,
+                                 (run.folder / "used_parameters.prm").string(),
+                                 run.summary.ranks) +
+                    "\n";
       if (!single.empty())
         html += "<p>One run, with every value it used:</p>\n<pre>" +
                 html_text(single) + "</pre>\n";
@@ -467,16 +367,9 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
                      const std::string              &study,
                      const std::vector<std::string> &warnings)
     {
-      const auto         rows  = result_rows(runs, reference);
-      const std::string  title = html_text(case_title(parameters, runs));
+      const auto         rows = result_rows(runs, reference);
       std::ostringstream html;
-      html << "<!DOCTYPE html>\n<html lang='en'>\n<head>\n"
-           << "<meta charset='utf-8'>\n<meta name='viewport' "
-           << "content='width=device-width, initial-scale=1'>\n<title>" << title
-           << "</title>\n<style>" << style << "</style>\n</head>\n<body>\n<h1>"
-           << title << "</h1>\n<p class='headline'>"
-           << html_text(headline(rows, reference)) << "</p>\n"
-           << problem_boxes(runs, warnings) << study;
+      html << problem_boxes(runs, warnings) << study;
       if (!rows.empty())
         html
           << html_table(result_lines(rows, reference, true))
@@ -495,11 +388,9 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
                << "<h2>Repeat it</h2>\n"
                << repetition(parameters, runs);
         }
-      html << "<p class='origin'>slipstep " << html_text(version()) << " ("
-           << html_text(git_hash())
-           << "). Data and gnuplot scripts of the pictures: folder report/ "
-              "beside this file.</p>\n</body>\n</html>\n";
-      return html.str();
+      return html_page(case_title(parameters, runs),
+                       headline(rows, reference),
+                       html.str());
     }
   } // namespace
 
@@ -518,13 +409,8 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
     const auto pictures =
       draw_pictures(picture_folder, results, reference, warnings);
 
-    const std::filesystem::path file = folder / "report.html";
-    std::ofstream               out(file);
-    out << page(parameters, reference, results, pictures, study, warnings)
-        << std::flush;
-    if (!out)
-      throw RunError(file.string() +
-                     ": this file cannot be written (is the disk full?)");
+    write_file(folder / "report.html",
+               page(parameters, reference, results, pictures, study, warnings));
     return warnings;
   }
 } // namespace SlipStep

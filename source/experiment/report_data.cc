@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -321,7 +322,9 @@ namespace SlipStep
       return "–";
     char buffer[64];
     std::snprintf(buffer, sizeof(buffer), "%.*f", decimals, value);
-    return buffer;
+    // Without the sign of a negative value that is rounded to zero.
+    const bool is_zero = std::strspn(buffer, "-0.") == std::strlen(buffer);
+    return is_zero && buffer[0] == '-' ? buffer + 1 : buffer;
   }
 
 

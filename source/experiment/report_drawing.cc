@@ -21,6 +21,17 @@ namespace SlipStep
 
 
 
+  double round_up(const double value)
+  {
+    const double decade = std::pow(10., std::floor(std::log10(value)));
+    for (const double factor : {1., 2., 5.})
+      if (factor * decade >= value * (1. - 1e-9))
+        return factor * decade;
+    return 10. * decade;
+  }
+
+
+
   Picture finish(Figure                   &figure,
                  const std::string        &title,
                  const std::string        &caption,

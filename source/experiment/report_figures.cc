@@ -40,16 +40,6 @@ namespace SlipStep
       return style.substr(0, style.find(" dt "));
     }
 
-    /// The next of 1, 2, 5, 10, ...
-    double round_up(const double value)
-    {
-      const double decade = std::pow(10., std::floor(std::log10(value)));
-      for (const double factor : {1., 2., 5.})
-        if (factor * decade >= value * (1. - 1e-9))
-          return factor * decade;
-      return 10. * decade;
-    }
-
     /// Drop points that a reader could not tell from the one before.
     Rows thinned(const Rows &points)
     {

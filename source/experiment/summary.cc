@@ -1,6 +1,7 @@
 #include <slipstep/experiment/summary.h>
 
 #include <slipstep/utilities/version.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -147,23 +148,10 @@ namespace SlipStep
 
   void write_summary(const std::filesystem::path &file, const Summary &summary)
   {
-    const std::filesystem::path temporary = file.string() + ".part";
-    {
-      std::ofstream out(temporary);
-      out << to_json(summary).dump(2,
-                                   ' ',
-                                   false,
-                                   json::error_handler_t::replace)
-          << std::endl;
-      if (!out)
-        {
-          std::error_code error;
-          std::filesystem::remove(temporary, error);
-          throw RunError(file.string() +
-                         ": cannot be written (is the disk full?)");
-        }
-    }
-    std::filesystem::rename(temporary, file);
+    write_file(
+      file,
+      to_json(summary).dump(2, ' ', false, json::error_handler_t::replace) +
+        "\n");
   }
 
 

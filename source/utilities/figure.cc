@@ -1,7 +1,7 @@
 #include <slipstep/utilities/figure.h>
 
 #include <slipstep/utilities/csv.h>
-#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -12,15 +12,6 @@ namespace SlipStep
 {
   namespace
   {
-    void write_file(const std::filesystem::path &file,
-                    const std::string           &content)
-    {
-      std::ofstream out(file);
-      out << content << std::flush;
-      if (!out)
-        throw RunError(file.string() + ": this file cannot be written");
-    }
-
     std::string shell_quoted(const std::string &text)
     {
       std::string quoted = "'";

@@ -40,6 +40,9 @@ namespace SlipStep
   /// Axes, ticks and grid of all pictures with curves, as gnuplot commands.
   extern const char *const axes_style;
 
+  /// The next of 1, 2, 5, 10, ...
+  double round_up(const double value);
+
   /// What legends call a run.
   std::string legend(const RunResults &run);
 

@@ -2,16 +2,26 @@
 #define slipstep_experiment_report_html_h
 
 #include <slipstep/experiment/report_figures.h>
+#include <slipstep/experiment/text_table.h>
 
 #include <string>
 #include <vector>
 
 namespace SlipStep
 {
-  using TableLine = std::vector<std::string>;
+  /// A page complete in itself: style, heading, content, and the program's
+  /// version at its end.
+  /// @param title,headline plain text
+  /// @param content HTML
+  std::string html_page(const std::string &title,
+                        const std::string &headline,
+                        const std::string &content);
+
+  /// Something that the reader has to know first.
+  std::string problem_box(const std::string &text);
 
   /// A table, the first line being its head.
-  /// @param kind style: "numbers" or "values"
+  /// @param kind style: "numbers", with "unbroken" also of long cells, or "values"
   std::string html_table(const std::vector<TableLine> &lines,
                          const std::string            &kind = "numbers");
 
