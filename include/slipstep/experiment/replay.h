@@ -1,0 +1,118 @@
+#ifndef slipstep_experiment_replay_h
+#define slipstep_experiment_replay_h
+
+#include <slipstep/experiment/machine.h>
+#include <slipstep/experiment/measured_test.h>
+#include <slipstep/friction/law.h>
+
+#include <vector>
+
+namespace SlipStep
+{
+  /// A contact point led through the motion and the pressure of a measured
+  /// test, again and again with other parameters.
+  ///
+  /// plan() chooses the steps for one law; simulate() takes the same steps with
+  /// any other, so that its results are smooth functions of the parameters and
+  /// can be differentiated by differences.
+  class Replay
+  {
+  public:
+    /// @param motion its rows are the borders of steps, see resample()
+    /// @param lead_in length [mm] slid before the first row, in the direction
+    ///   and with the speed of the first motion, under the first pressure: for
+    ///   records that begin while the contact slides already
+    explicit Replay(const MeasuredTest &motion, const double lead_in = 0.);
+
+    /// Choose the steps such that the error which the law estimates for each
+    /// is at most @p tolerance, relative to the friction at full slip, or leave
+    /// them as they are where they are fine enough already.
+    /// @throws RunError if no step is small enough
+    void plan(const FrictionLaw &law,
+              const Machine     &machine,
+              const double       tolerance);
+
+    /// The same with every step cut into two equal ones: friction differs by
+    /// half of its error to first order.
+    Replay halved() const;
+
+    /// Time at the end of every step planned, beginning with the first row [s].
+    const std::vector<double> &times() const
+    {
+      return time_list;
+    }
+
+    /// Tangential over normal traction, 0 where there is no pressure, along
+    /// both axes, at times().
+    struct Curve
+    {
+      std::vector<double> friction;
+      std::vector<double> friction_y;
+    };
+
+    /// @param[out] curve resized
+    void simulate(const FrictionLaw &law,
+                  const Machine     &machine,
+                  Curve             &curve) const;
+
+    /// A curve at other times, which must be increasing and within times(); by
+    /// straight lines.
+    std::vector<double> at(const std::vector<double> &curve,
+                           const std::vector<double> &wanted_times) const;
+
+    /// Updates of the contact point that simulate() makes.
+    std::size_t n_steps() const
+    {
+      return steps.size();
+    }
+
+  private:
+    /// From one row to the next, or the lead-in.
+    struct Interval
+    {
+      dealii::Tensor<1, 2> motion; ///< [mm]
+      double               start_pressure;
+      double               end_pressure;
+      double               duration;
+    };
+
+    /// A part of an interval.
+    struct Step
+    {
+      std::size_t interval;
+      double      begin; ///< of the interval, 0 to 1
+      double      end;
+    };
+
+    void add_lead_in(const MeasuredTest &motion, const double length);
+
+    /// Time after which a step in this interval ends, infinite if the motion
+    /// just goes on.
+    double first_step(const std::size_t  interval,
+                      const FrictionLaw &law,
+                      const Machine     &machine) const;
+
+    bool attempt(const Step        &step,
+                 const FrictionLaw &law,
+                 const Machine     &machine,
+                 const double       tolerance,
+                 ContactPoint      &point,
+                 double            &wanted_step) const;
+
+    ContactResponse make(const Step        &step,
+                         const FrictionLaw &law,
+                         const Machine     &machine,
+                         ContactPoint      &point) const;
+
+    std::vector<Interval> intervals;
+    /// Intervals before the first row.
+    std::size_t         n_before = 0;
+    double              start_time;
+    double              largest_pressure = 0.;
+    std::vector<Step>   steps;
+    std::size_t         first_compared = 0; ///< of the steps
+    std::vector<double> time_list;
+  };
+} // namespace SlipStep
+
+#endif

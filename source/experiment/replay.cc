@@ -1,0 +1,271 @@
+#include <slipstep/experiment/replay.h>
+
+#include <slipstep/utilities/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace SlipStep
+{
+  using dealii::Tensor;
+
+  namespace
+  {
+    Tensor<1, 2> position(const MeasuredTest &test, const std::size_t row)
+    {
+      Tensor<1, 2> result;
+      result[0] = test.displacement[row];
+      if (!test.displacement_y.empty())
+        result[1] = test.displacement_y[row];
+      return result;
+    }
+  } // namespace
+
+
+
+  Replay::Replay(const MeasuredTest &motion, const double lead_in)
+    : start_time(motion.time.front())
+  {
+    // Put on the plane, the contact takes the first pressure at once.
+    intervals.push_back({Tensor<1, 2>(), 0., motion.pressure.front(), 1.});
+    if (lead_in > 0.)
+      add_lead_in(motion, lead_in);
+    n_before = intervals.size();
+    for (std::size_t i = 1; i < motion.time.size(); ++i)
+      intervals.push_back({position(motion, i) - position(motion, i - 1),
+                           motion.pressure[i - 1],
+                           motion.pressure[i],
+                           motion.time[i] - motion.time[i - 1]});
+    largest_pressure =
+      *std::max_element(motion.pressure.begin(), motion.pressure.end());
+
+    for (std::size_t i = 0; i < intervals.size(); ++i)
+      steps.push_back({i, 0., 1.});
+  }
+
+
+
+  // The first motion that is more than a tremble decides on direction and
+  // speed.
+  void Replay::add_lead_in(const MeasuredTest &motion, const double length)
+  {
+    double largest = 0.;
+    for (std::size_t i = 1; i < motion.time.size(); ++i)
+      largest =
+        std::max(largest, (position(motion, i) - position(motion, 0)).norm());
+    for (std::size_t i = 1; i < motion.time.size(); ++i)
+      {
+        const Tensor<1, 2> moved = position(motion, i) - position(motion, 0);
+        if (moved.norm() < 0.02 * largest || largest == 0.)
+          continue;
+        const double speed =
+          moved.norm() / (motion.time[i] - motion.time.front());
+        intervals.push_back({length / moved.norm() * moved,
+                             motion.pressure.front(),
+                             motion.pressure.front(),
+                             length / speed});
+        return;
+      }
+  }
+
+
+
+  ContactResponse Replay::make(const Step        &step,
+                               const FrictionLaw &law,
+                               const Machine     &machine,
+                               ContactPoint      &point) const
+  {
+    const Interval &interval = intervals[step.interval];
+    const double    share    = step.end - step.begin;
+    return machine.update(law,
+                          point,
+                          share * interval.motion,
+                          interval.start_pressure +
+                            step.end *
+                              (interval.end_pressure - interval.start_pressure),
+                          share * interval.duration);
+  }
+
+
+
+  namespace
+  {
+    // Whether the contact has to stick anew, or to let go.
+    bool is_abrupt(const Tensor<1, 2> &before, const Tensor<1, 2> &now)
+    {
+      const double slow = std::min(before.norm(), now.norm());
+      const double fast = std::max(before.norm(), now.norm());
+      return fast > 0. &&
+             (slow < 0.2 * fast || before * now < 0.5 * slow * fast);
+    }
+  } // namespace
+
+
+
+  // What the load point moves before the contact slides, a small part of it.
+  double Replay::first_step(const std::size_t  interval,
+                            const FrictionLaw &law,
+                            const Machine     &machine) const
+  {
+    constexpr double first_slip = 0.1; // of the elastic one
+
+    const Interval    &now  = intervals[interval];
+    const Tensor<1, 2> rate = now.motion / now.duration;
+    const Tensor<1, 2> rate_before =
+      interval == 0 ?
+        Tensor<1, 2>() :
+        intervals[interval - 1].motion / intervals[interval - 1].duration;
+    if (!is_abrupt(rate_before, rate))
+      return std::numeric_limits<double>::infinity();
+    Tensor<1, 2> traction;
+    traction[0] =
+      law.static_coefficient() * std::max(now.start_pressure, now.end_pressure);
+    const double elastic_slip =
+      traction[0] / law.tangential_stiffness() +
+      machine.contact_slip(Tensor<1, 2>(), traction).norm();
+    return first_slip * elastic_slip /
+           std::max(rate.norm(), rate_before.norm());
+  }
+
+
+
+  // One step is tried; the next one is told. Returns whether it is good.
+  bool Replay::attempt(const Step        &step,
+                       const FrictionLaw &law,
+                       const Machine     &machine,
+                       const double       tolerance,
+                       ContactPoint      &point,
+                       double            &wanted_step) const
+  {
+    // Least share of an interval: a jump of a soft machine takes no time.
+    constexpr double least_share = 1e-9;
+
+    const double made =
+      (step.end - step.begin) * intervals[step.interval].duration;
+    const double scale = law.static_coefficient() * largest_pressure;
+    const double error = make(step, law, machine, point).error /
+                         std::max({scale, point.trial().strength, 1e-300});
+    const double factor = 0.9 * std::sqrt(tolerance / std::max(error, 1e-30));
+    if (error <= 1.5 * tolerance)
+      {
+        wanted_step = std::max(made, wanted_step) * std::min(factor, 2.);
+        return true;
+      }
+    wanted_step = made * std::clamp(factor, 0.1, 0.7);
+    if (step.end - step.begin > least_share)
+      return false;
+    if (!std::isfinite(error))
+      throw RunError("no time step is small enough");
+    return true;
+  }
+
+
+
+  void Replay::plan(const FrictionLaw &law,
+                    const Machine     &machine,
+                    const double       tolerance)
+  {
+    ContactPoint point(law);
+    steps.clear();
+    time_list.assign(1, start_time);
+    double time = start_time, wanted_step = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < intervals.size(); ++i)
+      {
+        const double duration = intervals[i].duration;
+        if (i == n_before)
+          first_compared = steps.size();
+        wanted_step = std::min(wanted_step, first_step(i, law, machine));
+        for (double begin = 0.; begin < 1.;)
+          {
+            const double left  = 1. - begin;
+            double       share = std::min(left, wanted_step / duration);
+            // Two equal ones instead of one and a crumb.
+            if (share < left && share > left / 2.)
+              share = left / 2.;
+            const Step step = {i, begin, share == left ? 1. : begin + share};
+            if (!attempt(step, law, machine, tolerance, point, wanted_step))
+              continue;
+            point.commit();
+            steps.push_back(step);
+            begin = step.end;
+            if (i >= n_before)
+              time_list.push_back(time + begin * duration);
+          }
+        if (i >= n_before)
+          time += duration;
+      }
+    if (intervals.size() == n_before)
+      first_compared = steps.size();
+  }
+
+
+
+  Replay Replay::halved() const
+  {
+    Replay result = *this;
+    result.steps.clear();
+    result.time_list.assign(1, start_time);
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      {
+        const double middle = (steps[i].begin + steps[i].end) / 2.;
+        result.steps.push_back({steps[i].interval, steps[i].begin, middle});
+        result.steps.push_back({steps[i].interval, middle, steps[i].end});
+        if (i < first_compared)
+          continue;
+        const double end = time_list[i - first_compared + 1];
+        result.time_list.push_back((result.time_list.back() + end) / 2.);
+        result.time_list.push_back(end);
+      }
+    result.first_compared = 2 * first_compared;
+    return result;
+  }
+
+
+
+  void Replay::simulate(const FrictionLaw &law,
+                        const Machine     &machine,
+                        Curve             &curve) const
+  {
+    ContactPoint point(law);
+    curve.friction.clear();
+    curve.friction_y.clear();
+    const auto observe = [&]() {
+      const ContactState &state = point.committed();
+      const double        inverse =
+        state.normal_traction > 0. ? 1. / state.normal_traction : 0.;
+      curve.friction.push_back(state.traction[0] * inverse);
+      curve.friction_y.push_back(state.traction[1] * inverse);
+    };
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      {
+        if (i == first_compared)
+          observe();
+        make(steps[i], law, machine, point);
+        point.commit();
+        if (i >= first_compared)
+          observe();
+      }
+  }
+
+
+
+  std::vector<double> Replay::at(const std::vector<double> &curve,
+                                 const std::vector<double> &wanted_times) const
+  {
+    std::vector<double> result;
+    result.reserve(wanted_times.size());
+    std::size_t i = 1;
+    for (const double time : wanted_times)
+      {
+        while (i + 1 < time_list.size() && time_list[i] < time)
+          ++i;
+        const double length = time_list[i] - time_list[i - 1];
+        const double share =
+          length > 0. ? std::clamp((time - time_list[i - 1]) / length, 0., 1.) :
+                        1.;
+        result.push_back((1. - share) * curve[i - 1] + share * curve[i]);
+      }
+    return result;
+  }
+} // namespace SlipStep

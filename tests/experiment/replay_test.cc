@@ -1,0 +1,174 @@
+// The same point as that of a programme, and smooth in the parameters.
+
+#include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/replay.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../friction/law_test_tools.h"
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  Parameters make_parameters(const Settings &settings)
+  {
+    Parameters parameters;
+    declare_loading_parameters(parameters);
+    FrictionLaw::declare_parameters(parameters);
+    for (const auto &setting : settings)
+      parameters.set(setting.first, setting.second, "test");
+    return parameters;
+  }
+
+  // 1 mm forth and 0.5 mm back, then under more pressure, and to the side.
+  MeasuredTest zigzag()
+  {
+    MeasuredTest test;
+    test.time           = {0., 10., 15., 16., 20.};
+    test.displacement   = {0., 1., 0.5, 0.5, 0.9};
+    test.displacement_y = {0., 0., 0., 0., 0.3};
+    test.pressure       = {5.8, 5.8, 5.8, 8., 8.};
+    test.friction.assign(5, 0.);
+    return test;
+  }
+
+  std::vector<double> friction_at(const Parameters          &parameters,
+                                  const double               tolerance,
+                                  const std::vector<double> &times,
+                                  const double               lead_in = 0.)
+  {
+    const FrictionLaw law(parameters);
+    const Machine     machine(parameters);
+    Replay            replay(zigzag(), lead_in);
+    replay.plan(law, machine, tolerance);
+    Replay::Curve curve;
+    replay.simulate(law, machine, curve);
+    return replay.at(curve.friction, times);
+  }
+} // namespace
+
+
+
+TEST(Replay, AgreesWithTheProgrammeOfTheSameMotion)
+{
+  const Parameters parameters = make_parameters(
+    {{"Loading/Programme",
+      "press 5.8 MPa in 1 s; slide 0.1 mm/s for 1 mm; slide -0.1 mm/s for 0.5 "
+      "mm; press 8 MPa in 1 s; slide 0.125 mm/s for 0.5 mm at 36.86989764584402 "
+      "deg"},
+     {"Time stepping/Tolerance", "1e-8"}});
+  const FrictionLaw       law(parameters);
+  const Programme         programme = parse_programme(parameters);
+  std::vector<HistoryRow> history;
+  drive_point(law,
+              programme,
+              StepControl(parameters, programme, law),
+              [&](const HistoryRow &row) { history.push_back(row); });
+
+  Replay replay(zigzag());
+  replay.plan(law, Machine(), 1e-8);
+  Replay::Curve curve;
+  replay.simulate(law, Machine(), curve);
+  std::vector<double> times, friction, friction_y;
+  for (const HistoryRow &row : history)
+    if (row.time > 1.)
+      {
+        times.push_back(row.time - 1.);
+        friction.push_back(row.friction);
+        friction_y.push_back(row.friction_y);
+      }
+  const auto x = replay.at(curve.friction, times);
+  const auto y = replay.at(curve.friction_y, times);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    {
+      // The fast relaxation at rest is the hardest.
+      ASSERT_NEAR(x[i], friction[i], 2e-4) << times[i];
+      ASSERT_NEAR(y[i], friction_y[i], 2e-4) << times[i];
+    }
+}
+
+
+
+TEST(Replay, ErrorFallsWithTheTolerance)
+{
+  const Parameters          parameters = make_parameters({});
+  const std::vector<double> times      = {1., 9., 12., 18., 20.};
+  const auto                exact      = friction_at(parameters, 1e-9, times);
+  for (const double tolerance : {1e-3, 1e-4, 1e-5})
+    {
+      const auto coarse = friction_at(parameters, tolerance, times);
+      for (std::size_t i = 0; i < times.size(); ++i)
+        EXPECT_NEAR(coarse[i], exact[i], 0.01 * std::sqrt(tolerance))
+          << times[i];
+    }
+}
+
+
+
+// What halving leaves is what it took away: steps of first order.
+TEST(Replay, HalvingTheStepsHalvesTheError)
+{
+  const Parameters          parameters = make_parameters({});
+  const FrictionLaw         law(parameters);
+  const std::vector<double> times = {0.05, 9.};
+  Replay                    replay(zigzag());
+  replay.plan(law, Machine(), 1e-5);
+  const auto friction = [&](const Replay &some) {
+    Replay::Curve curve;
+    some.simulate(law, Machine(), curve);
+    return some.at(curve.friction, times);
+  };
+  const auto whole = friction(replay), half = friction(replay.halved()),
+             quarter = friction(replay.halved().halved());
+  EXPECT_EQ(replay.halved().n_steps(), 2 * replay.n_steps());
+  for (std::size_t i = 0; i < times.size(); ++i)
+    EXPECT_NEAR((whole[i] - half[i]) / (half[i] - quarter[i]), 2., 0.1)
+      << times[i];
+}
+
+
+
+// After the same plan, second differences in a parameter are those of the
+// physics: they fall with the square of the difference.
+TEST(Replay, IsSmoothInTheParameters)
+{
+  const auto friction = [](const double viscosity) {
+    static Replay     replay(zigzag());
+    static const bool planned = [] {
+      const Parameters parameters = make_parameters({});
+      replay.plan(FrictionLaw(parameters), Machine(), 1e-5);
+      return true;
+    }();
+    EXPECT_TRUE(planned);
+    const Parameters parameters = make_parameters(
+      {{"Friction/overstress/Viscosity", std::to_string(viscosity)}});
+    Replay::Curve curve;
+    replay.simulate(FrictionLaw(parameters), Machine(), curve);
+    return replay.at(curve.friction, {8.}).front();
+  };
+  const auto bend = [&](const double step) {
+    return friction(11500. + step) - 2. * friction(11500.) +
+           friction(11500. - step);
+  };
+  EXPECT_NEAR(bend(200.) / bend(100.), 4., 0.01);
+}
+
+
+
+TEST(Replay, ALeadInStartsWhileSliding)
+{
+  const Parameters  parameters = make_parameters({});
+  const FrictionLaw law(parameters);
+  Replay            replay(zigzag(), 500.);
+  replay.plan(law, Machine(), 1e-5);
+  Replay::Curve curve;
+  replay.simulate(law, Machine(), curve);
+  // The kinetic coefficient at 0.1 mm/s, from the first row on.
+  EXPECT_EQ(replay.times().front(), 0.);
+  EXPECT_NEAR(curve.friction.front(), 0.098 * law.steady_ratio(0.1), 1e-6);
+  EXPECT_NEAR(curve.friction.front(), replay.at(curve.friction, {5.})[0], 1e-6);
+}
