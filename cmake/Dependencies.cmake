@@ -34,6 +34,12 @@ if(NOT nlohmann_json_FOUND)
                       "On Debian 12: apt-get install nlohmann-json3-dev")
 endif()
 
+find_package(Ceres 2.1 QUIET)
+if(NOT Ceres_FOUND)
+  message(FATAL_ERROR "slipstep needs Ceres Solver 2.1. On Debian 12: "
+                      "apt-get install libceres-dev libopenblas0-serial")
+endif()
+
 # deal.II's own DEAL_II_SETUP_TARGET would mix its headers with ours, and add
 # flags and a linker that this project chooses itself.
 include("${DEAL_II_TARGET_CONFIG}")

@@ -5,6 +5,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <slipstep/calibration/calibrate.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/import_map.h>
 #include <slipstep/experiment/import_tests.h>
@@ -494,6 +495,27 @@ namespace SlipStep
 
     // ------------------------------------------------------- other commands
 
+    int calibrate_case(const CommandLine &line)
+    {
+      const Case the_case = read_case(line.files.front(), line);
+      if (the_case.is_sweep())
+        throw InputError("slipstep calibrate fits one case, but " +
+                         line.files.front().string() +
+                         " is a sweep: choose a member with --variant \"" +
+                         the_case.variants.front().label + "\"");
+      check_all(the_case);
+      check_output(the_case, line);
+      RunOptions options;
+      options.quiet             = line.quiet;
+      options.output            = chosen_output(the_case, line);
+      options.inactive_sections = inactive_sections(the_case.parameters);
+      const SignalGuard guard;
+      run_calibration(the_case.parameters, options);
+      return done;
+    }
+
+
+
     void check_case_file(const fs::path &file, const CommandLine &line)
     {
       const Case the_case = read_case(file, line);
@@ -605,6 +627,8 @@ namespace SlipStep
         return check_cases(line);
       else if (line.command == "refine")
         return guarded([&]() { return refine_block(line); });
+      else if (line.command == "calibrate")
+        return guarded([&]() { return calibrate_case(line); });
       else if (line.command == "import")
         return guarded([&]() { return import_tests(line); });
       else if (line.command == "effects")

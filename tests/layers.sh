@@ -5,7 +5,7 @@
 set -u
 cd "${1:-$(dirname "$0")/..}" || exit 1
 
-rooms=(utilities friction experiment solid calibration diagnosis)
+rooms=(utilities friction experiment calibration diagnosis solid)
 most_lines=700
 violations=0
 

@@ -1,3 +1,5 @@
+#include <deal.II/base/utilities.h>
+
 #include <slipstep/experiment/point_driver.h>
 
 #include <slipstep/utilities/exceptions.h>
@@ -58,6 +60,16 @@ namespace SlipStep
     result.rewrite("Loading/Programme", [&](const std::string &text) {
       return relocated_programme(text, parameters.resolve("."), folder);
     });
+    for (const std::string &key : parameters.paths("Calibration/Tests"))
+      result.rewrite(key, [&](const std::string &text) {
+        std::string files;
+        for (const std::string &file :
+             dealii::Utilities::split_string_list(text, ","))
+          files += (files.empty() ? "" : ", ") +
+                   std::filesystem::proximate(parameters.resolve(file), folder)
+                     .generic_string();
+        return files;
+      });
     // Written down, what a later setting has made idle would be an error.
     for (const std::string &key : StepControl::idle_keys(parameters))
       result.rewrite(key, [&](const std::string &) {

@@ -50,6 +50,7 @@ namespace SlipStep
       for (const char *name : {"summary.json",
                                "history.csv",
                                "used_parameters.prm",
+                               "calibration.json",
                                "report.html"})
         if (fs::exists(folder / name))
           return true;
@@ -104,8 +105,12 @@ namespace SlipStep
   void remove_earlier_results(const fs::path &folder)
   {
     std::error_code error;
-    for (const char *name :
-         {"history.csv", "summary.json", "report.html", "refinement.csv"})
+    for (const char *name : {"history.csv",
+                             "summary.json",
+                             "report.html",
+                             "refinement.csv",
+                             "calibration.json",
+                             "fitted.prm"})
       fs::remove(folder / name, error);
     CheckpointStore(folder).remove();
   }

@@ -1,5 +1,6 @@
 #include <slipstep/solid/case.h>
 
+#include <slipstep/calibration/fit_parameter.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/machine.h>
 #include <slipstep/experiment/point_driver.h>
@@ -30,6 +31,7 @@ namespace SlipStep
     declare_quantities(parameters);
     RefinementStudy::declare_parameters(parameters);
     declare_checkpoint_parameters(parameters);
+    declare_calibration_parameters(parameters);
     declare_report_parameters(parameters);
   }
 

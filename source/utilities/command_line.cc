@@ -70,6 +70,18 @@ namespace SlipStep
          1,
          {"set", "output", "variant", "resume", "quiet"},
          {}},
+        {"calibrate",
+         "CASE.prm",
+         "find parameters from measured tests",
+         "Section \"Calibration\" of the case names the tests and the parameters\n"
+         "with their bounds. Prints and reports (report.html, calibration.json)\n"
+         "values with intervals, what the tests cannot tell, and how well each\n"
+         "test is met; fitted.prm is the case with the values found. Of a sweep,\n"
+         "choose one member with --variant.\n",
+         1,
+         1,
+         {"set", "output", "variant", "quiet"},
+         {}},
         {"import",
          "MAP.prm [RAW]",
          "convert files of instruments into measured tests",

@@ -1,0 +1,33 @@
+#ifndef slipstep_calibration_advice_h
+#define slipstep_calibration_advice_h
+
+#include <slipstep/calibration/uncertainty.h>
+
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// A test that could be made.
+  struct ProposedTest
+  {
+    std::string  words; ///< "slide at 0.01 mm/min"
+    MeasuredTest motion;
+  };
+
+  /// Tests beside those of the campaign: slower, faster, longer, after a hold,
+  /// under other pressures.
+  std::vector<ProposedTest> propose_tests(const Campaign &campaign);
+
+  /// The combinations of parameters that the tests hardly determine (standard
+  /// deviation above 0.3 in natural parameters), worst first, in words, each
+  /// with the proposed test that would determine it best.
+  std::vector<WeakDirection> find_weak_directions(Simulator &simulator,
+                                                  const Linearisation &optimum);
+
+  /// @throws InputError naming a parameter that changes nothing in the tests,
+  /// wherever it is between its bounds
+  void check_influence(const Campaign &campaign);
+} // namespace SlipStep
+
+#endif

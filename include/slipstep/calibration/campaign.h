@@ -1,0 +1,131 @@
+#ifndef slipstep_calibration_campaign_h
+#define slipstep_calibration_campaign_h
+
+#include <slipstep/calibration/derived.h>
+#include <slipstep/calibration/fit_parameter.h>
+#include <slipstep/experiment/machine.h>
+#include <slipstep/experiment/replay.h>
+#include <slipstep/friction/law.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// A measured test, prepared for comparison.
+  struct CampaignTest
+  {
+    /// Only the rows that are compared.
+    MeasuredTest rows;
+    /// Standard deviation of the friction by which differences are weighted.
+    double noise           = 0.;
+    bool   noise_is_stated = false;
+    /// Leads the contact point; with the fewer rows that resample() leaves.
+    Replay replay;
+
+    /// Whether friction_y is compared, too.
+    bool has_two_axes() const
+    {
+      return !rows.friction_y.empty();
+    }
+
+    std::size_t n_residuals() const
+    {
+      return rows.time.size() * (has_two_axes() ? 2 : 1);
+    }
+  };
+
+  /// The tests of a case and the parameters to be found from them.
+  class Campaign
+  {
+  public:
+    /// @throws InputError for tests that cannot be read, fewer rows than
+    /// parameters, or anything wrong with section "Calibration"
+    explicit Campaign(const Parameters &parameters);
+
+    const Parameters                parameters;
+    const std::vector<FitParameter> fitted;
+    const std::vector<Derived>      derived;
+    std::vector<CampaignTest>       tests;
+
+    /// Rows compared, twice for tests with two axes.
+    std::size_t n_residuals() const;
+
+    /// Largest error of a step, see Replay::plan().
+    const double tolerance;
+
+    /// The scaled values of the starts.
+    std::vector<double> scaled_start() const;
+
+    /// What was done to the rows of the tests.
+    std::vector<std::string> warnings() const;
+
+    /// Paths of the tests' files.
+    static std::vector<std::filesystem::path>
+    test_files(const Parameters &parameters);
+  };
+
+  /// Simulates all tests of a campaign. Each thread of a fit has its own; the
+  /// tests of one simulation run side by side on all cores.
+  class Simulator
+  {
+  public:
+    explicit Simulator(const Campaign &campaign);
+
+    /// Choose the steps for these scaled values; forgets what correct() found.
+    /// @throws InputError if the law refuses them, RunError if a test cannot be
+    /// simulated
+    void plan(const std::vector<double> &scaled);
+
+    /// From now on, add to all simulated curves what is missing from those of
+    /// very small steps at these values: their error then is one of second
+    /// order, and small as long as the values stay near.
+    void correct(const std::vector<double> &scaled);
+
+    /// Simulated minus measured friction over noise, all rows of all tests, by
+    /// the steps planned.
+    /// @throws InputError, RunError
+    void residuals(const std::vector<double> &scaled, double *result);
+
+    /// Their sum of squares.
+    double misfit(const std::vector<double> &scaled);
+
+    /// d residuals / d scaled by differences, columns of the parameters named,
+    /// stored by rows.
+    /// @param at residuals(scaled)
+    void derivatives(const std::vector<double>       &scaled,
+                     const std::vector<unsigned int> &columns,
+                     const double                    *at,
+                     double                          *result);
+
+    /// The simulated curves of a test at its rows.
+    Replay::Curve simulate(const std::vector<double> &scaled,
+                           const std::size_t          test);
+
+    /// The case with these values.
+    const Parameters &with(const std::vector<double> &scaled);
+
+    /// How often all tests were simulated.
+    unsigned int n_simulations() const
+    {
+      return n_done;
+    }
+
+    /// Updates of the contact point that one simulation takes.
+    std::size_t n_steps() const;
+
+    const Campaign &campaign;
+
+  private:
+    Parameters          parameters;
+    std::vector<Replay> replays;
+    /// To be added to the curves at the rows of each test; empty for none.
+    std::vector<Replay::Curve> corrections;
+    unsigned int               n_done = 0;
+    std::vector<double>        shifted; ///< residuals, kept to save its memory
+  };
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,42 @@
+#ifndef slipstep_calibration_fit_h
+#define slipstep_calibration_fit_h
+
+#include <slipstep/calibration/campaign.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Where a search for the least misfit ended.
+  struct FitResult
+  {
+    std::vector<double> scaled; ///< of all parameters, also those not searched
+    double              misfit     = std::numeric_limits<double>::infinity();
+    unsigned int        iterations = 0;
+    bool                converged  = false;
+    std::string         message; ///< why it ended
+  };
+
+  /// Find the least misfit by the method of Levenberg and Marquardt (Ceres
+  /// Solver), within the bounds.
+  /// @param free the parameters to be changed; the others stay
+  /// @param replans how often the time steps are chosen anew at the optimum
+  ///   found; with 0 they stay as planned
+  /// @throws InputError, RunError if the start cannot be simulated
+  FitResult fit(Simulator                       &simulator,
+                const std::vector<double>       &scaled_start,
+                const std::vector<unsigned int> &free,
+                const unsigned int               replans = 3);
+
+  /// All parameters, to be passed to fit().
+  std::vector<unsigned int> all_parameters(const Campaign &campaign);
+
+  /// The start of the case, then points spread between the bounds (a Sobol
+  /// sequence); of those that the law refuses others are taken instead.
+  std::vector<std::vector<double>> spread_starts(const Campaign    &campaign,
+                                                 const unsigned int n_starts);
+} // namespace SlipStep
+
+#endif

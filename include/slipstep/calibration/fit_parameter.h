@@ -1,0 +1,53 @@
+#ifndef slipstep_calibration_fit_parameter_h
+#define slipstep_calibration_fit_parameter_h
+
+#include <slipstep/utilities/parameters.h>
+
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// A parameter of the case that is to be found from tests.
+  ///
+  /// Inside the fit it is a number z between 0 and 1, its position between the
+  /// bounds on a linear or a logarithmic scale.
+  struct FitParameter
+  {
+    std::string path;
+    Dimension   dimension = Dimension::number;
+    /// Bounds and start in base units (rad for angles).
+    double lower          = 0.;
+    double upper          = 1.;
+    double start          = 0.;
+    bool   is_logarithmic = false;
+
+    double to_scaled(const double value) const;
+
+    double from_scaled(const double scaled) const;
+
+    /// "0.045 1/mm", as it stands in a case file.
+    std::string text(const double value, const int n_digits = 10) const;
+
+    /// The unit of text(), "" for a number.
+    std::string unit() const;
+
+    /// A value in unit(): degrees for angles, else the same.
+    double in_unit(const double value) const;
+
+    /// The last part of the path with as much before it as tells it from the
+    /// others: "Rate", "softening/Rate".
+    std::string name;
+  };
+
+  /// Declares section "Calibration".
+  void declare_calibration_parameters(Parameters &parameters);
+
+  /// The parameters that "Calibration/Parameters" lists.
+  /// @throws InputError for a path that does not exist, a key that is no number
+  /// or without meaning for a contact point, bounds that are not allowed, a
+  /// start outside of them, none at all
+  std::vector<FitParameter> read_fit_parameters(const Parameters &parameters);
+} // namespace SlipStep
+
+#endif

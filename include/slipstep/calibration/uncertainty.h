@@ -1,0 +1,83 @@
+#ifndef slipstep_calibration_uncertainty_h
+#define slipstep_calibration_uncertainty_h
+
+#include <slipstep/calibration/calibration.h>
+#include <slipstep/calibration/campaign.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace SlipStep
+{
+  /// The campaign around an optimum, to first order.
+  ///
+  /// Its parameters x are natural ones: the logarithm of a parameter on a
+  /// logarithmic scale, else its value over its size (over the distance of the
+  /// bounds if these have different signs), so that 0.1 is about ten per cent.
+  struct Linearisation
+  {
+    std::vector<double> scaled; ///< the optimum
+    double              misfit = 0.;
+
+    /// The triangular factor of the residuals' derivatives: R^T R = J^T J.
+    Eigen::MatrixXd R;
+
+    /// Variances are the inverse of J^T J times this: the mean square of the
+    /// residuals over the noise (1 if it is less), times the number of rows
+    /// that are off together.
+    double inflation = 1.;
+
+    /// Number of residuals that count as independent.
+    double n_effective = 0.;
+
+    /// dx / d scaled.
+    std::vector<double> size;
+
+    /// The right singular vectors as columns, with the standard deviation along
+    /// each, largest first; infinite where the tests say nothing.
+    Eigen::MatrixXd directions;
+    Eigen::VectorXd direction_deviations;
+
+    Eigen::MatrixXd correlation;
+
+    /// Standard deviation of every x.
+    Eigen::VectorXd deviations;
+
+    /// The increase of the misfit at which an interval ends.
+    double threshold(const double confidence) const;
+  };
+
+  /// @param simulator planned at the optimum
+  /// @param[out] tests the part of every test, with its curves
+  Linearisation linearise(Simulator                 &simulator,
+                          const std::vector<double> &scaled,
+                          std::vector<TestMisfit>   &tests);
+
+  /// How many neighbouring values hang together: 1 + 2 sum of the
+  /// autocorrelation as long as it is significantly positive.
+  double correlation_length(const double *values, const std::size_t n);
+
+  /// What a profile was followed to, to become FittedParameter::profile.
+  struct Profile
+  {
+    double lower         = 0.; ///< scaled
+    double upper         = 0.;
+    bool   is_lower_open = false;
+    bool   is_upper_open = false;
+    /// (scaled, increase of the misfit over threshold)
+    std::vector<std::pair<double, double>> points;
+    /// All parameters where the misfit was less than at the optimum; empty if
+    /// it was nowhere.
+    std::vector<double> better;
+  };
+
+  /// Move one parameter away from the optimum while all others are fitted
+  /// again, until the misfit has risen by the threshold, on both sides.
+  Profile profile(const Simulator     &planned,
+                  const Linearisation &optimum,
+                  const unsigned int   parameter,
+                  const double         confidence);
+} // namespace SlipStep
+
+#endif

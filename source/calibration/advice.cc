@@ -1,0 +1,426 @@
+#include <slipstep/calibration/advice.h>
+#include <slipstep/calibration/fit.h>
+#include <slipstep/experiment/test_rows.h>
+#include <slipstep/experiment/test_set.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // Above this standard deviation along it, a direction is weak.
+    constexpr double weak_deviation = 0.3;
+
+    // Share of a parameter's variance that makes it a member of a direction.
+    constexpr double member_share = 0.5;
+
+    // Few digits, but no exponents where people write none.
+    std::string rounded(const double value, const int n_digits = 2)
+    {
+      std::ostringstream out;
+      const double       size = std::abs(value);
+      if (size >= 100. && size < 1e6)
+        {
+          const double unit =
+            std::pow(10., std::floor(std::log10(size)) + 1. - n_digits);
+          out << std::fixed << std::setprecision(0)
+              << unit * std::round(value / unit);
+        }
+      else
+        out << std::setprecision(n_digits) << value;
+      return out.str();
+    }
+
+
+
+    std::string speed_in_words(const double speed)
+    {
+      return rounded(60. * speed) + " mm/min";
+    }
+
+
+
+    // ------------------------------------------------------ proposed tests
+
+    // What the campaign's tests were like.
+    struct Conditions
+    {
+      double slowest   = std::numeric_limits<double>::infinity(); ///< [mm/s]
+      double fastest   = 0.;
+      double lowest    = std::numeric_limits<double>::infinity(); ///< [MPa]
+      double highest   = 0.;
+      double longest   = 0.; ///< path [mm]
+      double last_rest = 0.; ///< longest time without motion [s]
+    };
+
+
+
+    Conditions conditions_of(const Campaign &campaign)
+    {
+      Conditions result;
+      for (const CampaignTest &test : campaign.tests)
+        {
+          const MeasuredTest &rows  = test.rows;
+          const double        speed = mean_speed(rows);
+          if (speed > 0.)
+            {
+              result.slowest = std::min(result.slowest, speed);
+              result.fastest = std::max(result.fastest, speed);
+            }
+          const double pressure = typical_pressure(rows);
+          result.lowest         = std::min(result.lowest, pressure);
+          result.highest        = std::max(result.highest, pressure);
+          result.longest =
+            std::max(result.longest, range_of(rows.displacement));
+        }
+      return result;
+    }
+
+
+
+    class Motion
+    {
+    public:
+      explicit Motion(const double pressure)
+        : pressure(pressure)
+      {
+        add(0., 0., 1);
+      }
+
+      void slide(const double speed, const double length)
+      {
+        // Dense at the beginning, where stick ends.
+        constexpr int n = 100;
+        const double  t = test.time.back(), u = test.displacement.back();
+        for (int i = 1; i <= n; ++i)
+          {
+            const double share = std::pow(static_cast<double>(i) / n, 3.);
+            add(t + share * length / speed, u + share * length, 1);
+          }
+      }
+
+      void rest(const double time)
+      {
+        add(test.time.back() + time, test.displacement.back(), 1);
+      }
+
+      MeasuredTest test;
+
+    private:
+      void add(const double time, const double displacement, const int)
+      {
+        test.time.push_back(time);
+        test.displacement.push_back(displacement);
+        test.pressure.push_back(pressure);
+        test.friction.push_back(0.);
+      }
+
+      const double pressure;
+    };
+
+
+
+    ProposedTest proposed_slide(const std::string &words,
+                                const double       speed,
+                                const double       pressure,
+                                const double       length)
+    {
+      Motion motion(pressure);
+      motion.slide(speed, length);
+      return {words, motion.test};
+    }
+  } // namespace
+
+
+
+  std::vector<ProposedTest> propose_tests(const Campaign &campaign)
+  {
+    const Conditions          now = conditions_of(campaign);
+    std::vector<ProposedTest> result;
+    if (!(now.fastest > 0.) || !(now.longest > 0.))
+      return result;
+    const double middle = std::sqrt(now.slowest * now.fastest);
+    for (const double factor : {0.1, 0.01, 0.001})
+      result.push_back(
+        proposed_slide("sliding at " + speed_in_words(factor * now.slowest),
+                       factor * now.slowest,
+                       now.highest,
+                       now.longest));
+    for (const double factor : {10., 100.})
+      result.push_back(
+        proposed_slide("sliding at " + speed_in_words(factor * now.fastest),
+                       factor * now.fastest,
+                       now.highest,
+                       now.longest));
+    for (const double factor : {3., 10.})
+      result.push_back(
+        proposed_slide("sliding for " + rounded(factor * now.longest) + " mm",
+                       middle,
+                       now.highest,
+                       factor * now.longest));
+    for (const double pressure : {now.lowest / 3., 3. * now.highest})
+      result.push_back(
+        proposed_slide("sliding under " + rounded(pressure) + " MPa",
+                       middle,
+                       pressure,
+                       now.longest));
+    for (const double rest : {10., 1000., 1e5})
+      {
+        Motion motion(now.highest);
+        motion.slide(middle, now.longest / 2.);
+        motion.rest(rest);
+        motion.slide(middle, now.longest / 2.);
+        result.push_back(
+          {"a rest of " + rounded(rest, 6) + " s between two slides",
+           motion.test});
+      }
+    Motion reversal(now.highest);
+    reversal.slide(middle, now.longest / 2.);
+    MeasuredTest     &test = reversal.test;
+    const double      t = test.time.back(), u = test.displacement.back();
+    const std::size_t n = test.time.size();
+    for (std::size_t i = 1; i < n; ++i)
+      {
+        test.time.push_back(t + test.time[i]);
+        test.displacement.push_back(u - test.displacement[i]);
+        test.pressure.push_back(now.highest);
+        test.friction.push_back(0.);
+      }
+    result.push_back({"a reversal", test});
+    return result;
+  }
+
+
+
+  namespace
+  {
+    // ----------------------------------------------------- weak directions
+
+    // How far the friction changes along one unit of a direction in a proposed
+    // test: sum of squares over the noise of the campaign.
+    double information(Simulator             &simulator,
+                       const Linearisation   &optimum,
+                       const Eigen::VectorXd &direction,
+                       const ProposedTest    &proposed)
+    {
+      const auto shifted = [&](const double step) {
+        std::vector<double> scaled = optimum.scaled;
+        for (std::size_t i = 0; i < scaled.size(); ++i)
+          scaled[i] =
+            std::clamp(scaled[i] + step * direction(i) / optimum.size[i],
+                       0.,
+                       1.);
+        return scaled;
+      };
+      const CampaignTest &like = simulator.campaign.tests.front();
+      Replay              replay(proposed.motion);
+      Replay::Curve       plus, minus;
+      constexpr double    step = 1e-3;
+      {
+        const Parameters &parameters = simulator.with(optimum.scaled);
+        replay.plan(FrictionLaw(parameters),
+                    Machine(parameters),
+                    simulator.campaign.tolerance);
+      }
+      {
+        const Parameters &parameters = simulator.with(shifted(step));
+        replay.simulate(FrictionLaw(parameters), Machine(parameters), plus);
+      }
+      {
+        const Parameters &parameters = simulator.with(shifted(-step));
+        replay.simulate(FrictionLaw(parameters), Machine(parameters), minus);
+      }
+      const std::vector<double> a =
+        replay.at(plus.friction, proposed.motion.time);
+      const std::vector<double> b =
+        replay.at(minus.friction, proposed.motion.time);
+      double sum = 0.;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        sum += std::pow((a[i] - b[i]) / (2. * step * like.noise), 2);
+      return sum;
+    }
+
+
+
+    // The proposed test that helps most, in words; "" if none does.
+    std::string best_test(Simulator                       &simulator,
+                          const Linearisation             &optimum,
+                          const Eigen::Index               which,
+                          const std::vector<ProposedTest> &proposed)
+    {
+      const Eigen::VectorXd direction = optimum.directions.col(which);
+      const double          before    = optimum.direction_deviations(which);
+      double                best      = before;
+      std::string           words;
+      for (const ProposedTest &test : proposed)
+        {
+          double gained = 0.;
+          try
+            {
+              gained = information(simulator, optimum, direction, test);
+            }
+          catch (const InputError &)
+            {}
+          catch (const RunError &)
+            {}
+          const double after =
+            1. / std::sqrt(1. / (before * before) + gained / optimum.inflation);
+          if (after < 0.9 * best)
+            {
+              best  = after;
+              words = test.words;
+            }
+        }
+      if (words.empty() || best > 0.5 * before)
+        return "";
+      const double gain = before / best;
+      return "; " + words +
+             (gain > 1e4 ? " would settle it" :
+                           " would bring the standard deviation down by a "
+                           "factor of " +
+                             rounded(gain));
+    }
+
+
+
+    std::string change_in_words(const FitParameter &parameter,
+                                const double        change)
+    {
+      if (parameter.is_logarithmic)
+        {
+          const double factor = std::exp(std::abs(change));
+          return parameter.name + (change > 0. ? " times " : " divided by ") +
+                 (factor > 1e6 ? "any factor" :
+                                 rounded(factor, factor < 1.2 ? 3 : 2));
+        }
+      return parameter.name + (change > 0. ? " plus " : " minus ") +
+             parameter.text(std::abs(change), 2);
+    }
+
+
+
+    std::string listing(const std::vector<std::string> &words)
+    {
+      std::string result;
+      for (std::size_t i = 0; i < words.size(); ++i)
+        result += (i == 0                ? "" :
+                   i + 1 == words.size() ? " and " :
+                                           ", ") +
+                  words[i];
+      return result;
+    }
+
+
+
+    std::string words_of(const WeakDirection &weak, const Campaign &campaign)
+    {
+      std::vector<std::string> names, changes;
+      for (const std::size_t i : weak.members)
+        {
+          names.push_back(campaign.fitted[i].path);
+          changes.push_back(
+            change_in_words(campaign.fitted[i], weak.change[i]));
+        }
+      if (weak.members.size() == 1)
+        return names[0] +
+               " is hardly determined by these tests: " + changes[0] +
+               " is within one standard deviation. Fix it";
+      return listing(names) + " cannot " +
+             (names.size() == 2 ? "both" : "all") +
+             " be found from these tests: " + listing(changes) +
+             " fit nearly as well. Fix one of them";
+    }
+  } // namespace
+
+
+
+  std::vector<WeakDirection> find_weak_directions(Simulator &simulator,
+                                                  const Linearisation &optimum)
+  {
+    const Campaign                 &campaign = simulator.campaign;
+    const std::vector<ProposedTest> proposed = propose_tests(campaign);
+    std::vector<WeakDirection>      result;
+    for (Eigen::Index k = 0; k < optimum.direction_deviations.size(); ++k)
+      {
+        const double deviation = std::min(optimum.direction_deviations(k), 1e9);
+        if (deviation < weak_deviation)
+          continue;
+        WeakDirection weak;
+        for (std::size_t i = 0; i < campaign.fitted.size(); ++i)
+          {
+            const double natural = deviation * optimum.directions(i, k);
+            // x is the logarithm, or the value over its size.
+            weak.change.push_back(
+              campaign.fitted[i].is_logarithmic ?
+                natural :
+                natural / optimum.size[i] *
+                  (campaign.fitted[i].upper - campaign.fitted[i].lower));
+            const double all = std::min(optimum.deviations(i), 1e9);
+            if (natural * natural > member_share * all * all)
+              weak.members.push_back(i);
+          }
+        // One of them has to be what is weak, and not only in company.
+        if (std::none_of(weak.members.begin(),
+                         weak.members.end(),
+                         [&](const std::size_t i) {
+                           return std::abs(deviation *
+                                           optimum.directions(i, k)) >
+                                  0.5 * weak_deviation;
+                         }))
+          continue;
+        // Shown such that the first grows.
+        if (weak.change[weak.members.front()] < 0.)
+          for (double &change : weak.change)
+            change = -change;
+        weak.words = words_of(weak, campaign) +
+                     best_test(simulator, optimum, k, proposed) + ".";
+        result.push_back(weak);
+      }
+    return result;
+  }
+
+
+
+  void check_influence(const Campaign &campaign)
+  {
+    // In units of the noise.
+    constexpr double  least = 0.01;
+    Simulator         simulator(campaign);
+    const auto        start = campaign.scaled_start();
+    const std::size_t n     = campaign.n_residuals();
+    simulator.plan(start);
+    std::vector<double> at(n), other(n);
+    simulator.residuals(start, at.data());
+    for (std::size_t i = 0; i < campaign.fitted.size(); ++i)
+      {
+        double change = 0.;
+        for (const double value : {1., 0., 0.75, 0.25, 0.5})
+          {
+            std::vector<double> scaled = start;
+            scaled[i]                  = value;
+            try
+              {
+                simulator.residuals(scaled, other.data());
+              }
+            catch (const InputError &)
+              {
+                continue;
+              }
+            for (std::size_t row = 0; row < n; ++row)
+              change = std::max(change, std::abs(other[row] - at[row]));
+            if (change > least)
+              break;
+          }
+        if (change <= least)
+          campaign.parameters.reject(
+            "Calibration/Parameters",
+            campaign.fitted[i].path +
+              " has no influence on these tests: between its bounds the "
+              "friction changes by less than a hundredth of the noise");
+      }
+  }
+} // namespace SlipStep

@@ -1,0 +1,444 @@
+#include <deal.II/base/parallel.h>
+
+#include <slipstep/calibration/campaign.h>
+#include <slipstep/experiment/resample.h>
+#include <slipstep/experiment/test_rows.h>
+#include <slipstep/experiment/test_set.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace SlipStep
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    const char *const tests_key = "Calibration/Tests";
+    const char *const noise_key = "Calibration/Noise";
+    const char *const skip_key  = "Calibration/Skip";
+  } // namespace
+
+
+
+  void declare_calibration_parameters(Parameters &parameters)
+  {
+    using namespace dealii::Patterns;
+    parameters.declare(
+      tests_key,
+      "measured",
+      Anything(),
+      "Measured tests that 'slipstep calibrate' fits: a folder of .csv files, "
+      "or files separated by commas, relative to the folder of the case. "
+      "'slipstep check' reads them.");
+    parameters.declare(
+      "Calibration/Parameters",
+      "",
+      Anything(),
+      "What is to be found, separated by ';': '<path of a key> from <least "
+      "value> to <largest value> [start <value>] [log|linear]'. The start is "
+      "the case's own value unless stated. The scale is logarithmic if the "
+      "bounds are positive and a factor of ten or more apart. All other keys "
+      "stay as the case has them.");
+    parameters.declare(
+      "Calibration/Derived",
+      "",
+      Anything(),
+      "Quantities of the parameters, separated by ';': '<name> = <formula>', "
+      "where {path of a key} stands for its value in mm, s, N, MPa, degC, rad. "
+      "A name that is itself the path of a key ties this key to the others: it "
+      "follows them in the fit.");
+    parameters.declare(
+      noise_key,
+      "estimated",
+      Anything(),
+      "Standard deviation of the measured friction coefficient, by which "
+      "differences are weighted: 'estimated' from the second differences of "
+      "each record, or a number greater than 0. A comment '# noise: 0.002' in a "
+      "test goes before.");
+    parameters.declare(
+      skip_key,
+      "0 s",
+      Quantity(Dimension::time, 0., 1e30, false, true),
+      "Time at the beginning of every test that is simulated but not compared. "
+      "0 or more, with its unit.");
+    parameters.declare(
+      "Calibration/Lead-in",
+      "0 mm",
+      Quantity(Dimension::length, 0., 1e30, false, true),
+      "Length slid before the first row of every test, with its first speed "
+      "and pressure: for records that begin while the contact slides already. "
+      "0 or more, with its unit.");
+    parameters.declare(
+      "Calibration/Starts",
+      "4",
+      Integer(1, 1000),
+      "Number of starts of the search: the first from the values of the case, "
+      "the others spread between the bounds. 1 or more.");
+    parameters.declare(
+      "Calibration/Confidence",
+      "0.95",
+      Quantity(Dimension::number, 0.5, 0.999),
+      "Confidence of the intervals. Between 0.5 and 0.999, no unit.");
+  }
+
+
+
+  namespace
+  {
+    double stated_noise(const Parameters &parameters)
+    {
+      const std::string text = parameters.text(noise_key);
+      if (text == "estimated")
+        return 0.;
+      const Quantity noise(Dimension::number, 0., 1e30, true);
+      if (!noise.match(text))
+        parameters.reject(noise_key,
+                          "must be 'estimated' or a number greater than 0");
+      return noise.value(text);
+    }
+
+
+
+    double noted_noise(const MeasuredTest &test)
+    {
+      const auto note = test.notes.find("noise");
+      if (note == test.notes.end())
+        return 0.;
+      const Quantity noise(Dimension::number, 0., 1e30, true);
+      if (!noise.match(note->second))
+        throw InputError(test.file.string() + ": noise: " + note->second +
+                         ": must be a number greater than 0");
+      return noise.value(note->second);
+    }
+
+
+
+    // Not less than what simulating it is worth.
+    double noise_of(const MeasuredTest &test)
+    {
+      double level = noise_level(test.friction);
+      if (!test.friction_y.empty())
+        level = std::max(level, noise_level(test.friction_y));
+      return std::max({level, 1e-4 * range_of(test.friction), 1e-7});
+    }
+
+
+
+    CampaignTest prepare(const MeasuredTest &test, const Parameters &parameters)
+    {
+      const double             skip  = parameters.number(skip_key);
+      const double             begin = test.time.front() + skip;
+      std::vector<std::size_t> rows;
+      // The first row of all is where both begin.
+      for (std::size_t i = 0; i < test.time.size(); ++i)
+        if (test.time[i] >= begin)
+          rows.push_back(i);
+      if (rows.size() < 2)
+        parameters.reject(
+          skip_key,
+          "nothing is left of " + test.file.string() + ", which takes " +
+            std::to_string(test.time.back() - test.time.front()) + " s");
+      CampaignTest result{test,
+                          0.,
+                          false,
+                          Replay(resample(test).test,
+                                 parameters.number("Calibration/Lead-in"))};
+      keep_rows(result.rows, rows);
+      const double noted     = noted_noise(test);
+      const double stated    = noted > 0. ? noted : stated_noise(parameters);
+      result.noise_is_stated = stated > 0.;
+      result.noise = result.noise_is_stated ? stated : noise_of(result.rows);
+      return result;
+    }
+  } // namespace
+
+
+
+  std::vector<fs::path> Campaign::test_files(const Parameters &parameters)
+  {
+    std::vector<fs::path> files;
+    for (const std::string &name : parameters.list(tests_key))
+      {
+        const fs::path file = parameters.resolve(name);
+        if (!fs::exists(file))
+          parameters.reject(tests_key, "there is no " + file.string());
+        files.push_back(file);
+      }
+    if (files.empty())
+      parameters.reject(tests_key, "name a folder or files");
+    return files;
+  }
+
+
+
+  Campaign::Campaign(const Parameters &parameters)
+    : parameters(parameters)
+    , fitted(read_fit_parameters(parameters))
+    , derived(read_derived(parameters))
+    , tolerance(parameters.number("Time stepping/Tolerance"))
+  {
+    for (const FitParameter &parameter : fitted)
+      for (const Derived &tie : derived)
+        if (tie.name == parameter.path)
+          parameters.reject("Calibration/Derived",
+                            tie.name + " is fitted already");
+    std::vector<MeasuredTest> measured;
+    for (const fs::path &file : test_files(parameters))
+      if (fs::is_directory(file))
+        for (MeasuredTest &test : read_test_set(file))
+          measured.push_back(std::move(test));
+      else
+        measured.push_back(read_measured_test(file));
+    check_conditions(measured);
+    for (const MeasuredTest &test : measured)
+      tests.push_back(prepare(test, parameters));
+    if (n_residuals() <= fitted.size())
+      parameters.reject("Calibration/Parameters",
+                        std::to_string(fitted.size()) +
+                          " parameters cannot be found from " +
+                          std::to_string(n_residuals()) + " rows");
+  }
+
+
+
+  std::size_t Campaign::n_residuals() const
+  {
+    return std::accumulate(tests.begin(),
+                           tests.end(),
+                           std::size_t(0),
+                           [](const std::size_t sum, const CampaignTest &test) {
+                             return sum + test.n_residuals();
+                           });
+  }
+
+
+
+  std::vector<double> Campaign::scaled_start() const
+  {
+    std::vector<double> scaled;
+    for (const FitParameter &parameter : fitted)
+      scaled.push_back(parameter.to_scaled(parameter.start));
+    return scaled;
+  }
+
+
+
+  std::vector<std::string> Campaign::warnings() const
+  {
+    std::vector<std::string> result;
+    for (const CampaignTest &test : tests)
+      result.insert(result.end(),
+                    test.rows.warnings.begin(),
+                    test.rows.warnings.end());
+    return result;
+  }
+
+
+
+  namespace
+  {
+    // All tests side by side; each writes what is its own.
+    void for_each_test(const std::size_t                             n_tests,
+                       const std::function<void(const std::size_t)> &work)
+    {
+      dealii::parallel::apply_to_subranges(
+        std::size_t(0),
+        n_tests,
+        [&](const std::size_t begin, const std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i)
+            work(i);
+        },
+        1);
+    }
+
+
+
+    Replay::Curve at_rows(const Replay       &replay,
+                          const FrictionLaw  &law,
+                          const Machine      &machine,
+                          const CampaignTest &test)
+    {
+      Replay::Curve curve;
+      replay.simulate(law, machine, curve);
+      curve.friction = replay.at(curve.friction, test.rows.time);
+      if (test.has_two_axes())
+        curve.friction_y = replay.at(curve.friction_y, test.rows.time);
+      else
+        curve.friction_y.clear();
+      return curve;
+    }
+
+
+
+    // y = y + factor x
+    void add(const double               factor,
+             const std::vector<double> &x,
+             std::vector<double>       &y)
+    {
+      for (std::size_t i = 0; i < x.size(); ++i)
+        y[i] += factor * x[i];
+    }
+
+
+
+    void add(const double factor, const Replay::Curve &x, Replay::Curve &y)
+    {
+      add(factor, x.friction, y.friction);
+      add(factor, x.friction_y, y.friction_y);
+    }
+  } // namespace
+
+
+
+  Simulator::Simulator(const Campaign &campaign)
+    : campaign(campaign)
+    , parameters(campaign.parameters)
+  {
+    for (const CampaignTest &test : campaign.tests)
+      replays.push_back(test.replay);
+  }
+
+
+
+  const Parameters &Simulator::with(const std::vector<double> &scaled)
+  {
+    for (std::size_t i = 0; i < scaled.size(); ++i)
+      {
+        const FitParameter &parameter = campaign.fitted[i];
+        parameters.set(parameter.path,
+                       parameter.text(parameter.from_scaled(scaled[i]), 17),
+                       "calibration");
+      }
+    apply_ties(campaign.derived, parameters);
+    return parameters;
+  }
+
+
+
+  void Simulator::plan(const std::vector<double> &scaled)
+  {
+    const FrictionLaw law(with(scaled));
+    const Machine     machine(parameters);
+    corrections.clear();
+    for_each_test(replays.size(), [&](const std::size_t i) {
+      try
+        {
+          replays[i].plan(law, machine, campaign.tolerance);
+        }
+      catch (const RunError &error)
+        {
+          throw RunError(campaign.tests[i].rows.file.string() +
+                         " cannot be simulated: " + error.what());
+        }
+    });
+    ++n_done;
+  }
+
+
+
+  Replay::Curve Simulator::simulate(const std::vector<double> &scaled,
+                                    const std::size_t          test)
+  {
+    const FrictionLaw law(with(scaled));
+    Replay::Curve     curve =
+      at_rows(replays[test], law, Machine(parameters), campaign.tests[test]);
+    if (!corrections.empty())
+      add(1., corrections[test], curve);
+    return curve;
+  }
+
+
+
+  // Richardson's extrapolation from fine steps and halved fine steps.
+  void Simulator::correct(const std::vector<double> &scaled)
+  {
+    constexpr double  finer = 0.01;
+    const FrictionLaw law(with(scaled));
+    const Machine     machine(parameters);
+    corrections.resize(replays.size());
+    for_each_test(replays.size(), [&](const std::size_t i) {
+      const CampaignTest &test = campaign.tests[i];
+      Replay              fine = replays[i];
+      fine.plan(law, machine, finer * campaign.tolerance);
+      corrections[i] = at_rows(fine.halved(), law, machine, test);
+      add(1., corrections[i], corrections[i]);
+      add(-1., at_rows(fine, law, machine, test), corrections[i]);
+      add(-1., at_rows(replays[i], law, machine, test), corrections[i]);
+    });
+    ++n_done;
+  }
+
+
+
+  void Simulator::residuals(const std::vector<double> &scaled, double *result)
+  {
+    const FrictionLaw     law(with(scaled));
+    const Machine         machine(parameters);
+    std::vector<double *> place;
+    for (const CampaignTest &test : campaign.tests)
+      {
+        place.push_back(result);
+        result += test.n_residuals();
+      }
+    for_each_test(replays.size(), [&](const std::size_t i) {
+      const CampaignTest &test  = campaign.tests[i];
+      Replay::Curve       curve = at_rows(replays[i], law, machine, test);
+      if (!corrections.empty())
+        add(1., corrections[i], curve);
+      double *out = place[i];
+      for (std::size_t row = 0; row < curve.friction.size(); ++row)
+        *out++ = (curve.friction[row] - test.rows.friction[row]) / test.noise;
+      for (std::size_t row = 0; row < curve.friction_y.size(); ++row)
+        *out++ =
+          (curve.friction_y[row] - test.rows.friction_y[row]) / test.noise;
+    });
+    ++n_done;
+  }
+
+
+
+  double Simulator::misfit(const std::vector<double> &scaled)
+  {
+    std::vector<double> values(campaign.n_residuals());
+    residuals(scaled, values.data());
+    return std::inner_product(values.begin(), values.end(), values.begin(), 0.);
+  }
+
+
+
+  // To the side where there is room.
+  void Simulator::derivatives(const std::vector<double>       &scaled,
+                              const std::vector<unsigned int> &columns,
+                              const double                    *at,
+                              double                          *result)
+  {
+    constexpr double  difference = 1e-5;
+    const std::size_t n          = campaign.n_residuals();
+    shifted.resize(n);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      {
+        std::vector<double> other = scaled;
+        double             &value = other[columns[c]];
+        const double step = value + difference > 1. ? -difference : difference;
+        value += step;
+        residuals(other, shifted.data());
+        for (std::size_t row = 0; row < n; ++row)
+          result[row * columns.size() + c] = (shifted[row] - at[row]) / step;
+      }
+  }
+
+
+
+  std::size_t Simulator::n_steps() const
+  {
+    return std::accumulate(replays.begin(),
+                           replays.end(),
+                           std::size_t(0),
+                           [](const std::size_t sum, const Replay &replay) {
+                             return sum + replay.n_steps();
+                           });
+  }
+} // namespace SlipStep

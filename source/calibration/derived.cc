@@ -1,0 +1,135 @@
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/calibration/derived.h>
+#include <slipstep/calibration/fit_parameter.h>
+
+#include <cmath>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    const char *const key = "Calibration/Derived";
+
+    [[noreturn]] void reject(const Derived     &derived,
+                             const Parameters  &parameters,
+                             const std::string &why)
+    {
+      throw InputError(parameters.origin(key) + ": \"" + derived.name + " = " +
+                       derived.formula + "\": " + why);
+    }
+
+
+
+    const Quantity &quantity_of(const std::string &path,
+                                const Derived     &derived,
+                                const Parameters  &parameters)
+    {
+      parameters.check_path(path, parameters.origin(key));
+      const auto *quantity =
+        dynamic_cast<const Quantity *>(parameters.entry(path).pattern.get());
+      if (quantity == nullptr)
+        reject(derived, parameters, path + " is not a number");
+      return *quantity;
+    }
+
+
+
+    // With numbers in place of {paths}.
+    std::string with_numbers(const Derived    &derived,
+                             const Parameters &parameters)
+    {
+      std::ostringstream text;
+      text.imbue(std::locale::classic());
+      text << std::setprecision(17);
+      for (std::size_t at = 0; at < derived.formula.size();)
+        {
+          const std::size_t open = derived.formula.find('{', at);
+          text << derived.formula.substr(at, open - at);
+          if (open == std::string::npos)
+            break;
+          const std::size_t close = derived.formula.find('}', open);
+          if (close == std::string::npos)
+            reject(derived, parameters, "a } is missing");
+          const std::string path = dealii::Utilities::trim(
+            derived.formula.substr(open + 1, close - open - 1));
+          quantity_of(path, derived, parameters);
+          text << '(' << parameters.number(path) << ')';
+          at = close + 1;
+        }
+      return text.str();
+    }
+  } // namespace
+
+
+
+  double evaluate(const Derived &derived, const Parameters &parameters)
+  {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    try
+      {
+        dealii::FunctionParser<1> function;
+        function.initialize("x",
+                            with_numbers(derived, parameters),
+                            dealii::FunctionParser<1>::ConstMap());
+        value = function.value(dealii::Point<1>());
+      }
+    catch (const dealii::ExceptionBase &)
+      {
+        reject(derived, parameters, "this formula cannot be read");
+      }
+    if (!std::isfinite(value))
+      reject(derived, parameters, "the value is not finite");
+    return value;
+  }
+
+
+
+  std::vector<Derived> read_derived(const Parameters &parameters)
+  {
+    std::vector<Derived> result;
+    for (const std::string &text :
+         dealii::Utilities::split_string_list(parameters.text(key), ";"))
+      {
+        if (text.empty())
+          continue;
+        const std::size_t sign = text.find('=');
+        if (sign == std::string::npos)
+          throw InputError(parameters.origin(key) + ": \"" + text +
+                           "\": write it as: name = formula");
+        Derived derived;
+        derived.name    = dealii::Utilities::trim(text.substr(0, sign));
+        derived.formula = dealii::Utilities::trim(text.substr(sign + 1));
+        derived.is_tie  = derived.name.find('/') != std::string::npos;
+        if (derived.is_tie)
+          quantity_of(derived.name, derived, parameters);
+        for (const Derived &other : result)
+          if (other.name == derived.name)
+            reject(derived, parameters, "this name is given twice");
+        evaluate(derived, parameters);
+        result.push_back(derived);
+      }
+    return result;
+  }
+
+
+
+  void apply_ties(const std::vector<Derived> &derived, Parameters &parameters)
+  {
+    for (const Derived &tie : derived)
+      if (tie.is_tie)
+        {
+          FitParameter parameter;
+          parameter.path = tie.name;
+          parameter.dimension =
+            quantity_of(tie.name, tie, parameters).dimension;
+          parameters.set(tie.name,
+                         parameter.text(evaluate(tie, parameters), 17),
+                         parameters.origin(key));
+        }
+  }
+} // namespace SlipStep

@@ -1,0 +1,191 @@
+#include <slipstep/calibration/fit.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <boost/random/sobol.hpp>
+#include <boost/random/uniform_01.hpp>
+
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// Residuals of the campaign as a function of the free parameters.
+    class CampaignCost : public ceres::CostFunction
+    {
+    public:
+      CampaignCost(Simulator                       &simulator,
+                   const std::vector<double>       &scaled,
+                   const std::vector<unsigned int> &free)
+        : simulator(simulator)
+        , scaled(scaled)
+        , free(free)
+      {
+        set_num_residuals(simulator.campaign.n_residuals());
+        mutable_parameter_block_sizes()->push_back(free.size());
+      }
+
+      // False where the law refuses the values or a test cannot be simulated:
+      // the step is then made smaller.
+      virtual bool Evaluate(double const *const *values,
+                            double              *residuals,
+                            double             **jacobians) const override
+      {
+        std::vector<double> point = scaled;
+        for (std::size_t i = 0; i < free.size(); ++i)
+          point[free[i]] = values[0][i];
+        try
+          {
+            simulator.residuals(point, residuals);
+            if (jacobians != nullptr && jacobians[0] != nullptr)
+              simulator.derivatives(point, free, residuals, jacobians[0]);
+          }
+        catch (const InputError &)
+          {
+            return false;
+          }
+        catch (const RunError &)
+          {
+            return false;
+          }
+        return true;
+      }
+
+    private:
+      Simulator                      &simulator;
+      const std::vector<double>       scaled;
+      const std::vector<unsigned int> free;
+    };
+
+
+
+    std::string reason(const ceres::Solver::Summary &summary)
+    {
+      if (summary.termination_type == ceres::NO_CONVERGENCE)
+        return "the largest number of iterations was reached";
+      // "Function tolerance reached. |cost_change|/cost: ..."
+      const std::string &message = summary.message;
+      return message.substr(0, message.find('.'));
+    }
+
+
+
+    // With the steps as they are planned.
+    void solve(Simulator                       &simulator,
+               const std::vector<unsigned int> &free,
+               const double                     precision,
+               FitResult                       &result)
+    {
+      // A start that the law refuses is no error of Ceres' to be printed.
+      FLAGS_minloglevel = google::GLOG_FATAL;
+
+      std::vector<double> values;
+      for (const unsigned int i : free)
+        values.push_back(result.scaled[i]);
+
+      ceres::Problem problem;
+      problem.AddResidualBlock(new CampaignCost(simulator, result.scaled, free),
+                               nullptr,
+                               values.data());
+      for (std::size_t i = 0; i < free.size(); ++i)
+        {
+          problem.SetParameterLowerBound(values.data(), i, 0.);
+          problem.SetParameterUpperBound(values.data(), i, 1.);
+        }
+
+      ceres::Solver::Options options;
+      options.linear_solver_type                = ceres::DENSE_QR;
+      options.logging_type                      = ceres::SILENT;
+      options.num_threads                       = 1;
+      options.max_num_iterations                = 200;
+      options.max_num_consecutive_invalid_steps = 20;
+      options.function_tolerance                = precision;
+      options.gradient_tolerance                = 1e-14;
+      options.parameter_tolerance               = 1e-3 * std::sqrt(precision);
+      ceres::Solver::Summary summary;
+      ceres::Solve(options, &problem, &summary);
+
+      for (std::size_t i = 0; i < free.size(); ++i)
+        result.scaled[free[i]] = values[i];
+      result.misfit = summary.IsSolutionUsable() ?
+                        2. * summary.final_cost :
+                        std::numeric_limits<double>::infinity();
+      result.iterations += summary.iterations.size();
+      result.converged = summary.termination_type == ceres::CONVERGENCE;
+      result.message   = reason(summary);
+    }
+  } // namespace
+
+
+
+  FitResult fit(Simulator                       &simulator,
+                const std::vector<double>       &scaled_start,
+                const std::vector<unsigned int> &free,
+                const unsigned int               replans)
+  {
+    FitResult result;
+    result.scaled = scaled_start;
+    if (free.empty())
+      {
+        result.misfit    = simulator.misfit(result.scaled);
+        result.converged = true;
+        return result;
+      }
+    if (replans > 0)
+      simulator.plan(result.scaled);
+    solve(simulator, free, replans > 0 ? 1e-5 : 1e-9, result);
+    for (unsigned int n = 0; n < replans; ++n)
+      {
+        const std::vector<double> before = result.scaled;
+        simulator.plan(result.scaled);
+        solve(simulator, free, 1e-11, result);
+        double moved = 0.;
+        for (const unsigned int i : free)
+          moved = std::max(moved, std::abs(result.scaled[i] - before[i]));
+        if (moved < 1e-3)
+          break;
+      }
+    return result;
+  }
+
+
+
+  std::vector<unsigned int> all_parameters(const Campaign &campaign)
+  {
+    std::vector<unsigned int> all(campaign.fitted.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+
+
+
+  std::vector<std::vector<double>> spread_starts(const Campaign    &campaign,
+                                                 const unsigned int n_starts)
+  {
+    std::vector<std::vector<double>> starts = {campaign.scaled_start()};
+    Simulator                        simulator(campaign);
+    boost::random::sobol             sobol(campaign.fitted.size());
+    boost::random::uniform_01<>      uniform;
+    for (unsigned int trial = 0;
+         starts.size() < n_starts && trial < 20 * n_starts;
+         ++trial)
+      {
+        // Not on the bounds, where a law may be an extreme one.
+        std::vector<double> point;
+        for (std::size_t i = 0; i < campaign.fitted.size(); ++i)
+          point.push_back(0.05 + 0.9 * uniform(sobol));
+        try
+          {
+            const FrictionLaw law(simulator.with(point));
+            starts.push_back(point);
+          }
+        catch (const InputError &)
+          {}
+      }
+    return starts;
+  }
+} // namespace SlipStep

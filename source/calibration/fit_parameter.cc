@@ -1,0 +1,267 @@
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/calibration/fit_parameter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    const char *const list_key      = "Calibration/Parameters";
+    const char *const stiffness_key = "Loading/Machine stiffness";
+
+    /// How many base units make one of the unit shown.
+    double unit_size(const Dimension dimension)
+    {
+      return parse_quantity("1", dimension);
+    }
+
+    std::string last_part(const std::string &path, const unsigned int n_parts)
+    {
+      std::size_t at = path.size();
+      for (unsigned int n = 0; n < n_parts && at != std::string::npos; ++n)
+        at = path.rfind('/', at - 1);
+      return at == std::string::npos ? path : path.substr(at + 1);
+    }
+
+    void name_them(std::vector<FitParameter> &parameters)
+    {
+      for (FitParameter &parameter : parameters)
+        for (unsigned int n_parts = 1; n_parts < 4; ++n_parts)
+          {
+            parameter.name = last_part(parameter.path, n_parts);
+            if (std::count_if(parameters.begin(),
+                              parameters.end(),
+                              [&](const FitParameter &other) {
+                                return last_part(other.path, n_parts) ==
+                                       parameter.name;
+                              }) == 1)
+              break;
+          }
+    }
+
+
+
+    /// "PATH from A to B [start C] [log|linear]"
+    class Statement
+    {
+    public:
+      Statement(const std::string &text, const Parameters &parameters);
+
+      FitParameter read();
+
+    private:
+      [[noreturn]] void reject(const std::string &why) const;
+
+      std::string take(const std::string &separator);
+
+      void read_dimension();
+
+      double quantity(const std::string &text, const std::string &role) const;
+
+      const std::string text;
+      const Parameters &parameters;
+      std::string       rest;
+      FitParameter      result;
+      bool              unit_required = false;
+    };
+
+
+
+    Statement::Statement(const std::string &text, const Parameters &parameters)
+      : text(text)
+      , parameters(parameters)
+      , rest(text)
+    {}
+
+
+
+    void Statement::reject(const std::string &why) const
+    {
+      throw InputError(parameters.origin(list_key) + ": \"" + text +
+                       "\": " + why);
+    }
+
+
+
+    // What follows the last separator, taken off the rest; "" without one.
+    std::string Statement::take(const std::string &separator)
+    {
+      const std::size_t at = rest.rfind(separator);
+      if (at == std::string::npos)
+        return "";
+      const std::string taken =
+        dealii::Utilities::trim(rest.substr(at + separator.size()));
+      rest = dealii::Utilities::trim(rest.substr(0, at));
+      return taken;
+    }
+
+
+
+    // A contact point knows the friction law and the machine only.
+    void Statement::read_dimension()
+    {
+      parameters.check_path(result.path, parameters.origin(list_key));
+      if (result.path == stiffness_key)
+        {
+          result.dimension = Dimension::stiffness;
+          return;
+        }
+      if (result.path.compare(0, 9, "Friction/") != 0 &&
+          result.path.compare(0, 16, "Loading/Machine ") != 0)
+        reject("it has no meaning for a contact point; allowed are the keys of "
+               "Friction and the machine of Loading");
+      const auto *quantity = dynamic_cast<const Quantity *>(
+        parameters.entry(result.path).pattern.get());
+      if (quantity == nullptr)
+        reject("it is not a number, which a fit could change");
+      result.dimension = quantity->dimension;
+      unit_required    = quantity->unit_required;
+    }
+
+
+
+    double Statement::quantity(const std::string &value,
+                               const std::string &role) const
+    {
+      try
+        {
+          parameters.check(result.path, value, "");
+          return parse_quantity(value, result.dimension, unit_required);
+        }
+      catch (const InputError &)
+        {
+          std::ostringstream what;
+          what << (role + " = " + value) << ": allowed is "
+               << parameters.entry(result.path)
+                    .pattern->description(
+                      dealii::Patterns::PatternBase::Machine);
+          reject(what.str());
+        }
+    }
+
+
+
+    FitParameter Statement::read()
+    {
+      std::string scale;
+      for (const std::string word : {"log", "linear"})
+        if (rest.size() > word.size() &&
+            rest.compare(rest.size() - word.size() - 1,
+                         std::string::npos,
+                         " " + word) == 0)
+          scale = word;
+      if (!scale.empty())
+        take(" " + scale);
+      const std::string start = take(" start ");
+      const std::string upper = take(" to ");
+      const std::string lower = take(" from ");
+      if (lower.empty() || upper.empty())
+        reject("write it as: path from A to B [start C] [log|linear]");
+      result.path = rest;
+      read_dimension();
+
+      result.lower = quantity(lower, "from");
+      result.upper = quantity(upper, "to");
+      if (!(result.lower < result.upper))
+        reject("the lower bound " + lower + " must be less than the upper one");
+      result.is_logarithmic =
+        scale == "log" || (scale.empty() && result.lower > 0. &&
+                           result.upper >= 10. * result.lower);
+      if (result.is_logarithmic && !(result.lower > 0.))
+        reject("a logarithmic scale needs a lower bound greater than 0");
+
+      const std::string start_text =
+        start.empty() ? parameters.text(result.path) : start;
+      if (start.empty() && result.path == stiffness_key &&
+          start_text == "rigid")
+        reject("the case says 'rigid': give a start, as in \"start 50 "
+               "MPa/mm\"");
+      result.start = quantity(start_text, "start");
+      if (result.start < result.lower || result.start > result.upper)
+        reject(
+          "the start " + start_text +
+          (start.empty() ? " (" + parameters.origin(result.path) + ")" : "") +
+          " is outside of the bounds");
+      return result;
+    }
+  } // namespace
+
+
+
+  double FitParameter::to_scaled(const double value) const
+  {
+    return is_logarithmic ? std::log(value / lower) / std::log(upper / lower) :
+                            (value - lower) / (upper - lower);
+  }
+
+
+
+  double FitParameter::from_scaled(const double scaled) const
+  {
+    // The bounds themselves to the last bit: next to them a value may be
+    // refused.
+    if (scaled <= 0.)
+      return lower;
+    if (scaled >= 1.)
+      return upper;
+    return is_logarithmic ? lower * std::pow(upper / lower, scaled) :
+                            lower + scaled * (upper - lower);
+  }
+
+
+
+  std::string FitParameter::unit() const
+  {
+    return base_unit(dimension);
+  }
+
+
+
+  double FitParameter::in_unit(const double value) const
+  {
+    return value / unit_size(dimension);
+  }
+
+
+
+  std::string FitParameter::text(const double value, const int n_digits) const
+  {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << std::setprecision(n_digits) << in_unit(value);
+    const std::string name_of_unit = unit();
+    if (!name_of_unit.empty())
+      out << ' ' << name_of_unit;
+    return out.str();
+  }
+
+
+
+  std::vector<FitParameter> read_fit_parameters(const Parameters &parameters)
+  {
+    std::vector<FitParameter> result;
+    for (const std::string &text :
+         dealii::Utilities::split_string_list(parameters.text(list_key), ";"))
+      {
+        if (text.empty())
+          continue;
+        result.push_back(Statement(text, parameters).read());
+        for (std::size_t i = 0; i + 1 < result.size(); ++i)
+          if (result[i].path == result.back().path)
+            throw InputError(parameters.origin(list_key) + ": " +
+                             result.back().path + " is listed twice");
+      }
+    if (result.empty())
+      parameters.reject(list_key,
+                        "name at least one parameter, as in "
+                        "\"Friction/softening/Rate from 0.01 to 1\"");
+    name_them(result);
+    return result;
+  }
+} // namespace SlipStep

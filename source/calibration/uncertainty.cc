@@ -1,0 +1,386 @@
+#include <slipstep/calibration/fit.h>
+#include <slipstep/calibration/uncertainty.h>
+#include <slipstep/experiment/resample.h>
+
+#include <boost/math/distributions/fisher_f.hpp>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace SlipStep
+{
+  namespace
+  {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    using RowMatrix =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+
+
+    // dx / d scaled, see Linearisation.
+    double natural_size(const FitParameter &parameter, const double scaled)
+    {
+      if (parameter.is_logarithmic)
+        return std::log(parameter.upper / parameter.lower);
+      if (parameter.lower * parameter.upper < 0.)
+        return 1.;
+      const double value = std::abs(parameter.from_scaled(scaled));
+      const double range = parameter.upper - parameter.lower;
+      return range / std::max(value, 0.01 * range);
+    }
+
+
+
+    // Of friction times pressure over the displacement.
+    double work(MeasuredTest test, const Replay::Curve *curve)
+    {
+      if (curve != nullptr)
+        {
+          test.friction   = curve->friction;
+          test.friction_y = curve->friction_y;
+        }
+      return frictional_work(test);
+    }
+
+
+
+    double root_mean_square(const double *values, const std::size_t n)
+    {
+      return std::sqrt(std::inner_product(values, values + n, values, 0.) / n);
+    }
+
+
+
+    TestMisfit misfit_of(const CampaignTest  &test,
+                         const Replay::Curve &curve,
+                         const double        *residuals)
+    {
+      const std::size_t n = test.rows.time.size();
+      TestMisfit        result;
+      result.name            = test.rows.name;
+      result.condition       = test.rows.condition;
+      result.file            = test.rows.file.string();
+      result.n_rows          = n;
+      result.noise           = test.noise;
+      result.noise_is_stated = test.noise_is_stated;
+      result.rms = test.noise * root_mean_square(residuals, test.n_residuals());
+      result.mean =
+        -test.noise * std::accumulate(residuals, residuals + n, 0.) / n;
+      result.correlation_length = correlation_length(residuals, n);
+      result.measured_work      = work(test.rows, nullptr);
+      result.simulated_work     = work(test.rows, &curve);
+      result.time               = test.rows.time;
+      result.displacement       = test.rows.displacement;
+      result.measured           = test.rows.friction;
+      result.simulated          = curve.friction;
+      return result;
+    }
+
+
+
+    // Singular values that are nothing but round-off and the error of
+    // differences.
+    constexpr double least_singular_value = 1e-7;
+
+    void analyse(Linearisation &result)
+    {
+      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(result.R,
+                                                  Eigen::ComputeFullV);
+      const Eigen::Index                      n = result.R.cols();
+      result.directions = svd.matrixV().rowwise().reverse();
+      result.direction_deviations.resize(n);
+      const double largest = svd.singularValues()(0);
+      for (Eigen::Index i = 0; i < n; ++i)
+        {
+          const double value = svd.singularValues()(n - 1 - i);
+          result.direction_deviations(i) =
+            value > least_singular_value * largest ?
+              std::sqrt(result.inflation) / value :
+              infinite;
+        }
+
+      // Where nothing is known, a large number takes the place of infinity.
+      Eigen::VectorXd finite = result.direction_deviations;
+      for (Eigen::Index i = 0; i < n; ++i)
+        finite(i) = std::min(finite(i), 1e9);
+      const Eigen::MatrixXd scaled_directions =
+        result.directions * finite.asDiagonal();
+      const Eigen::MatrixXd covariance =
+        scaled_directions * scaled_directions.transpose();
+      result.deviations  = covariance.diagonal().cwiseSqrt();
+      result.correlation = result.deviations.cwiseInverse().asDiagonal() *
+                           covariance *
+                           result.deviations.cwiseInverse().asDiagonal();
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (result.deviations(i) > 1e6)
+          result.deviations(i) = infinite;
+    }
+  } // namespace
+
+
+
+  // Estimates of a series of noise scatter by 1 / sqrt(n).
+  double correlation_length(const double *values, const std::size_t n)
+  {
+    if (n < 4)
+      return 1.;
+    // About 0, which is what residuals should be.
+    const auto lagged = [&](const std::size_t lag) {
+      return std::inner_product(values + lag, values + n, values, 0.) / n;
+    };
+    const double variance = lagged(0);
+    if (!(variance > 0.))
+      return 1.;
+    const double significant = 2. / std::sqrt(static_cast<double>(n));
+    double       length      = 1.;
+    // Far lags count by strides, so that a long record takes no longer.
+    std::size_t stride = 1;
+    for (std::size_t lag = 1; lag < n / 2; lag += stride)
+      {
+        const double correlation = lagged(lag) / variance;
+        if (correlation < significant)
+          break;
+        length += 2. * correlation * stride;
+        stride = std::max<std::size_t>(1, lag / 10);
+      }
+    return std::min(length, static_cast<double>(n));
+  }
+
+
+
+  double Linearisation::threshold(const double confidence) const
+  {
+    const double freedom =
+      std::max(1., n_effective - static_cast<double>(scaled.size()));
+    return inflation * boost::math::quantile(boost::math::fisher_f(1., freedom),
+                                             confidence);
+  }
+
+
+
+  Linearisation linearise(Simulator                 &simulator,
+                          const std::vector<double> &scaled,
+                          std::vector<TestMisfit>   &tests)
+  {
+    const Campaign   &campaign = simulator.campaign;
+    const std::size_t n = campaign.n_residuals(), n_parameters = scaled.size();
+    std::vector<double> residuals(n);
+    simulator.residuals(scaled, residuals.data());
+    RowMatrix derivatives(n, n_parameters);
+    simulator.derivatives(scaled,
+                          all_parameters(campaign),
+                          residuals.data(),
+                          derivatives.data());
+
+    Linearisation result;
+    result.scaled = scaled;
+    result.misfit = std::inner_product(residuals.begin(),
+                                       residuals.end(),
+                                       residuals.begin(),
+                                       0.);
+    for (std::size_t i = 0; i < n_parameters; ++i)
+      {
+        result.size.push_back(natural_size(campaign.fitted[i], scaled[i]));
+        derivatives.col(i) /= result.size[i];
+      }
+    result.R = Eigen::HouseholderQR<RowMatrix>(derivatives)
+                 .matrixQR()
+                 .topRows(n_parameters)
+                 .triangularView<Eigen::Upper>();
+
+    double        together = 0.;
+    const double *part     = residuals.data();
+    tests.clear();
+    for (std::size_t i = 0; i < campaign.tests.size(); ++i)
+      {
+        const CampaignTest &test = campaign.tests[i];
+        tests.push_back(misfit_of(test, simulator.simulate(scaled, i), part));
+        const double square =
+          std::pow(root_mean_square(part, test.n_residuals()), 2);
+        together +=
+          square * test.n_residuals() * tests.back().correlation_length;
+        result.n_effective +=
+          test.n_residuals() / tests.back().correlation_length;
+        part += test.n_residuals();
+      }
+    result.inflation = std::max(1., result.misfit / (n - n_parameters)) *
+                       (result.misfit > 0. ? together / result.misfit : 1.);
+    analyse(result);
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// One side of a profile.
+    class ProfileSide
+    {
+    public:
+      ProfileSide(const Simulator     &planned,
+                  const Linearisation &optimum,
+                  const unsigned int   parameter,
+                  const double         confidence,
+                  const int            sign);
+
+      void follow();
+
+      double                                 end     = 0.; ///< scaled
+      bool                                   is_open = false;
+      std::vector<std::pair<double, double>> points;
+      std::vector<double>                    better;
+
+    private:
+      double rise(const double distance);
+
+      double first_distance() const;
+
+      Simulator                 simulator;
+      const Linearisation      &optimum;
+      const unsigned int        parameter;
+      const int                 sign;
+      const double              threshold;
+      const double              start;
+      const double              room;
+      std::vector<unsigned int> others;
+      Eigen::VectorXd           slopes; ///< of the others, per distance
+      double                    least_rise = 0.;
+    };
+
+
+
+    ProfileSide::ProfileSide(const Simulator     &planned,
+                             const Linearisation &optimum,
+                             const unsigned int   parameter,
+                             const double         confidence,
+                             const int            sign)
+      : simulator(planned)
+      , optimum(optimum)
+      , parameter(parameter)
+      , sign(sign)
+      , threshold(optimum.threshold(confidence))
+      , start(optimum.scaled[parameter])
+      , room(sign > 0 ? 1. - start : start)
+    {
+      for (unsigned int i = 0; i < optimum.scaled.size(); ++i)
+        if (i != parameter)
+          others.push_back(i);
+      // Where the others go to first order.
+      Eigen::MatrixXd columns(optimum.R.rows(), others.size());
+      for (std::size_t i = 0; i < others.size(); ++i)
+        columns.col(i) = optimum.R.col(others[i]) * optimum.size[others[i]];
+      if (!others.empty())
+        slopes = -columns.completeOrthogonalDecomposition().solve(
+          optimum.R.col(parameter) * optimum.size[parameter]);
+    }
+
+
+
+    // Of the misfit, relative to the threshold, with all others fitted.
+    double ProfileSide::rise(const double distance)
+    {
+      std::vector<double> scaled = optimum.scaled;
+      scaled[parameter]          = start + sign * distance;
+      for (std::size_t i = 0; i < others.size(); ++i)
+        scaled[others[i]] =
+          std::clamp(scaled[others[i]] + sign * distance * slopes(i), 0., 1.);
+      const FitResult result = fit(simulator, scaled, others, 0);
+      const double    rise   = (result.misfit - optimum.misfit) / threshold;
+      if (!std::isfinite(rise))
+        return infinite;
+      points.emplace_back(scaled[parameter], rise);
+      if (rise < std::min(-0.01, least_rise))
+        {
+          least_rise = rise;
+          better     = result.scaled;
+        }
+      for (std::size_t i = 0; i < others.size() && distance > 0.; ++i)
+        slopes(i) = sign *
+                    (result.scaled[others[i]] - optimum.scaled[others[i]]) /
+                    distance;
+      return rise;
+    }
+
+
+
+    double ProfileSide::first_distance() const
+    {
+      const double guess = optimum.deviations(parameter) /
+                           optimum.size[parameter] *
+                           std::sqrt(threshold / optimum.inflation);
+      return std::min(room, std::max(guess, 1e-9));
+    }
+
+
+
+    // The root of the rise is nearly linear in the distance.
+    void ProfileSide::follow()
+    {
+      double lower = 0., lower_root = 0., upper = infinite, upper_root = 0.;
+      double distance = first_distance();
+      is_open         = !(room > 0.);
+      for (unsigned int n = 0; n < 15 && !is_open; ++n)
+        {
+          const double value = rise(distance);
+          const double root  = std::sqrt(std::max(value, 0.));
+          if (std::abs(value - 1.) < 0.03)
+            {
+              end = start + sign * distance / root;
+              return;
+            }
+          if (value < 1.)
+            {
+              is_open    = distance >= room;
+              lower      = distance;
+              lower_root = root;
+            }
+          else
+            {
+              upper      = distance;
+              upper_root = root;
+            }
+          if (upper == infinite)
+            distance = std::min(
+              room, distance * std::clamp(1. / std::max(root, 1e-9), 1.3, 4.));
+          else if (upper_root == infinite)
+            distance = (lower + upper) / 2.;
+          else
+            distance =
+              lower + (upper - lower) * std::clamp((1. - lower_root) /
+                                                     (upper_root - lower_root),
+                                                   0.05,
+                                                   0.95);
+        }
+      end = is_open ? start + sign * room : start + sign * distance;
+    }
+  } // namespace
+
+
+
+  Profile profile(const Simulator     &planned,
+                  const Linearisation &optimum,
+                  const unsigned int   parameter,
+                  const double         confidence)
+  {
+    Profile result;
+    result.points.emplace_back(optimum.scaled[parameter], 0.);
+    for (const int sign : {-1, 1})
+      {
+        ProfileSide side(planned, optimum, parameter, confidence, sign);
+        side.follow();
+        (sign < 0 ? result.lower : result.upper)                 = side.end;
+        (sign < 0 ? result.is_lower_open : result.is_upper_open) = side.is_open;
+        result.points.insert(result.points.end(),
+                             side.points.begin(),
+                             side.points.end());
+        if (!side.better.empty())
+          result.better = side.better;
+      }
+    std::sort(result.points.begin(), result.points.end());
+    return result;
+  }
+} // namespace SlipStep

@@ -1,0 +1,96 @@
+#ifndef tests_calibration_planted_h
+#define tests_calibration_planted_h
+
+#include <slipstep/calibration/calibrate.h>
+#include <slipstep/calibration/campaign.h>
+#include <slipstep/experiment/measured_test.h>
+#include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/report.h>
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace SlipStep
+{
+  namespace Testing
+  {
+    using Settings = std::vector<std::pair<std::string, std::string>>;
+
+    inline Parameters calibration_case(const Settings &settings)
+    {
+      Parameters parameters;
+      declare_loading_parameters(parameters);
+      FrictionLaw::declare_parameters(parameters);
+      declare_calibration_parameters(parameters);
+      declare_report_parameters(parameters);
+      for (const auto &setting : settings)
+        parameters.set(setting.first, setting.second, "test");
+      return parameters;
+    }
+
+
+
+    /// A slide from rest under 5.8 MPa, as it would be recorded at equal
+    /// distances: the law's friction, and noise.
+    inline MeasuredTest planted_test(const Parameters  &truth,
+                                     const double       speed,  // [mm/s]
+                                     const double       length, // [mm]
+                                     const unsigned int n_rows,
+                                     const double       noise,
+                                     std::mt19937      &random)
+    {
+      MeasuredTest test;
+      test.name = "planted, " + std::to_string(60. * speed) + " mm per min";
+      test.condition = test.name;
+      for (unsigned int i = 0; i < n_rows; ++i)
+        {
+          const double share = static_cast<double>(i) / (n_rows - 1);
+          test.time.push_back(share * length / speed);
+          test.displacement.push_back(share * length);
+          test.pressure.push_back(5.8);
+        }
+      test.friction.assign(n_rows, 0.);
+      const FrictionLaw law(truth);
+      Replay            replay(test);
+      replay.plan(law, Machine(), 1e-7);
+      // Without the error of the steps to first order.
+      const Replay  fine = replay.halved();
+      Replay::Curve coarse, half;
+      replay.simulate(law, Machine(), coarse);
+      fine.simulate(law, Machine(), half);
+      coarse.friction = replay.at(coarse.friction, test.time);
+      test.friction   = fine.at(half.friction, test.time);
+      for (unsigned int i = 0; i < n_rows; ++i)
+        test.friction[i] += test.friction[i] - coarse.friction[i];
+      std::normal_distribution<double> normal(0., 1.);
+      for (double &value : test.friction)
+        value += noise * normal(random);
+      return test;
+    }
+
+
+
+    /// Write planted tests at several speeds [mm/min] into a folder.
+    inline void plant(const std::filesystem::path &folder,
+                      const Parameters            &truth,
+                      const std::vector<double>   &speeds,
+                      const unsigned int           n_rows,
+                      const double                 noise,
+                      const unsigned int           seed,
+                      const double                 length = 100.)
+    {
+      std::filesystem::create_directories(folder);
+      std::mt19937 random(seed);
+      for (std::size_t i = 0; i < speeds.size(); ++i)
+        write_measured_test(
+          folder / ("test_" + std::to_string(i) + ".csv"),
+          planted_test(truth, speeds[i] / 60., length, n_rows, noise, random));
+    }
+  } // namespace Testing
+} // namespace SlipStep
+
+#endif
