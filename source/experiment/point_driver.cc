@@ -22,8 +22,9 @@ namespace SlipStep
       dealii::Patterns::Anything(),
       "What happens, one statement after the other, separated by ';': 'press "
       "<pressure> in <time>', 'hold <time>', 'slide [<speed>] for <length or "
-      "time> [at <angle>]', 'follow <file of a measured test>'. A negative "
-      "speed reverses. Units are part of every number.");
+      "time> [at <angle>]', 'follow <file of a measured test>', 'repeat <number> "
+      "times { <statements> }'. A negative speed reverses. Units are part of "
+      "every number.");
     parameters.declare("Loading/Speed",
                        "1 mm/min",
                        Quantity(Dimension::speed, 0., 1e30, true, true),

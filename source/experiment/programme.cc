@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace SlipStep
 {
@@ -64,7 +65,15 @@ namespace SlipStep
       {"press", "press 5.8 MPa in 1 s"},
       {"hold", "hold 10 s"},
       {"slide", "slide 1 mm/min for 60 mm at 0 deg"},
-      {"follow", "follow measured/test_01.csv"}};
+      {"follow", "follow measured/test_01.csv"},
+      {"repeat",
+       "repeat 10 times { slide 1 mm/s for 2 s; slide -1 mm/s for 2 s }"}};
+
+    /// What separates statements, or holds those of a repetition together.
+    const char *const borders = ";{}";
+
+    /// More are a slip of the pen, or a run without end.
+    constexpr unsigned int most_statements = 100000, most_nested = 10;
 
     const std::vector<std::string> keywords = {"in", "for", "at"};
 
@@ -105,6 +114,23 @@ namespace SlipStep
         std::size_t                  end = 0;
       };
 
+      /// Carry out what stands from a column up to the brace that closes it, or
+      /// up to the end of the text.
+      /// @param opened column of the brace that opened it, if one did
+      /// @return the column behind
+      std::size_t run_statements(std::size_t                      begin,
+                                 const std::optional<std::size_t> opened = {});
+
+      /// Carry out what is in the braces that begin at a column.
+      /// @param header "repeat 10 times"
+      /// @return the column behind
+      std::size_t repeat(const Piece &header, const std::size_t brace);
+
+      unsigned int number_of_times(const Piece      &header,
+                                   const std::size_t brace) const;
+
+      void run(const Piece &piece);
+
       Statement read_statement(const Piece &piece) const;
 
       void press(const Statement &statement);
@@ -139,41 +165,120 @@ namespace SlipStep
       const std::filesystem::path directory;
 
       unsigned int         n_statements     = 0;
+      unsigned int         n_nested         = 0;
       std::size_t          statement_column = 0;
       std::vector<Segment> segments;
-      double               time = 0.;
-      Loading              present;
+      /// By file: a repeated one is read once.
+      std::map<std::string, MeasuredTest> tests;
+      double                              time = 0.;
+      Loading                             present;
     };
 
 
 
     std::vector<Segment> Parser::parse()
     {
-      std::size_t begin = 0;
-      while (begin < text.size())
-        {
-          const auto  end   = std::min(text.find(';', begin), text.size());
-          const Piece piece = trim({text.substr(begin, end - begin), begin});
-          begin             = end + 1;
-          if (piece.text.empty())
-            continue;
-
-          const Statement statement = read_statement(piece);
-          statement_column          = statement.verb.column;
-          if (statement.verb.text == "press")
-            press(statement);
-          else if (statement.verb.text == "hold")
-            hold(statement);
-          else if (statement.verb.text == "slide")
-            slide(statement);
-          else
-            follow(statement);
-          ++n_statements;
-        }
+      run_statements(0);
       if (segments.empty())
         throw InputError("the programme is empty; write e.g. 'press 5.8 MPa "
                          "in 1 s; hold 10 s; slide 1 mm/min for 60 mm'");
       return segments;
+    }
+
+
+
+    std::size_t Parser::run_statements(std::size_t                      begin,
+                                       const std::optional<std::size_t> opened)
+    {
+      while (begin < text.size())
+        {
+          const auto end =
+            std::min(text.find_first_of(borders, begin), text.size());
+          const char  border = end < text.size() ? text[end] : ';';
+          const Piece piece  = trim({text.substr(begin, end - begin), begin});
+          begin              = end + 1;
+          if (border == '{')
+            begin = repeat(piece, end);
+          else if (!piece.text.empty())
+            run(piece);
+          if (border == '}')
+            {
+              if (!opened)
+                fail(end, "this '}' closes nothing");
+              return begin;
+            }
+        }
+      if (opened)
+        fail(*opened, "this '{' is not closed; '}' is missing");
+      return begin;
+    }
+
+
+
+    std::size_t Parser::repeat(const Piece &header, const std::size_t brace)
+    {
+      const unsigned int n_times = number_of_times(header, brace);
+      if (++n_nested > most_nested)
+        fail(header.column, "repetitions are nested too deeply");
+      const unsigned int n_before = n_statements;
+      std::size_t        end      = 0;
+      for (unsigned int time = 0; time < n_times; ++time)
+        {
+          end = run_statements(brace + 1, brace);
+          if (n_statements == n_before)
+            fail(brace, "there is nothing to repeat in these braces");
+        }
+      --n_nested;
+      const std::size_t next = text.find_first_not_of(blanks, end);
+      if (next != std::string::npos && text[next] != ';' && text[next] != '}')
+        fail(next, "a ';' is missing after '}'");
+      return end;
+    }
+
+
+
+    unsigned int Parser::number_of_times(const Piece      &header,
+                                         const std::size_t brace) const
+    {
+      const std::vector<Piece> all = words(header);
+      const std::string example    = "write e.g. '" + usage.at("repeat") + "'";
+      if (all.empty() || all[0].text != "repeat")
+        fail(all.empty() || usage.count(all[0].text) > 0 ? brace :
+                                                           header.column,
+             "braces follow 'repeat'; " + example);
+      if (all.size() < 2)
+        fail(header.end(), "how many times? " + example);
+      const std::string &number = all[1].text;
+      if (number.find_first_not_of("0123456789") != std::string::npos ||
+          number.find_first_not_of('0') == std::string::npos)
+        fail(all[1].column, "expected a number of times; " + example);
+      if (number.size() > 9)
+        fail(all[1].column, "these are too many times");
+      if (all.size() != 3 || (all[2].text != "times" && all[2].text != "time"))
+        fail(all.size() < 3 ? all[1].end() : all[2].column,
+             "expected 'times' and a brace; " + example);
+      return std::stoul(number);
+    }
+
+
+
+    void Parser::run(const Piece &piece)
+    {
+      const Statement statement = read_statement(piece);
+      statement_column          = statement.verb.column;
+      if (n_statements == most_statements)
+        fail(statement_column,
+             "with this repeated, the programme has more than " +
+               std::to_string(most_statements) + " statements");
+      if (statement.verb.text == "press")
+        press(statement);
+      else if (statement.verb.text == "hold")
+        hold(statement);
+      else if (statement.verb.text == "slide")
+        slide(statement);
+      else
+        follow(statement);
+      ++n_statements;
     }
 
 
@@ -195,9 +300,14 @@ namespace SlipStep
           const std::string nearest = nearest_name(verb, verbs);
           fail(statement.verb.column,
                "unknown word '" + verb + "'" +
-                 (nearest.empty() ? "; known are press, hold, slide, follow" :
-                                    "; did you mean '" + nearest + "'?"));
+                 (nearest.empty() ?
+                    "; known are press, hold, slide, follow, repeat" :
+                    "; did you mean '" + nearest + "'?"));
         }
+      if (verb == "repeat")
+        fail(piece.end(),
+             "what is repeated stands in braces; write e.g. '" +
+               usage.at(verb) + "'");
 
       // A file name may contain blanks and words that are keywords elsewhere.
       if (verb == "follow")
@@ -303,10 +413,15 @@ namespace SlipStep
       if (!std::filesystem::is_regular_file(file))
         fail(name.column, "there is no file " + file.string());
 
-      const MeasuredTest test = read_measured_test(file);
-      warnings.insert(warnings.end(),
-                      test.warnings.begin(),
-                      test.warnings.end());
+      if (tests.count(name.text) == 0)
+        {
+          const MeasuredTest read = read_measured_test(file);
+          warnings.insert(warnings.end(),
+                          read.warnings.begin(),
+                          read.warnings.end());
+          tests[name.text] = read;
+        }
+      const MeasuredTest  &test   = tests.at(name.text);
       const auto           origin = present.displacement;
       dealii::Tensor<1, 2> moved;
       for (std::size_t i = 1; i < test.time.size(); ++i)
@@ -547,7 +662,8 @@ namespace SlipStep
     std::string       result;
     for (std::size_t begin = 0; begin < text.size();)
       {
-        const auto  end   = std::min(text.find(';', begin), text.size());
+        const auto end =
+          std::min(text.find_first_of(borders, begin), text.size());
         const Piece piece = trim({text.substr(begin, end - begin), begin});
         const std::string name =
           piece.text.compare(0, verb.size(), verb) == 0 ?
@@ -559,7 +675,7 @@ namespace SlipStep
           result += text.substr(begin, piece.column - begin) + verb + " " +
                     std::filesystem::proximate(from / name, to).string();
         if (end < text.size())
-          result += ';';
+          result += text[end];
         begin = end + 1;
       }
     return result;

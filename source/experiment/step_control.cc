@@ -123,9 +123,11 @@ namespace SlipStep
     const double   speed    = now.end.velocity.norm();
     const double   pressure = std::max(now.start.pressure, now.end.pressure);
     double         end_of_statement = now.end_time;
-    for (const Segment &other : programme.segments())
-      if (other.statement == now.statement)
-        end_of_statement = other.end_time;
+    for (std::size_t i = segment;
+         i < programme.segments().size() &&
+         programme.segments()[i].statement == now.statement;
+         ++i)
+      end_of_statement = programme.segments()[i].end_time;
     largest_step = (end_of_statement - now.start_time) /
                    (equal_steps > 0 ? equal_steps : least_steps);
 

@@ -140,6 +140,29 @@ TEST(Programme, TheCaretMarksTheFault)
     {"press 1 MPa within 1 s", "within 1"},
     {"press 1 MPa", ""},
     {"press 1 MPa in 0 s", "0 s"},
+    {"repeat", ""},
+    {"repeat 3 times", ""},
+    {"repeat 3 times hold 1 s", ""},
+    {"repeat { hold 1 s }", " { hold"},
+    {"repeat 3 { hold 1 s }", " { hold"},
+    {"repeat 0 times { hold 1 s }", "0 times"},
+    {"repeat 1.5 times { hold 1 s }", "1.5 times"},
+    {"repeat -2 times { hold 1 s }", "-2 times"},
+    {"repeat often { hold 1 s }", "often {"},
+    {"repeat 9999999999 times { hold 1 s }", "9999999999"},
+    {"repeat 3 turns { hold 1 s }", "turns {"},
+    {"repeat 3 times over { hold 1 s }", "times over"},
+    {"repaet 3 times { hold 1 s }", "repaet"},
+    {"repeat 3 times { hold 1 s", "{ hold"},
+    {"repeat 3 times { hold 1 s; slide }", " }"},
+    {"repeat 3 times { hold 1 }", " }"},
+    {"repeat 3 times { }", "{ }"},
+    {"repeat 3 times { repeat 2 times { } }", "{ } }"},
+    {"repeat 3 times { hold 1 s } hold 1 s", "hold 1 s"},
+    {"repeat 400 times { repeat 400 times { hold 1 s } }", "hold 1 s }"},
+    {"hold 1 s { hold 1 s }", "{ hold"},
+    {"{ hold 1 s }", "{ hold"},
+    {"hold 1 s }", "}"},
     {"follow", ""},
     {"follow no such file.csv", "no such file.csv"}};
   for (const auto &[fault, expected] : cases)
@@ -202,6 +225,73 @@ TEST(Programme, WarningsOfAFollowedTestArePassedOn)
   const Programme programme("follow gap.csv", default_speed, folder);
   ASSERT_EQ(programme.warnings().size(), 1u);
   EXPECT_NE(programme.warnings()[0].find("left out: 1"), std::string::npos);
+}
+
+
+
+TEST(Programme, RepeatGoesOnFromWhereItEnded)
+{
+  const Programme programme =
+    parse("press 1 MPa in 1 s; repeat 2 times { slide 1 mm/s for 3 mm; "
+          "repeat 3 times { hold 1 s; press 2 MPa in 1 s }; press 1 MPa in 2 s;"
+          "slide -1 mm/s for 2 mm; }; hold 5 s");
+  const Programme written =
+    parse("press 1 MPa in 1 s;"
+          "slide 1 mm/s for 3 mm; hold 1 s; press 2 MPa in 1 s; hold 1 s;"
+          "press 2 MPa in 1 s; hold 1 s; press 2 MPa in 1 s; press 1 MPa in 2 "
+          "s; slide -1 mm/s for 2 mm;"
+          "slide 1 mm/s for 3 mm; hold 1 s; press 2 MPa in 1 s; hold 1 s;"
+          "press 2 MPa in 1 s; hold 1 s; press 2 MPa in 1 s; press 1 MPa in 2 "
+          "s; slide -1 mm/s for 2 mm; hold 5 s");
+  ASSERT_EQ(programme.segments().size(), written.segments().size());
+  for (std::size_t i = 0; i < written.segments().size(); ++i)
+    {
+      const Segment &a = programme.segments()[i], &b = written.segments()[i];
+      EXPECT_EQ(a.end_time, b.end_time);
+      EXPECT_EQ(a.end.pressure, b.end.pressure);
+      EXPECT_EQ(a.end.displacement, b.end.displacement);
+      EXPECT_EQ(a.statement, b.statement);
+      EXPECT_EQ(a.statement, i);
+    }
+  EXPECT_DOUBLE_EQ(programme.at(programme.end_time()).displacement[0], 2.);
+}
+
+
+
+TEST(Programme, ARepeatedTestIsReadAndWarnedOfOnce)
+{
+  const auto folder = test_folder();
+  std::filesystem::create_directory(folder / "data");
+  std::ofstream(folder / "data" / "gap.csv")
+    << "time_s,displacement_mm,pressure_MPa,friction\n"
+       "0,0,5,0\n1,,5,0\n2,2,5,0.1\n";
+  const std::string text = "repeat 3 times { follow gap.csv; hold 1 s }";
+  const Programme   programme(text, default_speed, folder / "data");
+  EXPECT_EQ(programme.warnings().size(), 1u);
+  EXPECT_DOUBLE_EQ(programme.at(programme.end_time()).displacement[0], 6.);
+  EXPECT_EQ(relocated_programme(text, folder / "data", folder),
+            "repeat 3 times { follow data/gap.csv; hold 1 s }");
+}
+
+
+
+TEST(Programme, FollowReplaysMotionAcrossAndPressure)
+{
+  const auto folder = test_folder();
+  std::ofstream(folder / "path.csv")
+    << "time_s,displacement_mm,pressure_MPa,friction,displacement_y_mm\n"
+       "0,1,5,0,3\n1,2,5,0.1,3\n2,2,7,0.1,5\n3,1,4,0.1,5\n";
+  const Programme programme("press 5 MPa in 1 s; follow path.csv",
+                            default_speed,
+                            folder);
+  const Loading   after_two = programme.at(3.), end = programme.at(4.);
+  EXPECT_DOUBLE_EQ(after_two.displacement[0], 1.);
+  EXPECT_DOUBLE_EQ(after_two.displacement[1], 2.);
+  EXPECT_DOUBLE_EQ(after_two.velocity[1], 2.);
+  EXPECT_DOUBLE_EQ(after_two.pressure, 7.);
+  EXPECT_DOUBLE_EQ(end.displacement[0], 0.);
+  EXPECT_DOUBLE_EQ(end.displacement[1], 2.);
+  EXPECT_DOUBLE_EQ(end.pressure, 4.);
 }
 
 

@@ -36,13 +36,16 @@ namespace SlipStep
   /// The loading programme, written to be read aloud:
   /// `press 5.8 MPa in 1 s; hold 10 s; slide 1 mm/min for 60 mm;
   ///  slide -1 mm/min for 5 mm at 30 deg; slide for 10 mm; slide 2 mm/s for 3
-  ///  s; follow measured/test_01.csv`
+  ///  s; follow measured/test_01.csv; repeat 10 times { slide 1 mm/s for 2 s;
+  ///  slide -1 mm/s for 2 s }`
   ///
   /// Units are mandatory. Pressure starts at 0 and displacement at the origin;
   /// `press` ramps from the present pressure; a negative speed reverses the
   /// direction, which is (cos, sin) of the angle in the contact plane. `follow`
   /// replays displacement relative to the start of the test, and its pressure;
   /// a different pressure at its start is reached within its first interval.
+  /// What `repeat` has in braces happens again from where it ended: every time
+  /// with statements of its own, and with other repetitions inside if wanted.
   class Programme
   {
   public:
