@@ -1,5 +1,7 @@
 #include <slipstep/experiment/machine.h>
 
+#include <slipstep/utilities/units.h>
+
 #include <boost/math/tools/roots.hpp>
 
 #include <cmath>
@@ -10,33 +12,51 @@ namespace SlipStep
 
   namespace
   {
-    const char *const key = "Loading/Machine stiffness";
-  }
+    const char *const stiffness_key = "Loading/Machine stiffness";
+    const char *const mass_key      = "Loading/Machine mass";
+  } // namespace
 
 
 
   void Machine::declare_parameters(Parameters &parameters)
   {
     parameters.declare(
-      key,
+      stiffness_key,
       "rigid",
       dealii::Patterns::Anything(),
       "Stiffness k of the machine between the load point, which the programme "
       "moves, and the contact point of 'slipstep point': tangential traction "
       "per displacement. 'rigid', or more than 0, in MPa/mm. The block of "
       "'slipstep run' takes 'rigid' only: it is elastic itself.");
+    parameters.declare(
+      mass_key,
+      "0",
+      Quantity(Dimension::areal_mass, 0.),
+      "Mass m per area of contact that moves with the contact point of "
+      "'slipstep point', at the end of the spring: m u'' = k (U - u) - f_t. It "
+      "makes stick-slip a motion instead of a jump. 0 or more, in MPa s^2/mm, "
+      "which is 1e9 kg/m^2; 'kg/m^2' is understood. Only with a machine that is "
+      "not rigid.");
   }
 
 
 
   Machine::Machine(const Parameters &parameters)
+    : areal_mass(parameters.number(mass_key))
   {
-    const std::string text = parameters.text(key);
+    const std::string text = parameters.text(stiffness_key);
     if (text == "rigid")
-      return;
+      {
+        if (areal_mass > 0.)
+          parameters.reject(mass_key,
+                            "a rigid machine moves any mass as the programme "
+                            "says; give " +
+                              std::string(stiffness_key) + ", too");
+        return;
+      }
     const Quantity stiffness(Dimension::stiffness, 0., 1e30, true);
     if (!stiffness.match(text))
-      parameters.reject(key,
+      parameters.reject(stiffness_key,
                         "must be 'rigid' or a stiffness greater than 0, such "
                         "as 50 MPa/mm");
     compliance = 1. / stiffness.value(text);
@@ -44,66 +64,160 @@ namespace SlipStep
 
 
 
-  // The law leaves a share w of the elastic trial traction, f_t = w f_trial,
-  // where f_trial = f_0 + C slip. With the spring, slip = motion - c (f_t -
-  // f_0), so that w determines the trial,
-  //   (1 + w c C) f_trial = f_0 + C (motion + c f_0),
-  // and the law a share that must be w. At w = 0 the law's cannot be less, at
-  // w = 1 it cannot be more. On a weakening contact there may be several: the
-  // first, from sticking on, is next to where the contact was before.
-  ContactResponse Machine::update(const FrictionLaw  &law,
-                                  ContactPoint       &point,
-                                  const Tensor<1, 2> &load_point_increment,
-                                  const double        normal_traction,
-                                  const double        time_step) const
+  namespace
   {
-    if (is_rigid())
-      return point.update(law,
-                          load_point_increment,
-                          normal_traction,
-                          time_step);
+    // The law leaves a share w of the elastic trial traction, f_t = w f_trial,
+    // where f_trial = f_0 + C slip. With a spring, slip = motion - c (f_t -
+    // f_0), so that w determines the trial,
+    //   (1 + w c C) f_trial = f_0 + C (motion + c f_0),
+    // and the law a share that must be w. At w = 0 the law's cannot be less, at
+    // w = 1 it cannot be more. On a weakening contact there may be several: the
+    // first, from sticking on, is next to where the contact was before.
+    ContactResponse update_on_spring(const FrictionLaw  &law,
+                                     ContactPoint       &point,
+                                     const double        compliance,
+                                     const Tensor<1, 2> &motion,
+                                     const double        normal_traction,
+                                     const double        time_step)
+    {
+      const Tensor<2, 2> elastic = law.elastic_tangent();
+      const Tensor<1, 2> old     = point.committed().traction;
+      const Tensor<1, 2> load    = old + elastic * (motion + compliance * old);
+      ContactResponse    response;
+      const auto         excess = [&](const double share) {
+        Tensor<2, 2> matrix = share * compliance * elastic;
+        matrix[0][0] += 1.;
+        matrix[1][1] += 1.;
+        const Tensor<1, 2> trial = invert(matrix) * load;
+        response                 = point.update(law,
+                                invert(elastic) * (trial - old),
+                                normal_traction,
+                                time_step);
+        const double square      = trial.norm_square();
+        return square > 0. ? response.traction * trial / square - share : 0.;
+      };
 
-    const Tensor<2, 2> elastic = law.elastic_tangent();
-    const Tensor<1, 2> old     = point.committed().traction;
-    const Tensor<1, 2> load =
-      old + elastic * (load_point_increment + compliance * old);
-    ContactResponse response;
-    const auto      excess = [&](const double share) {
-      Tensor<2, 2> matrix = share * compliance * elastic;
-      matrix[0][0] += 1.;
-      matrix[1][1] += 1.;
-      const Tensor<1, 2> trial = invert(matrix) * load;
-      response                 = point.update(law,
-                              invert(elastic) * (trial - old),
-                              normal_traction,
-                              time_step);
-      const double square      = trial.norm_square();
-      return square > 0. ? response.traction * trial / square - share : 0.;
-    };
-
-    double upper = 1.;
-    if (excess(upper) >= -1e-14)
+      double upper = 1.;
+      if (excess(upper) >= -1e-14)
+        return response;
+      // Closer and closer to 1, then to 0.
+      for (int power = -40; power <= 200; power += 3)
+        {
+          const double lower =
+            power < 0 ? 1. - std::exp2(power) : std::exp2(-1 - power);
+          if (excess(lower) > 0.)
+            {
+              boost::uintmax_t iterations = 200;
+              const auto       bracket    = boost::math::tools::toms748_solve(
+                excess,
+                lower,
+                upper,
+                boost::math::tools::eps_tolerance<double>(51),
+                iterations);
+              upper = (bracket.first + bracket.second) / 2.;
+              break;
+            }
+          upper = lower;
+        }
+      excess(upper);
       return response;
-    // Closer and closer to 1, then to 0.
-    for (int power = -40; power <= 200; power += 3)
-      {
-        const double lower =
-          power < 0 ? 1. - std::exp2(power) : std::exp2(-1 - power);
-        if (excess(lower) > 0.)
-          {
-            boost::uintmax_t iterations = 200;
-            const auto       bracket    = boost::math::tools::toms748_solve(
-              excess,
-              lower,
-              upper,
-              boost::math::tools::eps_tolerance<double>(51),
-              iterations);
-            upper = (bracket.first + bracket.second) / 2.;
-            break;
-          }
-        upper = lower;
-      }
-    excess(upper);
-    return response;
+    }
+  } // namespace
+
+
+
+  MachineStep Machine::step(const FrictionLaw  &law,
+                            ContactPoint       &point,
+                            const Slider       &start,
+                            const Tensor<1, 2> &load_point_increment,
+                            const double        normal_traction,
+                            const double        time_step) const
+  {
+    if (areal_mass > 0.)
+      return step_with_mass(
+        law, point, start, load_point_increment, normal_traction, time_step);
+
+    MachineStep result;
+    result.contact =
+      is_rigid() ?
+        point.update(law, load_point_increment, normal_traction, time_step) :
+        update_on_spring(law,
+                         point,
+                         compliance,
+                         load_point_increment,
+                         normal_traction,
+                         time_step);
+    const Tensor<1, 2> slip =
+      load_point_increment -
+      compliance * (result.contact.traction - point.committed().traction);
+    result.slider = {start.slip + slip,
+                     slip / time_step,
+                     result.contact.traction};
+    // A jump of a soft machine takes no time: no step is small enough to
+    // resolve it.
+    const bool jumps = slip.norm() > 1e3 * load_point_increment.norm();
+    result.error     = jumps ? 0. : result.contact.error;
+    return result;
+  }
+
+
+
+  // With the trapezoidal rule f_1 = f_0 + K (motion - slip), K = k + 4m/dt^2.
+  //
+  // Its local error of the slip is dt^3/12 times the third derivative, for
+  // which dt^2/12 times the change of the acceleration stands; spring and
+  // contact make a force of it. Oscillations far quicker than the step change
+  // the force at most by what they are made of.
+  MachineStep Machine::step_with_mass(const FrictionLaw  &law,
+                                      ContactPoint       &point,
+                                      const Slider       &start,
+                                      const Tensor<1, 2> &load_point_increment,
+                                      const double        normal_traction,
+                                      const double        time_step) const
+  {
+    const double k       = stiffness();
+    const double inertia = 4. * areal_mass / (time_step * time_step);
+    // A contact that opens lets go at once; what it stored is lost to the law.
+    const Tensor<1, 2> old =
+      normal_traction > 0. ? point.committed().traction : Tensor<1, 2>();
+    const Tensor<1, 2> old_force = start.load - old;
+    const Tensor<1, 2> motion    = (2. * old_force + k * load_point_increment +
+                                 inertia * time_step * start.velocity) /
+                                (k + inertia);
+
+    MachineStep result;
+    result.contact = update_on_spring(
+      law, point, 1. / (k + inertia), motion, normal_traction, time_step);
+    const Tensor<1, 2> traction = result.contact.traction;
+    const Tensor<1, 2> slip     = motion - (traction - old) / (k + inertia);
+    result.slider               = {start.slip + slip,
+                                   2. / time_step * slip - start.velocity,
+                                   start.load + k * (load_point_increment - slip)};
+
+    const Tensor<1, 2> force     = result.slider.load - traction;
+    const double       stiffness = k + result.contact.d_slip.norm();
+    const double       resolved  = stiffness / (3. * inertia);
+    result.error                 = result.contact.error +
+                   (force - old_force).norm() * resolved / (1. + resolved);
+    return result;
+  }
+
+
+
+  std::vector<std::string> Machine::probe_names()
+  {
+    return {"displacement of the contact [mm]",
+            "velocity of the contact [mm/s]",
+            "load of the machine's spring / normal load"};
+  }
+
+
+
+  std::vector<double> Machine::probes(const Slider &slider,
+                                      const double  pressure)
+  {
+    return {slider.slip[0],
+            slider.velocity[0],
+            pressure > 0. ? slider.load[0] / pressure : 0.};
   }
 } // namespace SlipStep

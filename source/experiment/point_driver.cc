@@ -99,24 +99,19 @@ namespace SlipStep
               const Machine                                 &machine)
   {
     ContactPoint point(law);
+    Slider       slider;
     double       work = 0., snapped = 0.;
     while (!control.is_finished())
       {
-        const Loading      from   = programme.at(control.time());
-        const Loading      to     = programme.at(control.end_of_step());
-        const Tensor<1, 2> motion = to.displacement - from.displacement;
+        const Loading      from      = programme.at(control.time());
+        const Loading      to        = programme.at(control.end_of_step());
+        const Tensor<1, 2> motion    = to.displacement - from.displacement;
+        const double       time_step = control.step_size();
 
-        const ContactResponse response =
-          machine.update(law, point, motion, to.pressure, control.step_size());
+        const MachineStep step =
+          machine.step(law, point, slider, motion, to.pressure, time_step);
         const ContactState &state = point.trial();
-        const double        step  = control.step_size();
-        // A jump of a soft machine takes no time: no step is small enough to
-        // resolve it.
-        const bool jumps =
-          machine
-            .contact_slip(motion, state.traction - point.committed().traction)
-            .norm() > 1e3 * motion.norm();
-        if (!control.accept(jumps ? 0. : response.error, state.strength))
+        if (!control.accept(step.error, state.strength))
           continue;
 
         // The normal stiffness is linear, so its work is what it stores.
@@ -126,11 +121,12 @@ namespace SlipStep
         const double stored_normal =
           std::pow(state.normal_traction, 2) / (2. * law.normal_stiffness());
         work += stored_normal - stored_before +
-                0.5 * (point.committed().traction + state.traction) * motion;
-        // A contact that opens lets the machine's spring go.
+                0.5 * (slider.load + step.slider.load) * motion;
+        // A contact that opens lets a spring without mass go.
         const bool is_closed = to.pressure > 0.;
-        if (!is_closed)
-          snapped += machine.stored_energy(point.committed().traction);
+        if (!is_closed && machine.mass() == 0.)
+          snapped += machine.stored_energy(slider);
+        slider = step.slider;
         point.commit();
 
         HistoryRow row;
@@ -145,13 +141,15 @@ namespace SlipStep
         row.loading_ratio   = single(state.loading_ratio);
         row.normal_ratio    = single(state.normal_ratio);
         row.coefficient     = single(state.coefficient);
-        row.slip_fraction   = response.slips ? 1. : 0.;
+        row.slip_fraction   = step.contact.slips ? 1. : 0.;
         row.dissipated_energy = state.dissipation + snapped;
         row.stored_energy = stored_normal + law.stored_energy(state.traction) +
-                            machine.stored_energy(state.traction);
+                            machine.stored_energy(slider);
         row.external_work     = work;
-        row.step_size         = step;
+        row.step_size         = time_step;
         row.newton_iterations = 1;
+        if (!machine.is_rigid())
+          row.probes = Machine::probes(slider, to.pressure);
         observe(row);
       }
     return control.n_rejected();

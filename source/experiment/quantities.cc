@@ -617,7 +617,7 @@ namespace SlipStep
             const std::size_t probe = n_probes++;
             result.value =
               reader.at(quantity.displacement, [&](const HistoryRow &row) {
-                return probe < row.probes.size() ?
+                return dimension > 0 && probe < row.probes.size() ?
                          row.probes[probe] :
                          QuantityOfInterest::undefined;
               });

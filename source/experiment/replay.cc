@@ -71,20 +71,22 @@ namespace SlipStep
 
 
 
-  ContactResponse Replay::make(const Step        &step,
-                               const FrictionLaw &law,
-                               const Machine     &machine,
-                               ContactPoint      &point) const
+  MachineStep Replay::make(const Step        &step,
+                           const FrictionLaw &law,
+                           const Machine     &machine,
+                           const Slider      &start,
+                           ContactPoint      &point) const
   {
     const Interval &interval = intervals[step.interval];
     const double    share    = step.end - step.begin;
-    return machine.update(law,
-                          point,
-                          share * interval.motion,
-                          interval.start_pressure +
-                            step.end *
-                              (interval.end_pressure - interval.start_pressure),
-                          share * interval.duration);
+    return machine.step(law,
+                        point,
+                        start,
+                        share * interval.motion,
+                        interval.start_pressure +
+                          step.end *
+                            (interval.end_pressure - interval.start_pressure),
+                        share * interval.duration);
   }
 
 
@@ -118,12 +120,10 @@ namespace SlipStep
         intervals[interval - 1].motion / intervals[interval - 1].duration;
     if (!is_abrupt(rate_before, rate))
       return std::numeric_limits<double>::infinity();
-    Tensor<1, 2> traction;
-    traction[0] =
+    const double traction =
       law.static_coefficient() * std::max(now.start_pressure, now.end_pressure);
     const double elastic_slip =
-      traction[0] / law.tangential_stiffness() +
-      machine.contact_slip(Tensor<1, 2>(), traction).norm();
+      traction / law.tangential_stiffness() + traction / machine.stiffness();
     return first_slip * elastic_slip /
            std::max(rate.norm(), rate_before.norm());
   }
@@ -136,6 +136,7 @@ namespace SlipStep
                        const Machine     &machine,
                        const double       tolerance,
                        ContactPoint      &point,
+                       Slider            &slider,
                        double            &wanted_step) const
   {
     // Least share of an interval: a jump of a soft machine takes no time.
@@ -143,13 +144,15 @@ namespace SlipStep
 
     const double made =
       (step.end - step.begin) * intervals[step.interval].duration;
-    const double scale = law.static_coefficient() * largest_pressure;
-    const double error = make(step, law, machine, point).error /
-                         std::max({scale, point.trial().strength, 1e-300});
+    const double      scale = law.static_coefficient() * largest_pressure;
+    const MachineStep tried = make(step, law, machine, slider, point);
+    const double      error =
+      tried.error / std::max({scale, point.trial().strength, 1e-300});
     const double factor = 0.9 * std::sqrt(tolerance / std::max(error, 1e-30));
     if (error <= 1.5 * tolerance)
       {
         wanted_step = std::max(made, wanted_step) * std::min(factor, 2.);
+        slider      = tried.slider;
         return true;
       }
     wanted_step = made * std::clamp(factor, 0.1, 0.7);
@@ -157,6 +160,7 @@ namespace SlipStep
       return false;
     if (!std::isfinite(error))
       throw RunError("no time step is small enough");
+    slider = tried.slider;
     return true;
   }
 
@@ -167,6 +171,7 @@ namespace SlipStep
                     const double       tolerance)
   {
     ContactPoint point(law);
+    Slider       slider;
     steps.clear();
     time_list.assign(1, start_time);
     double time = start_time, wanted_step = std::numeric_limits<double>::max();
@@ -184,7 +189,8 @@ namespace SlipStep
             if (share < left && share > left / 2.)
               share = left / 2.;
             const Step step = {i, begin, share == left ? 1. : begin + share};
-            if (!attempt(step, law, machine, tolerance, point, wanted_step))
+            if (!attempt(
+                  step, law, machine, tolerance, point, slider, wanted_step))
               continue;
             point.commit();
             steps.push_back(step);
@@ -228,20 +234,21 @@ namespace SlipStep
                         Curve             &curve) const
   {
     ContactPoint point(law);
+    Slider       slider;
     curve.friction.clear();
     curve.friction_y.clear();
     const auto observe = [&]() {
       const ContactState &state = point.committed();
       const double        inverse =
         state.normal_traction > 0. ? 1. / state.normal_traction : 0.;
-      curve.friction.push_back(state.traction[0] * inverse);
-      curve.friction_y.push_back(state.traction[1] * inverse);
+      curve.friction.push_back(slider.load[0] * inverse);
+      curve.friction_y.push_back(slider.load[1] * inverse);
     };
     for (std::size_t i = 0; i < steps.size(); ++i)
       {
         if (i == first_compared)
           observe();
-        make(steps[i], law, machine, point);
+        slider = make(steps[i], law, machine, slider, point).slider;
         point.commit();
         if (i >= first_compared)
           observe();

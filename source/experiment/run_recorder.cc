@@ -84,6 +84,8 @@ namespace SlipStep
     if (command == "run")
       for (const QuantityOfInterest &probe : probes_among(quantities))
         probes.push_back(probe.name);
+    else if (!Machine(parameters).is_rigid())
+      probes = Machine::probe_names();
     const std::filesystem::path file = options.output / "history.csv";
     if (resumed == nullptr)
       {

@@ -87,6 +87,13 @@ namespace SlipStep
                                        {{"MPa s/mm", 1, 1},
                                         {"MPa min/mm", 60, 1},
                                         {"MPa s/m", 1, 1e3}}};
+      static const DimensionEntry areal_mass{"a mass per area",
+                                             {{"MPa s^2/mm", 1, 1},
+                                              {"kg/mm^2", 1, 1e3},
+                                              {"kg/cm^2", 1, 1e5},
+                                              {"kg/m^2", 1, 1e9},
+                                              {"g/mm^2", 1, 1e6},
+                                              {"g/cm^2", 1, 1e8}}};
       static const DimensionEntry per_temperature{"a value per temperature",
                                                   {{"1/degC", 1, 1},
                                                    {"1/K", 1, 1}}};
@@ -133,6 +140,8 @@ namespace SlipStep
             return viscosity;
           case Dimension::drag:
             return drag;
+          case Dimension::areal_mass:
+            return areal_mass;
           case Dimension::per_temperature:
             return per_temperature;
           case Dimension::heating:

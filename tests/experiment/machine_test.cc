@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <sstream>
 
 #include "../friction/law_test_tools.h"
 
@@ -74,6 +75,7 @@ TEST(Machine, an_isotropic_contact_feels_a_softer_stick)
   const auto    contact = make_law(law), both = make_law(soft_law);
   const Machine machine(
     make_parameters({{"Loading/Machine stiffness", "120"}}));
+  Slider                                 slider;
   ContactPoint                           a(*contact), b(*both);
   std::mt19937                           random(1);
   std::uniform_real_distribution<double> number(-1., 1.);
@@ -82,7 +84,7 @@ TEST(Machine, an_isotropic_contact_feels_a_softer_stick)
       const Tensor<1, 2> motion =
         vector(0.01 * number(random), 0.01 * number(random));
       const double pressure = 5. + 2. * number(random);
-      machine.update(*contact, a, motion, pressure, 0.1);
+      slider = machine.step(*contact, a, slider, motion, pressure, 0.1).slider;
       b.update(*both, motion, pressure, 0.1);
       a.commit();
       b.commit();
@@ -99,7 +101,7 @@ TEST(Machine, rigid_is_the_law_itself)
 {
   const auto   law = make_law({});
   ContactPoint a(*law), b(*law);
-  Machine().update(*law, a, vector(1e-3, 2e-4), 5., 0.1);
+  Machine().step(*law, a, {}, vector(1e-3, 2e-4), 5., 0.1);
   b.update(*law, vector(1e-3, 2e-4), 5., 0.1);
   EXPECT_EQ(a.trial().traction, b.trial().traction);
   EXPECT_TRUE(Machine(make_parameters({})).is_rigid());
@@ -164,6 +166,7 @@ TEST(Machine, finds_equilibrium_with_anisotropy)
               {"anisotropy/Angle", "20 deg"}});
   const Machine machine(make_parameters({{"Loading/Machine stiffness", "40"}}));
   ContactPoint  point(*law);
+  Slider        slider;
   std::mt19937  random(1);
   std::uniform_real_distribution<double> number(-1., 1.);
   for (unsigned int step = 0; step < 20000; ++step)
@@ -172,17 +175,14 @@ TEST(Machine, finds_equilibrium_with_anisotropy)
                                   vector(number(random), number(random));
       const double pressure = 5. + 4. * number(random);
       const double dt       = std::pow(10., 2. * number(random));
-      machine.update(*law, point, motion, pressure, dt);
+      const Slider before   = slider;
+      slider = machine.step(*law, point, before, motion, pressure, dt).slider;
 
       // The spring and the law agree.
       const Tensor<1, 2> traction = point.trial().traction;
       ContactState       end;
-      law->update(point.committed(),
-                  machine.contact_slip(motion,
-                                       traction - point.committed().traction),
-                  pressure,
-                  dt,
-                  end);
+      law->update(
+        point.committed(), slider.slip - before.slip, pressure, dt, end);
       ASSERT_NEAR((end.traction - traction).norm(), 0., 1e-9) << step;
       point.commit();
     }
@@ -190,8 +190,198 @@ TEST(Machine, finds_equilibrium_with_anisotropy)
 
 
 
+namespace
+{
+  // A mass of 1e-4 MPa s^2/mm, pulled by a spring of 50 MPa/mm over a contact
+  // that sticks elastically: beyond reach is its strength.
+  const Settings elastic_oscillator = {
+    {"Friction/Effects", ""},
+    {"Friction/Static coefficient", "100"},
+    {"Friction/Tangential stiffness", "150"},
+    {"Loading/Machine stiffness", "50 MPa/mm"},
+    {"Loading/Machine mass", "1e-4 MPa s^2/mm"}};
+
+  Settings joined(Settings settings, const Settings &more)
+  {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+
+  /// Times at which the velocity of the contact comes to zero from above.
+  std::vector<double> turning_times(const std::vector<HistoryRow> &history)
+  {
+    std::vector<double> times;
+    for (unsigned int i = 1; i < history.size(); ++i)
+      {
+        const double before = history[i - 1].probes[1];
+        const double after  = history[i].probes[1];
+        if (before > 0. && after <= 0.)
+          times.push_back(history[i].time -
+                          history[i].step_size * after / (after - before));
+      }
+    return times;
+  }
+} // namespace
+
+
+
+TEST(MachineWithMass, swings_with_the_frequency_of_springs_and_mass)
+{
+  // The load point is moved away quickly, then rests: the mass swings between
+  // spring and contact, sqrt((k + alpha_t) / m), for ever.
+  const double omega  = std::sqrt((50. + 150.) / 1e-4);
+  const double period = 2. * dealii::numbers::PI / omega;
+  for (const char *tolerance : {"1e-4", "1e-5"})
+    {
+      const auto history =
+        drive(joined(elastic_oscillator,
+                     {{"Time stepping/Tolerance", tolerance},
+                      {"Loading/Programme",
+                       "press 5 MPa in 1 s; slide 1 m/s for 1 mm; hold 0.5 "
+                       "s"}}));
+      const auto times = turning_times(history);
+      ASSERT_GT(times.size(), 100u);
+      const double measured =
+        (times.back() - times.front()) / (times.size() - 1);
+      EXPECT_NEAR(measured, period, 1e-2 * period) << tolerance;
+      // Nothing takes energy out: work = energy of springs and motion.
+      const HistoryRow &end = history.back();
+      EXPECT_EQ(end.dissipated_energy, 0.);
+      EXPECT_NEAR(end.external_work,
+                  end.stored_energy,
+                  1e-10 * end.external_work);
+    }
+}
+
+
+
+TEST(MachineWithMass, is_of_second_order)
+{
+  // Against U = V t, x = k/(k + alpha_t) V (t - sin(omega t) / omega).
+  const double        k = 50., stiffness = 200.;
+  const double        omega = std::sqrt(stiffness / 1e-4), V = 1.;
+  std::vector<double> errors;
+  for (const char *steps : {"100", "200", "400"})
+    {
+      double error = 0.;
+      for (const HistoryRow &row :
+           drive(joined(elastic_oscillator,
+                        {{"Time stepping/Equal steps per statement", steps},
+                         {"Loading/Programme",
+                          "press 5 MPa in 1 s; slide 1 mm/s for 0.01 s"}})))
+        {
+          const double t = std::max(0., row.time - 1.);
+          error          = std::max(error,
+                           std::abs(row.probes[0] -
+                                    k / stiffness * V *
+                                      (t - std::sin(omega * t) / omega)));
+        }
+      errors.push_back(error);
+    }
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2., 0.05);
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2., 0.05);
+}
+
+
+
+TEST(MachineWithMass, a_light_one_is_the_spring_alone)
+{
+  const Settings slide = {
+    {"Friction/Effects", "subloading, overstress, softening"},
+    {"Friction/softening/Rate", "1"},
+    {"Loading/Machine stiffness", "20 MPa/mm"},
+    {"Time stepping/Equal steps per statement", "400"},
+    {"Loading/Programme",
+     "press 5 MPa in 1 s; slide 1 mm/s for 0.5 mm; slide -2 mm/s for 0.3 mm"}};
+  const auto spring = drive(slide);
+  // What is left is the swing with which the mass starts: V sqrt(m alpha_t).
+  const double V = 2., alpha_t = 1e4;
+  for (const double mass : {1e-5, 1e-7, 1e-9, 1e-11})
+    {
+      std::ostringstream text;
+      text << mass;
+      const auto history =
+        drive(joined(slide, {{"Loading/Machine mass", text.str()}}));
+      ASSERT_EQ(history.size(), spring.size());
+      double difference = 0.;
+      for (unsigned int i = 0; i < history.size(); ++i)
+        difference = std::max(difference,
+                              std::abs(history[i].tangential_load -
+                                       spring[i].tangential_load));
+      EXPECT_LT(difference, V * std::sqrt(mass * alpha_t)) << mass;
+    }
+}
+
+
+
+TEST(MachineWithMass, stick_slip_keeps_its_energy)
+{
+  // Strong weakening on a soft spring, without and with smooth sticking: work
+  // = spring + motion + contact + dissipated, better with smaller steps.
+  for (const char *effects : {"softening, healing, overstress",
+                              "softening, healing, overstress, subloading"})
+    {
+      std::vector<double> errors;
+      for (const char *tolerance : {"4e-4", "1e-4"})
+        {
+          const auto history =
+            drive({{"Friction/Effects", effects},
+                   {"Friction/Static coefficient", "0.3"},
+                   {"Friction/softening/Kinetic coefficient", "0.1"},
+                   {"Friction/softening/Rate", "100"},
+                   {"Friction/healing/Rate", "0.2"},
+                   {"Loading/Machine stiffness", "1 MPa/mm"},
+                   {"Loading/Machine mass", "1e-5"},
+                   {"Friction/Tangential stiffness", "500"},
+                   {"Time stepping/Tolerance", tolerance},
+                   {"Loading/Programme",
+                    "press 5 MPa in 1 s; slide 0.5 mm/s for 4 mm"}});
+          double fastest = 0.;
+          for (const HistoryRow &row : history)
+            fastest = std::max(fastest, row.probes[1]);
+          EXPECT_GT(fastest, 50.) << "it does not jump";
+          const HistoryRow &end = history.back();
+          errors.push_back(std::abs(end.external_work - end.stored_energy -
+                                    end.dissipated_energy) /
+                           end.external_work);
+        }
+      EXPECT_LT(errors[1], 0.7 * errors[0]);
+      EXPECT_LT(errors[1], 1e-4);
+    }
+}
+
+
+
+TEST(MachineWithMass, flies_free_when_the_contact_opens)
+{
+  // Off the plane the mass swings on its spring alone and loses nothing more.
+  const auto history = drive(
+    joined(elastic_oscillator,
+           {{"Time stepping/Least steps per statement", "2000"},
+            {"Friction/Static coefficient", "1"},
+            {"Loading/Programme",
+             "press 5 MPa in 1 s; slide 1 mm/s for 0.02 mm; press 0 MPa in "
+             "0.1 s; hold 0.5 s"}}));
+  const auto   times    = turning_times(history);
+  const double measured = times.back() - times[times.size() - 2];
+  EXPECT_NEAR(measured,
+              2. * dealii::numbers::PI / std::sqrt(50. / 1e-4),
+              1e-2 * measured);
+  const HistoryRow &end = history.back();
+  EXPECT_NEAR(end.external_work,
+              end.stored_energy + end.dissipated_energy,
+              5e-3 * end.external_work);
+  EXPECT_GT(end.stored_energy, 0.01 * end.external_work);
+  EXPECT_EQ(end.dissipated_energy,
+            history[history.size() - 50].dissipated_energy);
+}
+
+
+
 TEST(Machine, is_checked_when_read)
 {
+  EXPECT_THROW(Machine(make_parameters({{"Loading/Machine mass", "1e-3"}})),
+               InputError);
   for (const char *text : {"soft", "0", "-3 MPa/mm", "5 mm"})
     EXPECT_THROW(Machine(
                    make_parameters({{"Loading/Machine stiffness", text}})),

@@ -3,17 +3,50 @@
 
 #include <slipstep/friction/law.h>
 
+#include <string>
+#include <vector>
+
 namespace SlipStep
 {
+  /// The moving part of a machine, at one instant.
+  struct Slider
+  {
+    dealii::Tensor<1, 2> slip;     ///< displacement of the contact [mm]
+    dealii::Tensor<1, 2> velocity; ///< of the contact [mm/s]
+    /// What the load point carries, per area [MPa].
+    dealii::Tensor<1, 2> load;
+  };
+
+  /// One step of contact and machine.
+  struct MachineStep
+  {
+    ContactResponse contact;
+    Slider          slider; ///< at the end of the step
+    /// Estimated error of the tangential traction [MPa].
+    double error = 0.;
+  };
+
   /// The machine that moves a contact point: a spring in series, the same in
-  /// all directions of the contact plane.
+  /// all directions of the contact plane, and a mass between the two.
   ///
-  /// The programme moves the load point at its far end by U; the contact slips
-  /// by u, and carries what the spring carries,
-  /// \f[ f_t = k (U - u). \f]
-  /// That belongs to the experiment: the friction law knows nothing of it. Slip
-  /// and spring are found together, at the end of the step, so a soft spring on
-  /// a weakening contact jumps instead of oscillating.
+  /// The programme moves the load point at the far end of the spring by U; the
+  /// mass m (per area of contact) and with it the contact slips by u, resisted
+  /// by the traction of the friction law:
+  /// \f[ m \ddot u = k (U - u) - f_t. \f]
+  /// That belongs to the experiment: the friction law knows nothing of it.
+  ///
+  /// The trapezoidal rule integrates the motion of the mass, with f_t from the
+  /// law's own implicit step,
+  /// \f[ m\,\frac{v_1-v_0}{\Delta t} = \frac{F_0+F_1}{2}, \quad
+  ///     u_1-u_0 = \Delta t\,\frac{v_0+v_1}{2}, \quad F = k(U-u)-f_t. \f]
+  /// Multiplied by one another these say that kinetic energy and spring change
+  /// by exactly the work of load point and traction: nothing but the law takes
+  /// energy out, however long the steps. For the law, a step with mass is one
+  /// with a spring of stiffness \f$k + 4m/\Delta t^2\f$ and another motion of
+  /// its end.
+  ///
+  /// Without mass, slip and spring are found together, at the end of the step,
+  /// so a soft spring on a weakening contact jumps instead of oscillating.
   class Machine
   {
   public:
@@ -22,7 +55,7 @@ namespace SlipStep
     /// A rigid machine, of which U = u.
     Machine() = default;
 
-    /// @throws InputError
+    /// @throws InputError, also for a mass that nothing springy moves
     explicit Machine(const Parameters &parameters);
 
     bool is_rigid() const
@@ -30,33 +63,54 @@ namespace SlipStep
       return compliance == 0.;
     }
 
-    /// One step of a contact point, with its tangent for slip of the contact.
+    /// k [MPa/mm], infinity for a rigid machine.
+    double stiffness() const
+    {
+      return 1. / compliance;
+    }
+
+    double mass() const ///< m, per area [MPa s^2/mm]
+    {
+      return areal_mass;
+    }
+
+    /// One step of a contact point and the machine.
+    /// @param start of the step; default for a machine at rest without load
     /// @param load_point_increment motion of the load point [mm]
     /// @param normal_traction at the end of the step [MPa]
     /// @param time_step [s]
-    ContactResponse update(const FrictionLaw          &law,
-                           ContactPoint               &point,
-                           const dealii::Tensor<1, 2> &load_point_increment,
-                           const double                normal_traction,
-                           const double                time_step) const;
+    MachineStep step(const FrictionLaw          &law,
+                     ContactPoint               &point,
+                     const Slider               &start,
+                     const dealii::Tensor<1, 2> &load_point_increment,
+                     const double                normal_traction,
+                     const double                time_step) const;
 
-    /// Slip of the contact [mm] while the load point moves and the traction
-    /// changes.
-    dealii::Tensor<1, 2>
-    contact_slip(const dealii::Tensor<1, 2> &load_point_increment,
-                 const dealii::Tensor<1, 2> &traction_change) const
-    {
-      return load_point_increment - compliance * traction_change;
-    }
+    /// What the probes of a history are, in the order of probes().
+    static std::vector<std::string> probe_names();
 
-    /// Energy stored per area in the spring [MPa mm].
-    double stored_energy(const dealii::Tensor<1, 2> &traction) const
+    /// Displacement [mm] and velocity [mm/s] of the contact, and the load of
+    /// the spring over the normal load, along the first axis.
+    static std::vector<double> probes(const Slider &slider,
+                                      const double  pressure);
+
+    /// Energy stored per area in spring and motion [MPa mm].
+    double stored_energy(const Slider &slider) const
     {
-      return compliance / 2. * traction.norm_square();
+      return compliance / 2. * slider.load.norm_square() +
+             areal_mass / 2. * slider.velocity.norm_square();
     }
 
   private:
+    MachineStep step_with_mass(const FrictionLaw          &law,
+                               ContactPoint               &point,
+                               const Slider               &start,
+                               const dealii::Tensor<1, 2> &load_point_increment,
+                               const double                normal_traction,
+                               const double                time_step) const;
+
     double compliance = 0.; ///< c = 1 / k [mm/MPa]
+    double areal_mass = 0.; ///< m [MPa s^2/mm]
   };
 } // namespace SlipStep
 

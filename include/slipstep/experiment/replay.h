@@ -42,8 +42,8 @@ namespace SlipStep
       return time_list;
     }
 
-    /// Tangential over normal traction, 0 where there is no pressure, along
-    /// both axes, at times().
+    /// What the load point carries over the pressure, 0 where there is none,
+    /// along both axes, at times(): the friction that an instrument records.
     struct Curve
     {
       std::vector<double> friction;
@@ -97,12 +97,14 @@ namespace SlipStep
                  const Machine     &machine,
                  const double       tolerance,
                  ContactPoint      &point,
+                 Slider            &slider,
                  double            &wanted_step) const;
 
-    ContactResponse make(const Step        &step,
-                         const FrictionLaw &law,
-                         const Machine     &machine,
-                         ContactPoint      &point) const;
+    MachineStep make(const Step        &step,
+                     const FrictionLaw &law,
+                     const Machine     &machine,
+                     const Slider      &start,
+                     ContactPoint      &point) const;
 
     std::vector<Interval> intervals;
     /// Intervals before the first row.

@@ -23,6 +23,7 @@ namespace SlipStep
     per_time,        ///< 1/s
     viscosity,       ///< s/mm
     drag,            ///< MPa s/mm
+    areal_mass,      ///< mass per area, MPa s^2/mm
     per_temperature, ///< 1/degC
     heating,         ///< degC per work and area, degC mm/N
     angle,           ///< deg in text, rad inside
