@@ -5,7 +5,11 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/experiment/run_recorder.h>
+#include <slipstep/experiment/stability.h>
 
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -157,12 +161,74 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // Most laws slide backwards as they slide forwards.
+    bool is_like(const StabilitySummary &a, const StabilitySummary &b)
+    {
+      const auto differ = [](const double x, const double y) {
+        return x != y && !(std::abs(x - y) <= 1e-6 * std::abs(y));
+      };
+      return !differ(a.speed, b.speed) && !differ(a.pressure, b.pressure) &&
+             !differ(a.critical_stiffness, b.critical_stiffness);
+    }
+
+    // One for each speed, direction and pressure at which the programme slides.
+    std::vector<StabilitySummary> stability_of(const FrictionLaw &law,
+                                               const Programme   &programme,
+                                               const Machine     &machine)
+    {
+      // A replayed test has too many to be told.
+      constexpr unsigned int        most = 20;
+      std::vector<StabilitySummary> result;
+      std::vector<Loading>          seen;
+      for (const Segment &segment : programme.segments())
+        {
+          const Loading &now = segment.end;
+          const bool     is_told =
+            std::any_of(seen.begin(), seen.end(), [&](const Loading &other) {
+              return other.pressure == now.pressure &&
+                     (other.velocity - now.velocity).norm() <=
+                       1e-9 * now.velocity.norm();
+            });
+          if (now.velocity.norm() == 0. || !(now.pressure > 0.) ||
+              now.pressure != segment.start.pressure || is_told)
+            continue;
+          if (seen.size() == most)
+            return {};
+          seen.push_back(now);
+          const SteadySliding sliding(law, now.velocity, now.pressure);
+          if (!sliding.exists())
+            continue;
+          const StabilityLimit   limit = sliding.limit(machine.mass());
+          const StabilitySummary summary{now.velocity.norm(),
+                                         now.pressure,
+                                         sliding.friction(),
+                                         machine.stiffness(),
+                                         limit.stiffness,
+                                         limit.frequency /
+                                           (2. * dealii::numbers::PI)};
+          if (std::none_of(result.begin(),
+                           result.end(),
+                           [&](const auto &other) {
+                             return is_like(summary, other);
+                           }))
+            result.push_back(summary);
+        }
+      return result;
+    }
+  } // namespace
+
+
+
   Summary run_point(const Parameters &parameters, const RunOptions &options)
   {
     const FrictionLaw law(parameters);
     const Programme   programme = parse_programme(parameters);
     const Machine     machine(parameters);
     RunRecorder       recorder(parameters, options, "point", law, programme);
+    if (!machine.is_rigid())
+      recorder.summary.stability = stability_of(law, programme, machine);
     if (options.resume)
       recorder.announce(
         "A contact point writes no checkpoints: the run starts anew.");

@@ -204,6 +204,43 @@ namespace SlipStep
       return lines;
     }
 
+    /// Whether the machine lets the contact slide steadily; empty without a
+    /// spring.
+    std::vector<TableLine> stability_lines(const std::vector<RunResults> &runs)
+    {
+      std::vector<TableLine> lines = {{"run",
+                                       "speed [mm/min]",
+                                       "pressure [MPa]",
+                                       "k [MPa/mm]",
+                                       "critical k [MPa/mm]",
+                                       "at [Hz]",
+                                       "steady sliding"}};
+      for (const RunResults &run : runs)
+        for (const StabilitySummary &s : run.summary.stability)
+          lines.push_back(
+            {run_name(run),
+             short_text(60. * s.speed),
+             short_text(s.pressure),
+             short_text(s.stiffness),
+             std::isinf(s.critical_stiffness) ?
+               "∞" :
+               short_text(s.critical_stiffness),
+             s.critical_frequency > 0. ? short_text(s.critical_frequency) : "–",
+             s.is_stable() ? "stable" : "unstable: stick-slip"});
+      return lines.size() > 1 ? lines : std::vector<TableLine>();
+    }
+
+    std::string stability(const std::vector<RunResults> &runs)
+    {
+      const std::vector<TableLine> lines = stability_lines(runs);
+      if (lines.empty())
+        return "";
+      return "<h2>Stability of steady sliding</h2>\n" + html_table(lines) +
+             "<p class='origin'>Below the critical stiffness k of the machine a "
+             "small disturbance of steady sliding grows, swinging with the "
+             "frequency given.</p>\n";
+    }
+
     /// The quantities of interest of all runs, if the case names any.
     std::string quantities(const std::vector<RunResults> &runs)
     {
@@ -284,6 +321,9 @@ namespace SlipStep
     std::string text;
     if (!rows.empty())
       text += text_table(result_lines(rows, reference, false));
+    const auto stability = stability_lines(results);
+    if (!stability.empty())
+      text += "\n" + text_table(stability);
     for (const RunResults &run : results)
       if (run.summary.status == "failed")
         text += "  " + run_name(run) + ": failed: " + run.summary.reason + "\n";
@@ -375,7 +415,7 @@ namespace SlipStep
           << html_table(result_lines(rows, reference, true))
           << "<p class='origin'>kinetic, r, μ: at the end of the slide, means "
              "over the contact face; drop: from peak to kinetic.</p>\n";
-      html << figures(pictures);
+      html << figures(pictures) << stability(runs);
       if (!runs.empty())
         {
           html << "<h2>Energy</h2>\n"

@@ -57,6 +57,35 @@ namespace SlipStep
       return slide;
     }
 
+    // Stable on no spring: JSON has no infinity, either.
+    json stability_to_json(const StabilitySummary &stability)
+    {
+      json object = {{"speed_mm_per_min", stability.speed * mm_min},
+                     {"pressure_MPa", stability.pressure},
+                     {"friction", stability.friction},
+                     {"stiffness_MPa_per_mm", stability.stiffness},
+                     {"critical_stiffness_MPa_per_mm",
+                      stability.critical_stiffness},
+                     {"critical_frequency_Hz", stability.critical_frequency},
+                     {"stable", stability.is_stable()}};
+      return object;
+    }
+
+    StabilitySummary stability_from_json(const json &object)
+    {
+      StabilitySummary stability;
+      stability.speed     = number(object, "speed_mm_per_min") / mm_min;
+      stability.pressure  = number(object, "pressure_MPa");
+      stability.friction  = number(object, "friction");
+      stability.stiffness = number(object, "stiffness_MPa_per_mm");
+      stability.critical_stiffness =
+        number(object, "critical_stiffness_MPa_per_mm");
+      stability.critical_frequency = number(object, "critical_frequency_Hz");
+      if (std::isnan(stability.critical_stiffness))
+        stability.critical_stiffness = std::numeric_limits<double>::infinity();
+      return stability;
+    }
+
     json to_json(const Summary &summary)
     {
       json quantities = json::array();
@@ -67,6 +96,9 @@ namespace SlipStep
       json slides = json::array();
       for (const SlideSummary &slide : summary.slides)
         slides.push_back(slide_to_json(slide));
+      json stability = json::array();
+      for (const StabilitySummary &sliding : summary.stability)
+        stability.push_back(stability_to_json(sliding));
 
       return {{"version", version()},
               {"git_hash", git_hash()},
@@ -99,6 +131,7 @@ namespace SlipStep
                 {"balance_error", summary.balance_error}}},
               {"slides", slides},
               {"quantities", quantities},
+              {"stability", stability},
               {"warnings", summary.warnings}};
     }
 
@@ -139,6 +172,9 @@ namespace SlipStep
         summary.quantities.push_back({quantity.at("name").get<std::string>(),
                                       number(quantity, "value"),
                                       quantity.at("unit").get<std::string>()});
+      // Older files have none.
+      for (const json &sliding : object.value("stability", json::array()))
+        summary.stability.push_back(stability_from_json(sliding));
       object.at("warnings").get_to(summary.warnings);
       return summary;
     }

@@ -64,6 +64,7 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
 {
   Summary summary;
   summary.slides.resize(1);
+  summary.stability.resize(1);
   write_summary(scratch_file(), summary);
   std::ifstream in(scratch_file());
   const auto    object = nlohmann::json::parse(in);
@@ -82,7 +83,7 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                        "wall_s",   "cpu_s",          "linear_iterations",
                        "friction", "energy",         "peak_memory_MB",
                        "slides",   "quantities",     "warnings",
-                       "sessions"});
+                       "sessions", "stability"});
   has_exactly(object["friction"], {"peak", "at_displacement_mm", "final"});
   has_exactly(object["energy"],
               {"work", "stored", "dissipated", "balance_error"});
@@ -96,6 +97,30 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                "r",
                "mu",
                "complete"});
+  has_exactly(object["stability"][0],
+              {"speed_mm_per_min",
+               "pressure_MPa",
+               "friction",
+               "stiffness_MPa_per_mm",
+               "critical_stiffness_MPa_per_mm",
+               "critical_frequency_Hz",
+               "stable"});
+}
+
+
+
+TEST(Summary, WhatIsStableOnNoSpringReadsBack)
+{
+  Summary summary;
+  summary.stability.push_back(
+    {1., 5., 0.3, 2., std::numeric_limits<double>::infinity(), 7.});
+  write_summary(scratch_file(), summary);
+  const Summary read = read_summary(scratch_file());
+  ASSERT_EQ(read.stability.size(), 1u);
+  EXPECT_EQ(read.stability[0].critical_stiffness,
+            summary.stability[0].critical_stiffness);
+  EXPECT_NEAR(read.stability[0].speed, 1., 1e-15);
+  EXPECT_FALSE(read.stability[0].is_stable());
 }
 
 

@@ -25,6 +25,23 @@ namespace SlipStep
     bool   is_complete       = true; ///< not cut short by a failure
   };
 
+  /// Whether sliding at one speed of the programme is steady on the spring of
+  /// the machine, see SteadySliding.
+  struct StabilitySummary
+  {
+    double speed              = 0.; ///< [mm/s]
+    double pressure           = 0.; ///< [MPa]
+    double friction           = 0.; ///< of steady sliding
+    double stiffness          = 0.; ///< of the machine, k [MPa/mm]
+    double critical_stiffness = 0.; ///< k_c, 0 to infinity [MPa/mm]
+    double critical_frequency = 0.; ///< of the disturbance at k_c [Hz]
+
+    bool is_stable() const
+    {
+      return stiffness > critical_stiffness;
+    }
+  };
+
   /// The content of summary.json.
   ///
   /// Of a resumed run, times add up what led to the result: sessions up to the
@@ -59,7 +76,9 @@ namespace SlipStep
     double balance_error  = 0.; ///< relative to work
     std::vector<SlideSummary>  slides;
     std::vector<QuantityValue> quantities;
-    std::vector<std::string>   warnings;
+    /// Empty without a spring.
+    std::vector<StabilitySummary> stability;
+    std::vector<std::string>      warnings;
   };
 
   /// Write atomically (a temporary file renamed into place).

@@ -1,0 +1,204 @@
+#include <slipstep/experiment/stability.h>
+
+#include <boost/math/tools/roots.hpp>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace SlipStep
+{
+  using dealii::Tensor;
+
+  namespace
+  {
+    using Complex = std::complex<double>;
+
+    // What a point in steady sliding remembers: two components of the traction,
+    // mu, and the memories of the effects. (r_s stays 1, the slip path is
+    // beyond all that runs in.)
+    constexpr unsigned int n_memories = ContactState::memories().size();
+    constexpr unsigned int n_states   = 3 + n_memories;
+
+    // Time step of the differences, times the angular frequency.
+    constexpr double relative_step = 1e-3;
+
+    double &component(ContactState &state, const unsigned int i)
+    {
+      if (i < 2)
+        return state.traction[i];
+      if (i == 2)
+        return state.coefficient;
+      return state.*ContactState::memories()[i - 3];
+    }
+
+    std::array<double, n_states> components(ContactState state)
+    {
+      std::array<double, n_states> result;
+      for (unsigned int i = 0; i < n_states; ++i)
+        result[i] = component(state, i);
+      return result;
+    }
+  } // namespace
+
+
+
+  SteadySliding::SteadySliding(const FrictionLaw  &law,
+                               const Tensor<1, 2> &velocity,
+                               const double        pressure)
+    : law(law)
+    , speed(velocity.norm())
+    , direction(velocity / speed)
+    , pressure(pressure)
+    , steady(law.initial_state())
+  {
+    Assert(speed > 0. && pressure > 0.,
+           dealii::ExcMessage("Nothing slides here."));
+    find_steady_state();
+  }
+
+
+
+  // Implicit steps may be as long as one likes: the last are longer than
+  // anything that the law remembers.
+  void SteadySliding::find_steady_state()
+  {
+    const double first_slip =
+      pressure * law.static_coefficient() / law.tangential_stiffness();
+    std::array<double, n_states> before = components(steady);
+    for (double slip = first_slip; slip < 1e15 * first_slip; slip *= 2.)
+      {
+        before = components(steady);
+        ContactState end;
+        law.update(steady, slip * direction, pressure, slip / speed, end);
+        steady = end;
+      }
+    const std::array<double, n_states> after = components(steady);
+    is_steady = std::isfinite(steady.strength) && steady.strength > 0.;
+    for (unsigned int i = 0; i < n_states; ++i)
+      if (!(std::abs(after[i] - before[i]) <=
+            1e-8 * std::max(std::abs(after[i]), i < 2 ? steady.strength : 0.)))
+        is_steady = false;
+  }
+
+
+
+  double SteadySliding::friction() const
+  {
+    return steady.traction * direction / pressure;
+  }
+
+
+
+  // Strength that falls with speed faster than the overstress rises has no
+  // short steps that go on as before: the contact stops or jumps.
+  bool SteadySliding::is_kept(const double time_step) const
+  {
+    ContactState end;
+    law.update(steady, speed * time_step * direction, pressure, time_step, end);
+    return (end.traction - steady.traction).norm() <= 1e-6 * steady.strength;
+  }
+
+
+
+  // A step of the law maps what it remembers and the slip increment, y_1 =
+  // A y_0 + b (u_1 - u_0). With e^{st}, y_0 = (1 - s dt) y_1.
+  Complex SteadySliding::dynamic_stiffness(const double omega) const
+  {
+    const double time_step = relative_step / omega;
+    const double slip      = speed * time_step;
+    const auto   step = [&](const ContactState &start, const double increment) {
+      ContactState end;
+      law.update(start, increment * direction, pressure, time_step, end);
+      return components(end);
+    };
+    // As small as keeps the contact slipping.
+    const double share =
+      std::min(1e-6,
+               1e-2 * law.tangential_stiffness() * slip / steady.strength);
+
+    const Complex                 shift(1., -omega * time_step);
+    dealii::FullMatrix<Complex>   matrix(n_states, n_states);
+    std::array<Complex, n_states> right;
+    for (unsigned int j = 0; j <= n_states; ++j)
+      {
+        ContactState plus = steady, minus = steady;
+        double       change = share * slip;
+        if (j < n_states)
+          {
+            change = share * std::max(std::abs(component(plus, j)),
+                                      j < 2 ? steady.strength : 0.);
+            component(plus, j) += change;
+            component(minus, j) -= change;
+          }
+        const bool is_slip = j == n_states;
+        const auto upper   = step(plus, is_slip ? slip + change : slip);
+        const auto lower   = step(minus, is_slip ? slip - change : slip);
+        for (unsigned int i = 0; i < n_states; ++i)
+          {
+            const double derivative =
+              change > 0. ? (upper[i] - lower[i]) / (2. * change) : 0.;
+            if (is_slip)
+              right[i] = derivative * (1. - shift);
+            else
+              matrix(i, j) = (i == j ? 1. : 0.) - derivative * shift;
+          }
+      }
+
+    matrix.gauss_jordan();
+    Complex result = 0.;
+    for (unsigned int i = 0; i < 2; ++i)
+      for (unsigned int j = 0; j < n_states; ++j)
+        result += direction[i] * matrix(i, j) * right[j];
+    return result;
+  }
+
+
+
+  // Coming from stiff springs, the first frequency at which a disturbance
+  // neither grows nor fades sets the limit. A law that feeds even the quickest
+  // disturbances, which the contact bears elastically, is stable on no spring;
+  // a rate-independent one, without mass, on those stiffer than it weakens.
+  StabilityLimit SteadySliding::limit(const double mass) const
+  {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double quickest = 10. * law.tangential_stiffness() * speed /
+                            (law.static_coefficient() * pressure);
+    const double ratio = std::pow(10., 0.04);
+    if (!is_kept(relative_step / quickest))
+      return {infinity, quickest};
+    const Complex last = dynamic_stiffness(quickest);
+    if (last.imag() < 0.)
+      return {mass > 0. || last.real() > 0. ? infinity : -last.real(),
+              quickest};
+
+    StabilityLimit result;
+    double         loss = last.imag();
+    for (double omega = quickest; omega > 1e-14 * quickest; omega /= ratio)
+      {
+        const double next = dynamic_stiffness(omega / ratio).imag();
+        if (loss * next < 0.)
+          {
+            boost::uintmax_t iterations = 100;
+            const auto       bracket    = boost::math::tools::toms748_solve(
+              [&](const double w) { return dynamic_stiffness(w).imag(); },
+              omega / ratio,
+              omega,
+              boost::math::tools::eps_tolerance<double>(30),
+              iterations);
+            const double critical = (bracket.first + bracket.second) / 2.;
+            const double stiffness =
+              mass * critical * critical - dynamic_stiffness(critical).real();
+            if (stiffness > result.stiffness)
+              result = {stiffness, critical};
+          }
+        loss = next;
+      }
+    return result;
+  }
+} // namespace SlipStep

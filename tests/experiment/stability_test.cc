@@ -1,0 +1,246 @@
+// The limit of stability of steady sliding: closed form against the law's own
+// steps, and against what a spring and a mass do.
+
+#include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/stability.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "../friction/law_test_tools.h"
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  constexpr double pressure = 5.;
+  // Of the law below.
+  constexpr double mu_s = 0.3, mu_k = 0.1, kappa = 20., a = 2., xi = 0.02,
+                   b = 5., eta = 100., n = 25., r_m = 1.8, alpha_t = 500.;
+
+  const Settings core = {{"Effects",
+                          "subloading, overstress, softening, healing"},
+                         {"Static coefficient", "0.3"},
+                         {"softening/Kinetic coefficient", "0.1"},
+                         {"softening/Rate", "20"},
+                         {"softening/Steepness", "2"},
+                         {"healing/Rate", "0.02"},
+                         {"healing/Steepness", "5"},
+                         {"overstress/Viscosity", "100"},
+                         {"overstress/Exponent", "25"},
+                         {"Tangential stiffness", "500"}};
+
+  /// mu at which softening and healing balance at a speed.
+  double steady_coefficient(const double V)
+  {
+    double lower = mu_k, upper = mu_s;
+    for (unsigned int i = 0; i < 100; ++i)
+      {
+        const double mu   = (lower + upper) / 2.;
+        const double rate = -kappa * std::expm1(a * (mu - mu_k)) * V +
+                            xi * std::expm1(b * (mu_s - mu));
+        (rate > 0. ? lower : upper) = mu;
+      }
+    return lower;
+  }
+
+  /// k_c of the core law and a drag c per speed, tau_y = f_n mu + c V, closed
+  /// form.
+  StabilityLimit
+  closed_form(const double V, const double mass, const double c = 0.)
+  {
+    const double mu = steady_coefficient(V);
+    // eta V = (exp(n (r - 1)) - 1) / (r_m - r)
+    double lower = 1., upper = r_m;
+    for (unsigned int i = 0; i < 100; ++i)
+      {
+        const double r = (lower + upper) / 2.;
+        (std::expm1(n * (r - 1.)) < eta * V * (r_m - r) ? lower : upper) = r;
+      }
+    const double r     = lower;
+    const double e     = std::exp(n * (r - 1.));
+    const double slope = eta * (r_m - r) / (n * e + eta * V); // dr/dV
+    const double C     = kappa * std::expm1(a * (mu - mu_k));
+    const double B     = kappa * a * std::exp(a * (mu - mu_k)) * V +
+                     xi * b * std::exp(b * (mu_s - mu));
+    const double direct = slope * (pressure * mu + c * V) + r * c; // df/dV
+    const double k_0    = pressure * r * C - direct * B;
+    const double omega2 = k_0 * B / direct;
+    return {k_0 / (1. - k_0 / alpha_t) + mass * omega2, std::sqrt(omega2)};
+  }
+
+  StabilityLimit
+  computed(const Settings &settings, const double V, const double mass)
+  {
+    const auto          law = make_law(settings);
+    const SteadySliding sliding(*law, vector(V), pressure);
+    EXPECT_TRUE(sliding.exists());
+    return sliding.limit(mass);
+  }
+
+  Settings with(Settings settings, const Settings &more)
+  {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+
+  /// Slide steadily at V on a spring, then let the load point jerk: the
+  /// amplitude of the disturbance at the end over that in the middle.
+  double growth(const double V, const double stiffness, const double mass)
+  {
+    const auto          law = make_law(core);
+    const SteadySliding sliding(*law, vector(V), pressure);
+    const double        period =
+      2. * dealii::numbers::PI / sliding.limit(mass).frequency;
+
+    Parameters parameters;
+    Machine::declare_parameters(parameters);
+    parameters.set("Loading/Machine stiffness",
+                   std::to_string(stiffness),
+                   "test");
+    parameters.set("Loading/Machine mass", std::to_string(mass), "test");
+    const Machine machine(parameters);
+
+    ContactPoint point(sliding.state());
+    Slider       slider;
+    slider.load                   = sliding.state().traction;
+    slider.velocity[0]            = V;
+    const unsigned int per_period = 4000, n_periods = 12;
+    double             early = 0., late = 0.;
+    const double       dt = period / per_period;
+    for (unsigned int i = 0; i < n_periods * per_period; ++i)
+      {
+        const double jerk = i == 0 ? 1e-4 * pressure / stiffness : 0.;
+        slider =
+          machine.step(*law, point, slider, vector(V * dt + jerk), pressure, dt)
+            .slider;
+        point.commit();
+        const double deviation =
+          (slider.load - sliding.state().traction).norm();
+        if (i / per_period == 2)
+          early = std::max(early, deviation);
+        if (i / per_period == n_periods - 1)
+          late = std::max(late, deviation);
+      }
+    return late / early;
+  }
+} // namespace
+
+
+
+TEST(Stability, the_law_steps_agree_with_the_closed_form)
+{
+  for (const double V : {0.003, 0.01, 0.03})
+    for (const double mass : {0., 1e-4, 1.})
+      {
+        const StabilityLimit expected = closed_form(V, mass);
+        const StabilityLimit found    = computed(core, V, mass);
+        ASSERT_GT(expected.stiffness, 0.);
+        EXPECT_NEAR(found.stiffness,
+                    expected.stiffness,
+                    2e-3 * expected.stiffness)
+          << V << " " << mass;
+        EXPECT_NEAR(found.frequency,
+                    expected.frequency,
+                    2e-3 * expected.frequency)
+          << V << " " << mass;
+      }
+}
+
+
+
+TEST(Stability, the_steady_state_is_that_of_the_rates)
+{
+  for (const double V : {1e-5, 0.03, 10.})
+    {
+      const auto          law = make_law(core);
+      const SteadySliding sliding(*law, vector(0., -V), pressure);
+      const double        mu = steady_coefficient(V);
+      EXPECT_NEAR(sliding.state().coefficient, mu, 1e-9 * mu);
+      EXPECT_NEAR(sliding.friction(), mu * law->steady_ratio(V), 1e-9);
+    }
+}
+
+
+
+TEST(Stability, a_disturbance_grows_on_softer_springs_only)
+{
+  for (const double V : {0.01, 0.1})
+    for (const double mass : {0., 0.02})
+      {
+        const double k = computed(core, V, mass).stiffness;
+        EXPECT_LT(growth(V, 1.03 * k, mass), 0.9) << V << " " << mass;
+        EXPECT_GT(growth(V, 0.97 * k, mass), 1.1) << V << " " << mass;
+      }
+}
+
+
+
+TEST(Stability, laws_without_weakening_are_stable_on_any_spring)
+{
+  // Too fast to heal: the rate effect is stronger.
+  EXPECT_LT(closed_form(0.3, 0.).stiffness, 0.);
+  EXPECT_EQ(computed(core, 0.3, 0.).stiffness, 0.);
+  EXPECT_EQ(computed({{"Effects", "subloading, overstress"}}, 1., 0.).stiffness,
+            0.);
+  // Softening that has ended weakens no more.
+  EXPECT_EQ(computed({{"Effects", "subloading, overstress, softening"}}, 1., 1.)
+              .stiffness,
+            0.);
+}
+
+
+
+TEST(Stability, without_rate_effect_any_mass_is_too_much)
+{
+  const Settings law = with(core, {{"Effects", "softening, healing"}});
+  const double   V   = 0.03;
+  const double   C   = kappa * std::expm1(a * (steady_coefficient(V) - mu_k));
+  const double   k_0 = pressure * C;
+  const double   k   = k_0 / (1. - k_0 / alpha_t);
+  EXPECT_NEAR(computed(law, V, 0.).stiffness, k, 1e-2 * k);
+  EXPECT_EQ(computed(law, V, 1e-6).stiffness,
+            std::numeric_limits<double>::infinity());
+}
+
+
+
+TEST(Stability, friction_that_falls_with_speed_is_stable_on_no_spring)
+{
+  const Settings law      = {{"Effects", "stribeck"},
+                             {"stribeck/Rise", "0.5"},
+                             {"stribeck/Speed", "1 mm/s"}};
+  const double   infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(computed(law, 0.5, 0.).stiffness, infinity);
+  EXPECT_EQ(computed(law, 0.5, 1e-3).stiffness, infinity);
+}
+
+
+
+TEST(Stability, other_effects_take_part)
+{
+  const double V        = 0.03;
+  const auto   expected = closed_form(V, 1e-3, 0.5);
+  const auto   found    = computed(
+    with(core,
+         {{"Effects", "subloading, overstress, softening, healing, viscous"},
+               {"viscous/Drag", "0.5"}}),
+    V,
+    1e-3);
+  EXPECT_NEAR(found.stiffness, expected.stiffness, 2e-3 * expected.stiffness);
+  EXPECT_LT(found.stiffness, 0.9 * closed_form(V, 1e-3).stiffness);
+}
+
+
+
+TEST(Stability, nothing_is_said_of_what_never_becomes_steady)
+{
+  const auto law =
+    make_law({{"Effects", "heating"}, {"heating/Cooling time", "1e30"}});
+  EXPECT_FALSE(SteadySliding(*law, vector(1.), pressure).exists());
+  const auto cooled = make_law({{"Effects", "heating"}});
+  EXPECT_TRUE(SteadySliding(*cooled, vector(1.), pressure).exists());
+}
