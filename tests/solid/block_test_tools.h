@@ -86,10 +86,12 @@ namespace SlipStep::Testing
     const FrictionLaw       law(parameters);
     const Programme         programme = parse_programme(parameters);
     std::vector<HistoryRow> history;
-    drive_point(law,
-                programme,
-                StepControl(parameters, programme, law),
-                [&](const HistoryRow &row) { history.push_back(row); });
+    drive_point(
+      law,
+      programme,
+      StepControl(parameters, programme, law),
+      [&](const HistoryRow &row) { history.push_back(row); },
+      Machine(parameters));
     return history;
   }
 

@@ -1,0 +1,177 @@
+// The cases on one contact point against the closed forms of their READMEs.
+
+#include "../solid/block_test_tools.h"
+
+#include <slipstep/experiment/stability.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  std::vector<SlideSummary> slides(const Parameters &parameters)
+  {
+    Summary summary;
+    summarise_history(run_point_case(parameters),
+                      parse_programme(parameters),
+                      summary);
+    return summary.slides;
+  }
+
+  /// A function that falls from above to below zero is zero here.
+  double root(const std::function<double(double)> &function,
+              double                               lower,
+              double                               upper)
+  {
+    for (unsigned int i = 0; i < 100; ++i)
+      {
+        const double middle                     = (lower + upper) / 2.;
+        (function(middle) > 0. ? lower : upper) = middle;
+      }
+    return lower;
+  }
+
+  // Of the two laws with healing.
+  constexpr double mu_s = 0.0915, mu_k = 0.078;
+
+  /// mu at which softening (kappa, a) and healing (xi, b) balance at a speed.
+  double steady_coefficient(const double speed,
+                            const double kappa,
+                            const double a,
+                            const double xi,
+                            const double b)
+  {
+    return root(
+      [&](const double mu) {
+        return xi * std::expm1(b * (mu_s - mu)) -
+               kappa * std::expm1(a * (mu - mu_k)) * speed;
+      },
+      mu_k,
+      mu_s);
+  }
+} // namespace
+
+
+
+TEST(VelocityStep, levels_and_direct_effect)
+{
+  const Parameters parameters =
+    make_parameters({}, "velocity_step/velocity_step.prm");
+  const FrictionLaw         law(parameters);
+  const auto                result = slides(parameters);
+  const std::vector<double> speeds = {1., 10., 100., 10., 1.}; // mm/min
+  ASSERT_EQ(result.size(), speeds.size());
+  const auto mu = [&](const std::size_t i) {
+    return steady_coefficient(speeds[i] / 60., 0.05, 10., 8.3e-4, 10.);
+  };
+  for (std::size_t i = 0; i < speeds.size(); ++i)
+    {
+      const double r = law.steady_ratio(speeds[i] / 60.);
+      EXPECT_NEAR(result[i].kinetic / (r * mu(i)), 1., 1e-4) << i;
+      // Faster: at once the ratio, then the coefficient.
+      if (i > 0 && speeds[i] > speeds[i - 1])
+        {
+          EXPECT_NEAR(result[i].peak / (r * mu(i - 1)), 1., 1e-3) << i;
+        }
+    }
+}
+
+
+
+TEST(SlideHoldSlide, peaks_are_those_of_the_healed_coefficient)
+{
+  for (const double V : {1., 10., 100.})
+    {
+      const Parameters parameters =
+        make_parameters({{"Loading/Speed", std::to_string(V) + " mm/min"}},
+                        "slide_hold_slide/slide_hold_slide.prm");
+      const FrictionLaw law(parameters);
+      const auto        result = slides(parameters);
+      ASSERT_EQ(result.size(), 7u);
+      const double b = 600., xi = 5e-7;
+      const double r   = law.steady_ratio(V / 60.);
+      const double mu0 = steady_coefficient(V / 60., 0.05, 10., xi, b);
+      double       t   = 1.;
+      for (std::size_t i = 1; i < result.size(); ++i, t *= 10.)
+        {
+          const double healed =
+            mu_s + std::log1p(-(1. - std::exp(-b * (mu_s - mu0))) *
+                              std::exp(-b * xi * t)) /
+                     b;
+          EXPECT_NEAR(result[i].kinetic / (r * mu0), 1., 1e-3) << V << " " << t;
+          // Until the peak some of it is worn down again: never above.
+          EXPECT_LT(result[i].peak / (r * healed), 1. + 1e-5) << V << " " << t;
+          EXPECT_GT(result[i].peak / (r * healed), 1. - 1e-3) << V << " " << t;
+        }
+    }
+}
+
+
+
+TEST(PressureSweep, friction_over_pressure)
+{
+  const Parameters parameters =
+    make_parameters({}, "pressure_sweep/pressure_sweep.prm");
+  const std::vector<double> pressures = {
+    0.5, 1., 2., 5., 10., 20., 50., 100., 200.};
+  const std::map<std::string, std::function<double(double)>> closed_form = {
+    {"constant", [](const double) { return mu_k; }},
+    {"pressure exponent",
+     [](const double p) { return mu_k * std::pow(p / 5.8, -0.1); }},
+    {"shear cap",
+     [](const double p) { return 6. / p * std::tanh(mu_k * p / 6.); }},
+    {"adhesion", [](const double p) { return mu_k + 0.05 / p; }}};
+  const auto variants = parameters.variants();
+  ASSERT_EQ(variants.size(), closed_form.size());
+  for (const Variant &variant : variants)
+    {
+      const Parameters  with = parameters.with_variant(variant);
+      const FrictionLaw law(with);
+      const auto        result = slides(with);
+      ASSERT_EQ(result.size(), pressures.size());
+      for (std::size_t i = 0; i < result.size(); ++i)
+        EXPECT_NEAR(result[i].kinetic,
+                    law.steady_ratio(10. / 60.) *
+                      closed_form.at(variant.label)(pressures[i]),
+                    1e-9)
+          << variant.label << " " << pressures[i];
+    }
+}
+
+
+
+TEST(AnisotropicPath, traction_lies_on_the_ellipse)
+{
+  const Parameters parameters =
+    make_parameters({}, "anisotropic_path/anisotropic_path.prm");
+  const FrictionLaw law(parameters);
+  const Programme   programme = parse_programme(parameters);
+  const auto        history   = run_point_case(parameters);
+  unsigned int      n_checked = 0;
+  for (const Segment &segment : programme.segments())
+    if (segment.end.velocity.norm() > 0.)
+      {
+        const auto end =
+          std::find_if(history.begin(), history.end(), [&](const auto &row) {
+            return row.time == segment.end_time;
+          });
+        ASSERT_NE(end, history.end());
+        // V' = P V, f = mu r(|V'|) P V' / |V'|, P = diag(1, rho).
+        const double rho = 0.6, x = segment.end.velocity[0],
+                     y = rho * segment.end.velocity[1];
+        const double f =
+          0.1 * law.steady_ratio(std::hypot(x, y)) / std::hypot(x, y);
+        EXPECT_NEAR(end->friction, f * x, 1e-8);
+        EXPECT_NEAR(end->friction_y, f * rho * y, 1e-8);
+        ++n_checked;
+      }
+  EXPECT_EQ(n_checked, 12u);
+}
