@@ -175,3 +175,101 @@ TEST(AnisotropicPath, traction_lies_on_the_ellipse)
       }
   EXPECT_EQ(n_checked, 12u);
 }
+
+
+
+namespace
+{
+  /// The load of the spring over the normal load, from a displacement of the
+  /// load point on.
+  struct Swing
+  {
+    double highest = 0., lowest = 1., period = 0., fastest = 0.;
+  };
+
+  Swing swing(const std::vector<HistoryRow> &history, const double from)
+  {
+    Swing               result;
+    std::vector<double> times;
+    for (const HistoryRow &row : history)
+      if (row.displacement > from)
+        {
+          result.highest = std::max(result.highest, row.probes[2]);
+          result.lowest  = std::min(result.lowest, row.probes[2]);
+          result.fastest = std::max(result.fastest, row.probes[1]);
+        }
+    const double middle = (result.highest + result.lowest) / 2.;
+    for (unsigned int i = 1; i < history.size(); ++i)
+      if (history[i].displacement > from && history[i].probes[2] < middle &&
+          history[i - 1].probes[2] >= middle)
+        times.push_back(history[i].time);
+    if (times.size() > 1)
+      result.period = (times.back() - times.front()) / (times.size() - 1);
+    return result;
+  }
+
+  Parameters stick_slip(const std::string &speed, const Settings &more = {})
+  {
+    return make_parameters(Settings{{"Loading/Speed", speed}} + more,
+                           "stick_slip/stick_slip.prm");
+  }
+} // namespace
+
+
+
+TEST(StickSlip, is_an_undamped_swing_about_kinetic_friction)
+{
+  // Stick from low to high at the speed of the load point, then half a swing of
+  // spring and mass about the friction in slip, mu_k r at the middle speed.
+  const double k = 1., m = 1e-5, p = 5.;
+  for (const auto &[speed, V] :
+       {std::make_pair("0.1 mm/s", 0.1), {"1 mm/s", 1.}, {"3 mm/s", 3.}})
+    {
+      const Parameters  parameters = stick_slip(speed);
+      const FrictionLaw law(parameters);
+      const Swing       found   = swing(run_point_case(parameters), 2.);
+      const double      half    = (found.highest - found.lowest) / 2.;
+      const double      kinetic = 0.2 * law.steady_ratio(found.fastest / 2.);
+      const double      period =
+        2. * p * half / (k * V) + dealii::numbers::PI * std::sqrt(m / k);
+      EXPECT_NEAR((found.highest + found.lowest) / 2. / kinetic, 1., 0.05);
+      EXPECT_NEAR(found.period / period, 1., 0.05);
+      EXPECT_NEAR(found.fastest / (V + p * half / std::sqrt(k * m)), 1., 0.1);
+    }
+}
+
+
+
+TEST(StickSlip, ends_where_the_machine_is_stiffer_than_critical)
+{
+  for (const char *speed : {"0.1 mm/s", "1 mm/s", "3 mm/s", "20 mm/s"})
+    {
+      const Parameters     parameters = stick_slip(speed);
+      const FrictionLaw    law(parameters);
+      const Machine        machine(parameters);
+      dealii::Tensor<1, 2> velocity;
+      velocity[0] = parameters.number("Loading/Speed");
+      const SteadySliding  sliding(law, velocity, 5.);
+      const StabilityLimit limit     = sliding.limit(machine.mass());
+      const bool           is_stable = machine.stiffness() > limit.stiffness;
+      EXPECT_EQ(is_stable, velocity[0] > 10.) << speed;
+
+      const auto history = run_point_case(
+        stick_slip(speed,
+                   {{"Loading/Programme",
+                     is_stable ? "press 5 MPa in 1 s; slide for 60 mm" :
+                                 "press 5 MPa in 1 s; slide for 5 mm"}}));
+      const Swing  found = swing(history, is_stable ? 50. : 3.);
+      const double amplitude =
+        (found.highest - found.lowest) / sliding.friction();
+      if (is_stable)
+        EXPECT_LT(amplitude, 1e-2) << speed;
+      else
+        EXPECT_GT(amplitude, 0.5) << speed;
+      // Nothing but the law takes energy out.
+      const HistoryRow &end = history.back();
+      EXPECT_NEAR(end.external_work,
+                  end.stored_energy + end.dissipated_energy,
+                  1e-3 * end.external_work);
+    }
+}
