@@ -61,6 +61,20 @@ namespace SlipStep
 
   namespace
   {
+    /// Cycles make many slides: the terminal shows the first and the last.
+    std::vector<TableLine> shortened(std::vector<TableLine> lines)
+    {
+      constexpr std::size_t most = 60, kept = 20;
+      if (lines.size() <= most)
+        return lines;
+      const auto first = lines.begin() + 1 + kept, last = lines.end() - kept;
+      TableLine  gap(lines[0].size());
+      gap[0] = "(" + std::to_string(last - first) + " more)";
+      *first = gap;
+      lines.erase(first + 1, last);
+      return lines;
+    }
+
     bool is_reverse(const SlideSummary &slide)
     {
       return std::cos(slide.angle) < -1e-9;
@@ -71,6 +85,15 @@ namespace SlipStep
     {
       return std::any_of(rows.begin(), rows.end(), [](const ResultRow &row) {
         return std::abs(std::sin(row.slide.angle)) > 1e-6;
+      });
+    }
+
+    /// Whether the slides are under different pressures.
+    bool pressures_matter(const std::vector<ResultRow> &rows)
+    {
+      return std::any_of(rows.begin(), rows.end(), [&](const ResultRow &row) {
+        return std::abs(row.slide.pressure - rows[0].slide.pressure) >
+               1e-3 * rows[0].slide.pressure;
       });
     }
 
@@ -87,14 +110,17 @@ namespace SlipStep
                                         const Reference              &reference,
                                         const bool                    in_full)
     {
-      const bool with_labels = labels_matter(rows);
-      const bool with_angles = angles_matter(rows);
+      const bool with_labels    = labels_matter(rows);
+      const bool with_angles    = angles_matter(rows);
+      const bool with_pressures = pressures_matter(rows);
       TableLine  head;
       if (with_labels)
         head.push_back("run");
       head.push_back("speed [mm/min]");
       if (with_angles)
         head.push_back("angle [deg]");
+      if (with_pressures)
+        head.push_back("pressure [MPa]");
       head.insert(head.end(), {"peak", "kinetic"});
       if (reference.exists())
         head.insert(head.end(), {reference.name(), "difference [%]"});
@@ -114,6 +140,8 @@ namespace SlipStep
           if (with_angles)
             line.push_back(
               short_text(slide.angle * 180. / dealii::numbers::PI));
+          if (with_pressures)
+            line.push_back(short_text(slide.pressure));
           line.insert(line.end(),
                       {fixed_text(slide.peak, 4),
                        fixed_text(slide.kinetic, 4)});
@@ -320,7 +348,7 @@ namespace SlipStep
 
     std::string text;
     if (!rows.empty())
-      text += text_table(result_lines(rows, reference, false));
+      text += text_table(shortened(result_lines(rows, reference, false)));
     const auto stability = stability_lines(results);
     if (!stability.empty())
       text += "\n" + text_table(stability);

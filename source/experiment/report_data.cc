@@ -180,6 +180,7 @@ namespace SlipStep
           if (!slide.is_complete)
             row.slide.kinetic       = row.slide.dynamic_ratio =
               row.slide.coefficient = std::numeric_limits<double>::quiet_NaN();
+          row.is_steady  = !runs[i].summary.is_unstable(slide);
           row.drop       = 100. * (1. - row.slide.kinetic / slide.peak);
           row.reference  = reference.kinetic(slide.speed);
           row.difference = 100. * (row.slide.kinetic / row.reference - 1.);
@@ -281,37 +282,81 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    /// At which speeds the contact sticks and slips; empty at none.
+    std::string stick_slip(const std::vector<ResultRow> &rows)
+    {
+      std::vector<std::string> speeds;
+      for (const ResultRow &row : rows)
+        {
+          const std::string speed = speed_text(row.slide.speed);
+          if (!row.is_steady &&
+              std::find(speeds.begin(), speeds.end(), speed) == speeds.end())
+            speeds.push_back(speed);
+        }
+      if (speeds.empty())
+        return "";
+      std::string text = "The machine is too soft for steady sliding at ";
+      for (std::size_t i = 0; i < speeds.size(); ++i)
+        text += (i == 0                 ? "" :
+                 i + 1 == speeds.size() ? " and " :
+                                          ", ") +
+                speeds[i];
+      return text + ": stick-slip.";
+    }
+
+
+
+    /// Of several slides, or of one.
+    std::string friction_of(const std::vector<ResultRow> &rows,
+                            const Reference              &reference)
+    {
+      if (rows.size() == 1)
+        return one_slide(rows[0], reference);
+
+      std::string text = kinetic_friction(rows);
+      const auto  difference =
+        extremes(rows, [](const ResultRow &row) { return row.difference; });
+      if (reference.exists())
+        text += ", " +
+                comparison(difference.first.difference,
+                           difference.second.difference) +
+                reference.name();
+
+      const auto drop =
+        extremes(rows, [](const ResultRow &row) { return row.drop; });
+      const std::string highest = fixed_text(drop.second.drop, 1);
+      return text +
+             (highest == "0.0" ?
+                "; there is no drop from a peak." :
+                "; it is " + from_to(fixed_text(drop.first.drop, 1), highest) +
+                  " % lower than its peak.");
+    }
+  } // namespace
+
+
+
   std::string headline(const std::vector<ResultRow> &all_rows,
                        const Reference              &reference)
   {
     if (all_rows.empty())
       return "No slide has been reached.";
-    std::vector<ResultRow> rows;
+    std::vector<ResultRow> completed, steady;
     for (const ResultRow &row : all_rows)
       if (row.slide.is_complete)
-        rows.push_back(row);
-    if (rows.empty())
+        {
+          completed.push_back(row);
+          if (row.is_steady)
+            steady.push_back(row);
+        }
+    if (completed.empty())
       return "No slide has been completed.";
-    if (rows.size() == 1)
-      return one_slide(rows[0], reference);
-
-    std::string text = kinetic_friction(rows);
-    const auto  difference =
-      extremes(rows, [](const ResultRow &row) { return row.difference; });
-    if (reference.exists())
-      text +=
-        ", " +
-        comparison(difference.first.difference, difference.second.difference) +
-        reference.name();
-
-    const auto drop =
-      extremes(rows, [](const ResultRow &row) { return row.drop; });
-    const std::string highest = fixed_text(drop.second.drop, 1);
-    return text +
-           (highest == "0.0" ?
-              "; there is no drop from a peak." :
-              "; it is " + from_to(fixed_text(drop.first.drop, 1), highest) +
-                " % lower than its peak.");
+    const std::string unsteady = stick_slip(completed);
+    if (steady.empty())
+      return unsteady;
+    return friction_of(steady, reference) +
+           (unsteady.empty() ? "" : " " + unsteady);
   }
 
 

@@ -360,7 +360,7 @@ namespace SlipStep
       for (const RunResults &run : runs)
         for (const SlideSummary &slide : run.summary.slides)
           {
-            if (!slide.is_complete)
+            if (!slide.is_complete || run.summary.is_unstable(slide))
               continue;
             simulated.push_back({slide.speed * mm_min, slide.dynamic_ratio});
             speeds.add(slide.speed * mm_min);

@@ -25,6 +25,7 @@ namespace SlipStep
     json slide_to_json(const SlideSummary &slide)
     {
       return {{"speed_mm_per_min", slide.speed * mm_min},
+              {"pressure_MPa", slide.pressure},
               {"angle_deg", slide.angle * degrees},
               {"length_mm", slide.length},
               {"peak", slide.peak},
@@ -45,10 +46,14 @@ namespace SlipStep
     SlideSummary slide_from_json(const json &object)
     {
       SlideSummary slide;
-      slide.speed             = number(object, "speed_mm_per_min") / mm_min;
-      slide.angle             = number(object, "angle_deg") / degrees;
-      slide.length            = number(object, "length_mm");
-      slide.peak              = number(object, "peak");
+      slide.speed = number(object, "speed_mm_per_min") / mm_min;
+      // Older files have none.
+      slide.pressure = object.value("pressure_MPa", json()).is_number() ?
+                         number(object, "pressure_MPa") :
+                         undefined;
+      slide.angle    = number(object, "angle_deg") / degrees;
+      slide.length   = number(object, "length_mm");
+      slide.peak     = number(object, "peak");
       slide.peak_displacement = number(object, "peak_displacement_mm");
       slide.kinetic           = number(object, "kinetic");
       slide.dynamic_ratio     = number(object, "r");
@@ -286,6 +291,7 @@ namespace SlipStep
             slide.length        = along(motion.direction,
                                  row.displacement - motion.start[0],
                                  row.displacement_y - motion.start[1]);
+            slide.pressure      = row.pressure;
             slide.dynamic_ratio = row.loading_ratio.mean;
             slide.coefficient   = row.coefficient.mean;
             if (slide.kinetic > slide.peak)
@@ -297,6 +303,22 @@ namespace SlipStep
       return found;
     }
   } // namespace
+
+
+
+  bool Summary::is_unstable(const SlideSummary &slide) const
+  {
+    const auto are_close = [](const double a, const double b) {
+      return std::abs(a - b) <= 1e-6 * b;
+    };
+    return std::any_of(stability.begin(),
+                       stability.end(),
+                       [&](const StabilitySummary &s) {
+                         return !s.is_stable() &&
+                                are_close(slide.speed, s.speed) &&
+                                are_close(slide.pressure, s.pressure);
+                       });
+  }
 
 
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -112,6 +113,28 @@ TEST(Report, TheTableComparesWithTheReference)
             "  -----------------------------------------------------------\n"
             "  1                0.1122    0.1010   0.1000            +1.00\n"
             "  50               0.1307    0.1176   0.1164            +1.00\n");
+}
+
+
+
+TEST(Report, ManySlidesAreShortenedAndPressuresShown)
+{
+  const ReportedRun run     = make_run(1., "cycles");
+  Summary           summary = read_summary(run.folder / "summary.json");
+  summary.slides.assign(100, summary.slides[0]);
+  write_summary(run.folder / "summary.json", summary);
+  std::string table = result_table(parameters_with({}), {run});
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2 + 20 + 1 + 20);
+  EXPECT_TRUE(contains(table, "(60 more)")) << table;
+  EXPECT_FALSE(contains(table, "pressure"));
+
+  summary.slides.resize(2);
+  summary.slides[0].pressure = 1.;
+  summary.slides[1].pressure = 2.5;
+  write_summary(run.folder / "summary.json", summary);
+  table = result_table(parameters_with({}), {run});
+  EXPECT_TRUE(contains(table, "pressure [MPa]")) << table;
+  EXPECT_TRUE(contains(table, "2.5")) << table;
 }
 
 
@@ -229,6 +252,15 @@ TEST(Report, TheHeadlineClaimsNoMoreThanThereIs)
   ResultRow cut_short         = row(0, 1., 0.2, 0.2);
   cut_short.slide.is_complete = false;
   EXPECT_EQ(headline({cut_short}, none), "No slide has been completed.");
+  // What a slide that sticks and slips ends with is no kinetic friction.
+  ResultRow jerky = row(1, 10., 0.3, 0.1);
+  jerky.is_steady = false;
+  EXPECT_EQ(headline({jerky}, none),
+            "The machine is too soft for steady sliding at 10 mm/min: "
+            "stick-slip.");
+  EXPECT_EQ(headline({row(0, 1., 0.2, 0.1), jerky}, none),
+            headline({row(0, 1., 0.2, 0.1)}, none) + " " +
+              headline({jerky}, none));
 }
 
 

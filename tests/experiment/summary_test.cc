@@ -89,6 +89,7 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
               {"work", "stored", "dissipated", "balance_error"});
   has_exactly(object["slides"][0],
               {"speed_mm_per_min",
+               "pressure_MPa",
                "angle_deg",
                "length_mm",
                "peak",
@@ -121,6 +122,13 @@ TEST(Summary, WhatIsStableOnNoSpringReadsBack)
             summary.stability[0].critical_stiffness);
   EXPECT_NEAR(read.stability[0].speed, 1., 1e-15);
   EXPECT_FALSE(read.stability[0].is_stable());
+
+  SlideSummary slide;
+  slide.speed    = 1.;
+  slide.pressure = 5.;
+  EXPECT_TRUE(read.is_unstable(slide));
+  slide.pressure = 6.;
+  EXPECT_FALSE(read.is_unstable(slide));
 }
 
 
@@ -152,10 +160,10 @@ TEST(Summary, ItReadsBack)
   summary.stored            = 1.;
   summary.dissipated        = 2.;
   summary.balance_error     = 1e-9;
-  summary.slides            = {{1. / 60., pi, 60., 0.12, 0.3, 0.1, 1.3, 0.08}};
-  summary.quantities        = {{"peak coefficient", 0.1 / 3., ""},
-                               {"slip front", std::nan(""), "mm"}};
-  summary.warnings          = {"one", "two"};
+  summary.slides     = {{1. / 60., 5.8, pi, 60., 0.12, 0.3, 0.1, 1.3, 0.08}};
+  summary.quantities = {{"peak coefficient", 0.1 / 3., ""},
+                        {"slip front", std::nan(""), "mm"}};
+  summary.warnings   = {"one", "two"};
   write_summary(scratch_file(), summary);
 
   const Summary back = read_summary(scratch_file());

@@ -74,6 +74,8 @@ namespace SlipStep
     /// What a slide that was not completed cannot tell is NaN: kinetic, r and
     /// mu in `slide`, drop, difference.
     double drop = 0.; ///< from peak to kinetic [%]
+    /// Not one at whose end the contact sticks and slips.
+    bool is_steady = true;
     /// NaN without a reference.
     double reference  = 0.;
     double difference = 0.; ///< of kinetic from reference [%]
@@ -82,7 +84,7 @@ namespace SlipStep
   std::vector<ResultRow> result_rows(const std::vector<RunResults> &runs,
                                      const Reference               &reference);
 
-  /// One sentence with the numbers that matter, of completed slides only.
+  /// A sentence or two with the numbers that matter, of completed slides only.
   std::string headline(const std::vector<ResultRow> &rows,
                        const Reference              &reference);
 

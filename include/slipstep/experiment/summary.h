@@ -15,6 +15,7 @@ namespace SlipStep
   struct SlideSummary
   {
     double speed             = 0.;   ///< [mm/s], magnitude
+    double pressure          = 0.;   ///< at the end of the slide [MPa]
     double angle             = 0.;   ///< direction of motion [rad]
     double length            = 0.;   ///< [mm]
     double peak              = 0.;   ///< largest friction in this direction
@@ -79,6 +80,10 @@ namespace SlipStep
     /// Empty without a spring.
     std::vector<StabilitySummary> stability;
     std::vector<std::string>      warnings;
+
+    /// Whether a slide is faster or slower than the machine allows to be
+    /// steady: then what it ends with is an instant of stick-slip.
+    bool is_unstable(const SlideSummary &slide) const;
   };
 
   /// Write atomically (a temporary file renamed into place).
