@@ -66,40 +66,124 @@ namespace SlipStep
 
   namespace
   {
-    // The law leaves a share w of the elastic trial traction, f_t = w f_trial,
-    // where f_trial = f_0 + C slip. With a spring, slip = motion - c (f_t -
-    // f_0), so that w determines the trial,
-    //   (1 + w c C) f_trial = f_0 + C (motion + c f_0),
-    // and the law a share that must be w. At w = 0 the law's cannot be less, at
-    // w = 1 it cannot be more. On a weakening contact there may be several: the
-    // first, from sticking on, is next to where the contact was before.
-    ContactResponse update_on_spring(const FrictionLaw  &law,
-                                     ContactPoint       &point,
-                                     const double        compliance,
-                                     const Tensor<1, 2> &motion,
-                                     const double        normal_traction,
-                                     const double        time_step)
+    /// A contact point at the end of a spring, in one step.
+    ///
+    /// The law leaves a share w of the elastic trial traction, f_t = w f_trial,
+    /// where f_trial = f_0 + C slip. With a spring, slip = motion - c (f_t -
+    /// f_0), so that w determines the trial,
+    ///   (1 + w c C) f_trial = f_0 + C (motion + c f_0),
+    /// and the law a share that must be w. At w = 0 the law's cannot be less,
+    /// at w = 1 it cannot be more.
+    class SpringStep
     {
-      const Tensor<2, 2> elastic = law.elastic_tangent();
-      const Tensor<1, 2> old     = point.committed().traction;
-      const Tensor<1, 2> load    = old + elastic * (motion + compliance * old);
-      ContactResponse    response;
-      const auto         excess = [&](const double share) {
-        Tensor<2, 2> matrix = share * compliance * elastic;
-        matrix[0][0] += 1.;
-        matrix[1][1] += 1.;
-        const Tensor<1, 2> trial = invert(matrix) * load;
-        response                 = point.update(law,
-                                invert(elastic) * (trial - old),
-                                normal_traction,
-                                time_step);
-        const double square      = trial.norm_square();
-        return square > 0. ? response.traction * trial / square - share : 0.;
-      };
+    public:
+      SpringStep(const FrictionLaw  &law,
+                 ContactPoint       &point,
+                 const double        compliance,
+                 const Tensor<1, 2> &motion,
+                 const double        normal_traction,
+                 const double        time_step)
+        : law(law)
+        , point(point)
+        , compliance(compliance)
+        , normal_traction(normal_traction)
+        , time_step(time_step)
+        , elastic(law.elastic_tangent())
+        , old(point.committed().traction)
+        , unslipped(old + elastic * motion)
+        , load(unslipped + compliance * (elastic * old))
+      {}
 
+      ContactResponse solve();
+
+    private:
+      double excess(const double share);
+
+      double slope(const double share) const;
+
+      bool solve_by_newton();
+
+      void solve_by_bisection();
+
+      const FrictionLaw &law;
+      ContactPoint      &point;
+      const double       compliance;
+      const double       normal_traction;
+      const double       time_step;
+      const Tensor<2, 2> elastic;
+      const Tensor<1, 2> old;
+      const Tensor<1, 2> unslipped; ///< trial if the traction stayed
+      const Tensor<1, 2> load;
+
+      Tensor<1, 2>    trial;
+      ContactResponse response;
+    };
+
+
+
+    // The law's share of the trial traction minus the one assumed.
+    double SpringStep::excess(const double share)
+    {
+      Tensor<2, 2> matrix = share * compliance * elastic;
+      matrix[0][0] += 1.;
+      matrix[1][1] += 1.;
+      trial               = invert(matrix) * load;
+      response            = point.update(law,
+                              invert(elastic) * (trial - old),
+                              normal_traction,
+                              time_step);
+      const double square = trial.norm_square();
+      return square > 0. ? response.traction * trial / square - share : 0.;
+    }
+
+
+
+    // Its derivative, after excess() of the same share.
+    double SpringStep::slope(const double share) const
+    {
+      Tensor<2, 2> matrix = share * compliance * elastic;
+      matrix[0][0] += 1.;
+      matrix[1][1] += 1.;
+      const Tensor<1, 2> d_trial =
+        -compliance * (invert(matrix) * (elastic * trial));
+      const Tensor<1, 2> d_traction =
+        response.d_slip * (invert(elastic) * d_trial);
+      const double square = trial.norm_square();
+      return (d_traction * trial + response.traction * d_trial) / square -
+             2. * (response.traction * trial) * (trial * d_trial) /
+               (square * square) -
+             1.;
+    }
+
+
+
+    // From where the traction stays as it was, which in sliding is close.
+    bool SpringStep::solve_by_newton()
+    {
+      const double square = unslipped.norm_square();
+      double       share  = square > 0. ? old * unslipped / square : 0.;
+      double       lower = 0., upper = 1.;
+      for (unsigned int n = 0; n < 20 && share > lower && share < upper; ++n)
+        {
+          const double value = excess(share);
+          if (std::abs(value) <= 2e-15 * share)
+            return true;
+          (value > 0. ? lower : upper) = share;
+          const double next            = share - value / slope(share);
+          if (std::abs(next - share) <= 1e-15 * share)
+            return true;
+          share = next;
+        }
+      return false;
+    }
+
+
+
+    // On a weakening contact there may be several: the first, from sticking
+    // on, is next to where the contact was before.
+    void SpringStep::solve_by_bisection()
+    {
       double upper = 1.;
-      if (excess(upper) >= -1e-14)
-        return response;
       // Closer and closer to 1, then to 0.
       for (int power = -40; power <= 200; power += 3)
         {
@@ -109,7 +193,7 @@ namespace SlipStep
             {
               boost::uintmax_t iterations = 200;
               const auto       bracket    = boost::math::tools::toms748_solve(
-                excess,
+                [this](const double share) { return excess(share); },
                 lower,
                 upper,
                 boost::math::tools::eps_tolerance<double>(51),
@@ -120,6 +204,14 @@ namespace SlipStep
           upper = lower;
         }
       excess(upper);
+    }
+
+
+
+    ContactResponse SpringStep::solve()
+    {
+      if (excess(1.) < -1e-14 && !solve_by_newton())
+        solve_by_bisection();
       return response;
     }
   } // namespace
@@ -141,12 +233,13 @@ namespace SlipStep
     result.contact =
       is_rigid() ?
         point.update(law, load_point_increment, normal_traction, time_step) :
-        update_on_spring(law,
-                         point,
-                         compliance,
-                         load_point_increment,
-                         normal_traction,
-                         time_step);
+        SpringStep(law,
+                   point,
+                   compliance,
+                   load_point_increment,
+                   normal_traction,
+                   time_step)
+          .solve();
     const Tensor<1, 2> slip =
       load_point_increment -
       compliance * (result.contact.traction - point.committed().traction);
@@ -186,8 +279,10 @@ namespace SlipStep
                                 (k + inertia);
 
     MachineStep result;
-    result.contact = update_on_spring(
-      law, point, 1. / (k + inertia), motion, normal_traction, time_step);
+    result.contact =
+      SpringStep(
+        law, point, 1. / (k + inertia), motion, normal_traction, time_step)
+        .solve();
     const Tensor<1, 2> traction = result.contact.traction;
     const Tensor<1, 2> slip     = motion - (traction - old) / (k + inertia);
     result.slider               = {start.slip + slip,
