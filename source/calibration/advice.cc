@@ -224,7 +224,7 @@ namespace SlipStep
         const Parameters &parameters = simulator.with(optimum.scaled);
         replay.plan(FrictionLaw(parameters),
                     Machine(parameters),
-                    simulator.campaign.tolerance);
+                    simulator.campaign.search_tolerance);
       }
       {
         const Parameters &parameters = simulator.with(shifted(step));

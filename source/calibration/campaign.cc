@@ -178,7 +178,8 @@ namespace SlipStep
     : parameters(parameters)
     , fitted(read_fit_parameters(parameters))
     , derived(read_derived(parameters))
-    , tolerance(parameters.number("Time stepping/Tolerance"))
+    , search_tolerance(10. * parameters.number("Time stepping/Tolerance"))
+    , fine_tolerance(0.001 * search_tolerance)
   {
     for (const FitParameter &parameter : fitted)
       for (const Derived &tie : derived)
@@ -326,7 +327,7 @@ namespace SlipStep
     for_each_test(replays.size(), [&](const std::size_t i) {
       try
         {
-          replays[i].plan(law, machine, campaign.tolerance);
+          replays[i].plan(law, machine, campaign.search_tolerance);
         }
       catch (const RunError &error)
         {
@@ -355,14 +356,13 @@ namespace SlipStep
   // Richardson's extrapolation from fine steps and halved fine steps.
   void Simulator::correct(const std::vector<double> &scaled)
   {
-    constexpr double  finer = 0.01;
     const FrictionLaw law(with(scaled));
     const Machine     machine(parameters);
     corrections.resize(replays.size());
     for_each_test(replays.size(), [&](const std::size_t i) {
       const CampaignTest &test = campaign.tests[i];
       Replay              fine = replays[i];
-      fine.plan(law, machine, finer * campaign.tolerance);
+      fine.plan(law, machine, campaign.fine_tolerance);
       corrections[i] = at_rows(fine.halved(), law, machine, test);
       add(1., corrections[i], corrections[i]);
       add(-1., at_rows(fine, law, machine, test), corrections[i]);

@@ -101,7 +101,7 @@ namespace SlipStep
       options.linear_solver_type                = ceres::DENSE_QR;
       options.logging_type                      = ceres::SILENT;
       options.num_threads                       = 1;
-      options.max_num_iterations                = 200;
+      options.max_num_iterations                = 100;
       options.max_num_consecutive_invalid_steps = 20;
       options.function_tolerance                = precision;
       options.gradient_tolerance                = 1e-14;
@@ -142,7 +142,7 @@ namespace SlipStep
       {
         const std::vector<double> before = result.scaled;
         simulator.plan(result.scaled);
-        solve(simulator, free, 1e-11, result);
+        solve(simulator, free, 1e-7, result);
         double moved = 0.;
         for (const unsigned int i : free)
           moved = std::max(moved, std::abs(result.scaled[i] - before[i]));

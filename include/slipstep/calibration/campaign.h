@@ -53,8 +53,12 @@ namespace SlipStep
     /// Rows compared, twice for tests with two axes.
     std::size_t n_residuals() const;
 
-    /// Largest error of a step, see Replay::plan().
-    const double tolerance;
+    /// @name Largest error of a step, see Replay::plan(): while searching, and
+    /// to correct what was found.
+    ///@{
+    const double search_tolerance;
+    const double fine_tolerance;
+    ///@}
 
     /// The scaled values of the starts.
     std::vector<double> scaled_start() const;

@@ -28,7 +28,7 @@ namespace SlipStep
   FitResult fit(Simulator                       &simulator,
                 const std::vector<double>       &scaled_start,
                 const std::vector<unsigned int> &free,
-                const unsigned int               replans = 3);
+                const unsigned int               replans = 2);
 
   /// All parameters, to be passed to fit().
   std::vector<unsigned int> all_parameters(const Campaign &campaign);
