@@ -182,10 +182,19 @@ namespace SlipStep
     , fine_tolerance(0.001 * search_tolerance)
   {
     for (const FitParameter &parameter : fitted)
-      for (const Derived &tie : derived)
-        if (tie.name == parameter.path)
-          parameters.reject("Calibration/Derived",
-                            tie.name + " is fitted already");
+      {
+        for (const std::string &section :
+             FrictionLaw(parameters).inactive_sections())
+          if (parameter.path.compare(0, section.size() + 1, section + "/") == 0)
+            parameters.reject("Calibration/Parameters",
+                              parameter.path +
+                                ": this effect is off: add it to "
+                                "Friction/Effects");
+        for (const Derived &tie : derived)
+          if (tie.name == parameter.path)
+            parameters.reject("Calibration/Derived",
+                              tie.name + " is fitted already");
+      }
     std::vector<MeasuredTest> measured;
     for (const fs::path &file : test_files(parameters))
       if (fs::is_directory(file))

@@ -1,11 +1,13 @@
-#include <deal.II/base/function_parser.h>
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/calibration/derived.h>
 #include <slipstep/calibration/fit_parameter.h>
 
+#include <muParser.h>
+
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -72,15 +74,13 @@ namespace SlipStep
     double value = std::numeric_limits<double>::quiet_NaN();
     try
       {
-        dealii::FunctionParser<1> function;
-        function.initialize("x",
-                            with_numbers(derived, parameters),
-                            dealii::FunctionParser<1>::ConstMap());
-        value = function.value(dealii::Point<1>());
+        mu::Parser parser;
+        parser.SetExpr(with_numbers(derived, parameters));
+        value = parser.Eval();
       }
-    catch (const dealii::ExceptionBase &)
+    catch (const mu::ParserError &error)
       {
-        reject(derived, parameters, "this formula cannot be read");
+        reject(derived, parameters, error.GetMsg());
       }
     if (!std::isfinite(value))
       reject(derived, parameters, "the value is not finite");
