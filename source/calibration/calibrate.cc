@@ -71,8 +71,7 @@ namespace SlipStep
         [&](const std::size_t begin, const std::size_t end) {
           for (std::size_t i = begin; i < end; ++i)
             {
-              if (SignalGuard::caught() != 0)
-                throw RunError(SignalGuard::in_words());
+              throw_if_stopped();
               work(i);
             }
         },
@@ -136,6 +135,7 @@ namespace SlipStep
              0.6 * n_done / starts.size());
       });
       result.n_simulations += n_simulations;
+      throw_if_stopped();
 
       std::size_t first = 0;
       for (std::size_t i = 0; i < starts.size(); ++i)

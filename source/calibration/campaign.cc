@@ -4,6 +4,7 @@
 #include <slipstep/experiment/resample.h>
 #include <slipstep/experiment/test_rows.h>
 #include <slipstep/experiment/test_set.h>
+#include <slipstep/utilities/process.h>
 
 #include <algorithm>
 #include <cmath>
@@ -303,6 +304,14 @@ namespace SlipStep
 
 
 
+  void throw_if_stopped()
+  {
+    if (SignalGuard::caught() != 0)
+      throw RunError(SignalGuard::in_words() + "; nothing was written");
+  }
+
+
+
   Simulator::Simulator(const Campaign &campaign)
     : campaign(campaign)
     , parameters(campaign.parameters)
@@ -384,6 +393,7 @@ namespace SlipStep
 
   void Simulator::residuals(const std::vector<double> &scaled, double *result)
   {
+    throw_if_stopped();
     const FrictionLaw     law(with(scaled));
     const Machine         machine(parameters);
     std::vector<double *> place;

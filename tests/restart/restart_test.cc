@@ -343,3 +343,32 @@ TEST_F(Restart, OnAnAdaptiveMeshGoesOnBitForBit)
   EXPECT_TRUE(history("parts") == history("whole"));
   EXPECT_EQ(changes("parts"), expected_changes);
 }
+
+
+
+TEST(Stop, ACalibrationEndsAtOnceAndWritesNothing)
+{
+  const SlipstepProcess process;
+  std::string           rows = "time_s,displacement_mm,pressure_MPa,friction\n";
+  for (int i = 0; i < 2000; ++i)
+    rows += std::to_string(i) + "," + std::to_string(0.01 * i) + ",5.8," +
+            std::to_string(0.1 + 0.001 * (i % 7)) + "\n";
+  process.write("test.csv", rows);
+  process.write("case.prm",
+                "set Calibration/Tests = test.csv\n"
+                "set Calibration/Starts = 1000\n"
+                "set Calibration/Parameters = Friction/Static coefficient from "
+                "0.099 to 1; Friction/overstress/Viscosity from 1 to 1e9\n");
+  BackgroundRun run(process.folder(), {"calibrate", "case.prm"});
+  ASSERT_TRUE(run.wait_until(
+    [&]() { return run.out().find("starts searched") != std::string::npos; }))
+    << run.err();
+  const auto begin = std::chrono::steady_clock::now();
+  run.send(SIGTERM);
+  run.wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+  EXPECT_EQ(run.outcome(), -SIGTERM);
+  EXPECT_NE(run.err().find("nothing was written"), std::string::npos)
+    << run.err();
+  EXPECT_FALSE(fs::exists(process.folder() / "output"));
+}

@@ -71,6 +71,9 @@ namespace SlipStep
     test_files(const Parameters &parameters);
   };
 
+  /// @throws RunError if a signal asked to stop
+  void throw_if_stopped();
+
   /// Simulates all tests of a campaign. Each thread of a fit has its own; the
   /// tests of one simulation run side by side on all cores.
   class Simulator
