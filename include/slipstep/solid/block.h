@@ -64,7 +64,8 @@ namespace SlipStep
              const std::function<void()>                   &between_steps = {});
 
     /// Save what is needed to go on after the last step: every rank writes
-    /// `cells.<rank>` (mesh, displacements, contact states), one also `block`.
+    /// `cells.N`, N its number (mesh, displacements, contact states), one also
+    /// `block`.
     /// @return the names of the files this rank wrote
     /// @throws RunError if the disk refuses; not on all ranks alike
     std::vector<std::string> save(const std::filesystem::path &folder) const;
