@@ -213,6 +213,23 @@ TEST_F(Planted, AParameterWithoutInfluenceIsNamed)
 
 
 
+// No coefficient may be changed to the side where friction would rise with
+// slip.
+TEST_F(Planted, AStartAtTheBorderOfTheLawLeadsAway)
+{
+  plant(folder.path(), calibration_case(paper), {1., 50.}, 200, 5e-4, 9);
+  const Calibration found = calibrate(
+    fitting({{"Calibration/Starts", "1"},
+             {"Calibration/Parameters",
+              "Friction/Static coefficient from 0.05 to 0.2 start 0.1; "
+              "Friction/softening/Kinetic coefficient from 0.05 to 0.2 start "
+              "0.1"}}));
+  for (const FittedParameter &fitted : found.parameters)
+    EXPECT_NEAR(fitted.value, truth_of(fitted.parameter.path), 2e-4);
+}
+
+
+
 TEST_F(Planted, FewerRowsThanParametersAreRefused)
 {
   plant(folder.path(), calibration_case(paper), {1.}, 4, 5e-4, 5);
