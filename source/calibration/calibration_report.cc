@@ -101,9 +101,7 @@ namespace SlipStep
         lines.push_back({quantity.name,
                          quantity.formula,
                          short_text(quantity.value),
-                         std::isfinite(quantity.deviation) ?
-                           "± " + short_text(quantity.deviation, 2) :
-                           "unknown"});
+                         deviation_text(quantity)});
       return heading("Derived quantities") + html_table(lines) +
              note("In units of mm, s, N, MPa, rad.");
     }

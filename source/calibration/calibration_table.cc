@@ -28,6 +28,17 @@ namespace SlipStep
       return lines;
     }
 
+    std::vector<TableLine> derived_lines(const Calibration &calibration)
+    {
+      std::vector<TableLine> lines = {
+        {"derived", "value", "standard deviation"}};
+      for (const DerivedQuantity &quantity : calibration.derived)
+        lines.push_back({quantity.name,
+                         short_text(quantity.value),
+                         deviation_text(quantity)});
+      return lines;
+    }
+
     std::vector<TableLine> test_lines(const Calibration &calibration)
     {
       std::vector<TableLine> lines = {
@@ -57,6 +68,8 @@ namespace SlipStep
                       return fitted.is_at_bound;
                     }))
       text += "  * at a bound\n";
+    if (!calibration.derived.empty())
+      text += "\n" + text_table(derived_lines(calibration), widest);
     if (!calibration.tests.empty())
       text += "\n" + text_table(test_lines(calibration), widest);
     if (!calibration.weak.empty())

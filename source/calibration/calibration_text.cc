@@ -235,6 +235,15 @@ namespace SlipStep
 
 
 
+  std::string deviation_text(const DerivedQuantity &quantity)
+  {
+    return std::isfinite(quantity.deviation) ?
+             "± " + short_text(quantity.deviation, 2) :
+             "unknown";
+  }
+
+
+
   double noise_ratio(const TestMisfit &test)
   {
     return test.noise > 0. ? test.rms / test.noise :

@@ -428,7 +428,7 @@ namespace SlipStep
 
 
 
-  // To the side where there is room.
+  // To the side where there is room and the law takes the values.
   void Simulator::derivatives(const std::vector<double>       &scaled,
                               const std::vector<unsigned int> &columns,
                               const double                    *at,
@@ -437,13 +437,24 @@ namespace SlipStep
     constexpr double  difference = 1e-5;
     const std::size_t n          = campaign.n_residuals();
     shifted.resize(n);
+    const auto shift = [&](const unsigned int column, const double step) {
+      std::vector<double> other = scaled;
+      other[column] += step;
+      residuals(other, shifted.data());
+    };
     for (std::size_t c = 0; c < columns.size(); ++c)
       {
-        std::vector<double> other = scaled;
-        double             &value = other[columns[c]];
-        const double step = value + difference > 1. ? -difference : difference;
-        value += step;
-        residuals(other, shifted.data());
+        double step =
+          scaled[columns[c]] + difference > 1. ? -difference : difference;
+        try
+          {
+            shift(columns[c], step);
+          }
+        catch (const InputError &)
+          {
+            step = -step;
+            shift(columns[c], step);
+          }
         for (std::size_t row = 0; row < n; ++row)
           result[row * columns.size() + c] = (shifted[row] - at[row]) / step;
       }

@@ -317,13 +317,15 @@ namespace SlipStep
 
 
 
-    // The root of the rise is nearly linear in the distance.
+    // The root of the rise is nearly linear in the distance, unless a parameter
+    // has no influence for a while: then the middle serves better.
     void ProfileSide::follow()
     {
       double lower = 0., lower_root = 0., upper = infinite, upper_root = 0.;
       double distance = first_distance();
-      is_open         = !(room > 0.);
-      for (unsigned int n = 0; n < 15 && !is_open; ++n)
+      int    n_lower = 0, n_upper = 0; // in a row
+      is_open = !(room > 0.);
+      for (unsigned int n = 0; n < 20 && !is_open; ++n)
         {
           const double value = rise(distance);
           const double root  = std::sqrt(std::max(value, 0.));
@@ -337,16 +339,20 @@ namespace SlipStep
               is_open    = distance >= room;
               lower      = distance;
               lower_root = root;
+              n_upper    = 0;
+              ++n_lower;
             }
           else
             {
               upper      = distance;
               upper_root = root;
+              n_lower    = 0;
+              ++n_upper;
             }
           if (upper == infinite)
             distance = std::min(
               room, distance * std::clamp(1. / std::max(root, 1e-9), 1.3, 4.));
-          else if (upper_root == infinite)
+          else if (upper_root == infinite || std::max(n_lower, n_upper) > 1)
             distance = (lower + upper) / 2.;
           else
             distance =

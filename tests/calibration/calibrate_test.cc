@@ -213,6 +213,23 @@ TEST_F(Planted, AParameterWithoutInfluenceIsNamed)
 
 
 
+// No coefficient may be changed to the side where friction would rise with
+// slip.
+TEST_F(Planted, AStartAtTheBorderOfTheLawLeadsAway)
+{
+  plant(folder.path(), calibration_case(paper), {1., 50.}, 200, 5e-4, 9);
+  const Calibration found = calibrate(
+    fitting({{"Calibration/Starts", "1"},
+             {"Calibration/Parameters",
+              "Friction/Static coefficient from 0.05 to 0.2 start 0.1; "
+              "Friction/softening/Kinetic coefficient from 0.05 to 0.2 start "
+              "0.1"}}));
+  for (const FittedParameter &fitted : found.parameters)
+    EXPECT_NEAR(fitted.value, truth_of(fitted.parameter.path), 2e-4);
+}
+
+
+
 TEST_F(Planted, FewerRowsThanParametersAreRefused)
 {
   plant(folder.path(), calibration_case(paper), {1.}, 4, 5e-4, 5);
@@ -252,6 +269,32 @@ TEST_F(Planted, IntervalsEndWhereTheMisfitHasRisen)
                       0.05);
         }
     }
+}
+
+
+
+// The rate of subloading in records without a row in the rise: any that is
+// large enough fits as well, and from one value on the misfit rises steeply.
+TEST_F(Planted, AnIntervalEndsWhereTheInfluenceBegins)
+{
+  plant(folder.path(), calibration_case(paper), {1., 20., 200.}, 500, 1e-4, 7);
+  const Campaign campaign(
+    fitting({{"Calibration/Parameters",
+              "Friction/Static coefficient from 0.05 to 0.2; "
+              "Friction/subloading/Rate from 1 to 5000 start 200"}}));
+  Simulator       simulator(campaign);
+  const FitResult best =
+    fit(simulator, campaign.scaled_start(), all_parameters(campaign));
+  simulator.plan(best.scaled);
+  std::vector<TestMisfit> tests;
+  const Linearisation     optimum  = linearise(simulator, best.scaled, tests);
+  const Profile           followed = profile(simulator, optimum, 1, 0.95);
+  EXPECT_TRUE(followed.is_upper_open);
+  ASSERT_FALSE(followed.is_lower_open);
+  const double threshold = optimum.threshold(0.95);
+  const double end =
+    fit(simulator, {best.scaled[0], followed.lower}, {0}, 0).misfit;
+  EXPECT_NEAR((end - optimum.misfit) / threshold, 1., 0.1);
 }
 
 

@@ -327,6 +327,8 @@ TEST(CalibrationTable, ItFitsTheTerminalAndIsAligned)
              "  0.4\n"))
     << table;
   EXPECT_TRUE(contains(table, "* 0.1300")) << table;
+  EXPECT_TRUE(contains(table, "\n  drop       0.03              ± 0.002\n"))
+    << table;
   EXPECT_TRUE(contains(table, "µm, end   ")) << table;
   EXPECT_TRUE(contains(table, "\n  - Reference speed and Rate cannot be told"))
     << table;

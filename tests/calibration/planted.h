@@ -35,20 +35,23 @@ namespace SlipStep
 
 
     /// A slide from rest under 5.8 MPa, as it would be recorded at equal
-    /// distances: the law's friction, and noise.
+    /// distances, or, with a power above 1, at shorter ones in the beginning:
+    /// the law's friction, and noise.
     inline MeasuredTest planted_test(const Parameters  &truth,
                                      const double       speed,  // [mm/s]
                                      const double       length, // [mm]
                                      const unsigned int n_rows,
                                      const double       noise,
-                                     std::mt19937      &random)
+                                     std::mt19937      &random,
+                                     const double       power = 1.)
     {
       MeasuredTest test;
       test.name = "planted, " + std::to_string(60. * speed) + " mm per min";
       test.condition = test.name;
       for (unsigned int i = 0; i < n_rows; ++i)
         {
-          const double share = static_cast<double>(i) / (n_rows - 1);
+          const double share =
+            std::pow(static_cast<double>(i) / (n_rows - 1), power);
           test.time.push_back(share * length / speed);
           test.displacement.push_back(share * length);
           test.pressure.push_back(5.8);
@@ -81,14 +84,16 @@ namespace SlipStep
                       const unsigned int           n_rows,
                       const double                 noise,
                       const unsigned int           seed,
-                      const double                 length = 100.)
+                      const double                 length = 100.,
+                      const double                 power  = 1.)
     {
       std::filesystem::create_directories(folder);
       std::mt19937 random(seed);
       for (std::size_t i = 0; i < speeds.size(); ++i)
         write_measured_test(
           folder / ("test_" + std::to_string(i) + ".csv"),
-          planted_test(truth, speeds[i] / 60., length, n_rows, noise, random));
+          planted_test(
+            truth, speeds[i] / 60., length, n_rows, noise, random, power));
     }
   } // namespace Testing
 } // namespace SlipStep

@@ -47,6 +47,7 @@ namespace SlipStep
 
   /// "± 0.002", or "×/÷ 1.05" on a logarithmic scale.
   std::string deviation_text(const FittedParameter &fitted);
+  std::string deviation_text(const DerivedQuantity &quantity);
   ///@}
 
   /// Difference over noise, NaN without noise.
