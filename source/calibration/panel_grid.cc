@@ -100,7 +100,8 @@ namespace SlipStep
           const double tic = factor * std::pow(10., e);
           if (tic < lower || tic > upper || (factor > 1. && n_decades > 1.7))
             continue;
-          text << separator << tic;
+          // The text as well: gnuplot would write 0.000010.
+          text << separator << '"' << tic << "\" " << tic;
           separator = ", ";
         }
     text << (*separator == '(' ? "autofreq\n" : ")\n");

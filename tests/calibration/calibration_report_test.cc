@@ -1,5 +1,6 @@
 #include <slipstep/calibration/calibration_report.h>
 #include <slipstep/calibration/calibration_text.h>
+#include <slipstep/calibration/panel_grid.h>
 #include <slipstep/experiment/report.h>
 #include <slipstep/experiment/text_table.h>
 
@@ -332,4 +333,13 @@ TEST(CalibrationTable, ItFitsTheTerminalAndIsAligned)
   EXPECT_TRUE(contains(table, "µm, end   ")) << table;
   EXPECT_TRUE(contains(table, "\n  - Reference speed and Rate cannot be told"))
     << table;
+}
+
+
+
+TEST(CalibrationReport, TextsOfALogarithmicAxisAreShort)
+{
+  EXPECT_EQ(few_tics('x', 1e-5, 0.1, true),
+            "set xtics (\"1e-05\" 1e-05, \"0.0001\" 0.0001, \"0.001\" 0.001, "
+            "\"0.01\" 0.01, \"0.1\" 0.1)\n");
 }
