@@ -106,6 +106,9 @@ namespace SlipStep
       options.function_tolerance                = precision;
       options.gradient_tolerance                = 1e-14;
       options.parameter_tolerance               = 1e-3 * std::sqrt(precision);
+      // Ceres tries each step with bounds by a search along it; not by cubics,
+      // which need all derivatives at each point.
+      options.line_search_interpolation_type = ceres::QUADRATIC;
       ceres::Solver::Summary summary;
       ceres::Solve(options, &problem, &summary);
 

@@ -131,6 +131,8 @@ TEST(IdentifyFlatSurface, PlantedConstantsAreInTheirIntervals)
     EXPECT_TRUE(holds(fitted, parameters.number(fitted.parameter.path)))
       << fitted.parameter.path;
   EXPECT_NEAR(found.inflation, 1., 0.1);
+  // 447; 727 with derivatives at every point of a line search.
+  EXPECT_LT(found.n_simulations, 600u);
   const FrictionLaw law(fitted_case(parameters, found)), printed(parameters);
   for (const char *speed : speeds)
     {
