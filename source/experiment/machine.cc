@@ -248,8 +248,9 @@ namespace SlipStep
                      result.contact.traction};
     // A jump of a soft machine takes no time: no step is small enough to
     // resolve it.
-    const bool jumps = slip.norm() > 1e3 * load_point_increment.norm();
-    result.error     = jumps ? 0. : result.contact.error;
+    const bool jumps = load_point_increment.norm() > 0. &&
+                       slip.norm() > 1e3 * load_point_increment.norm();
+    result.error = jumps ? 0. : result.contact.error;
     return result;
   }
 

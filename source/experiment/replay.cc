@@ -148,7 +148,10 @@ namespace SlipStep
     const MachineStep tried = make(step, law, machine, slider, point);
     const double      error =
       tried.error / std::max({scale, point.trial().strength, 1e-300});
-    const double factor = 0.9 * std::sqrt(tolerance / std::max(error, 1e-30));
+    const double factor =
+      std::isfinite(error) ?
+        0.9 * std::sqrt(tolerance / std::max(error, 1e-30)) :
+        0.;
     if (error <= 1.5 * tolerance)
       {
         wanted_step = std::max(made, wanted_step) * std::min(factor, 2.);

@@ -105,12 +105,8 @@ namespace SlipStep
   void remove_earlier_results(const fs::path &folder)
   {
     std::error_code error;
-    for (const char *name : {"history.csv",
-                             "summary.json",
-                             "report.html",
-                             "refinement.csv",
-                             "calibration.json",
-                             "fitted.prm"})
+    for (const char *name :
+         {"history.csv", "summary.json", "report.html", "refinement.csv"})
       fs::remove(folder / name, error);
     CheckpointStore(folder).remove();
   }

@@ -25,8 +25,7 @@ namespace SlipStep
     explicit Replay(const MeasuredTest &motion, const double lead_in = 0.);
 
     /// Choose the steps such that the error which the law estimates for each
-    /// is at most @p tolerance, relative to the friction at full slip, or leave
-    /// them as they are where they are fine enough already.
+    /// is at most @p tolerance, relative to the friction at full slip.
     /// @throws RunError if no step is small enough
     void plan(const FrictionLaw &law,
               const Machine     &machine,
