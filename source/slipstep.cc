@@ -6,6 +6,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/calibration/calibrate.h>
+#include <slipstep/calibration/campaign.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/import_map.h>
 #include <slipstep/experiment/import_tests.h>
@@ -523,6 +524,9 @@ namespace SlipStep
       if (!line.output.empty())
         check_output(the_case, line);
       print_warnings_of_programmes(the_case);
+      for (const Parameters &parameters : the_case.complete)
+        if (!parameters.text("Calibration/Parameters").empty())
+          print_warnings(Campaign(parameters).warnings());
       if (!line.quiet)
         std::cout << file.string() << ": OK"
                   << (the_case.is_sweep() ?

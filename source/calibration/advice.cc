@@ -49,12 +49,11 @@ namespace SlipStep
     // What the campaign's tests were like.
     struct Conditions
     {
-      double slowest   = std::numeric_limits<double>::infinity(); ///< [mm/s]
-      double fastest   = 0.;
-      double lowest    = std::numeric_limits<double>::infinity(); ///< [MPa]
-      double highest   = 0.;
-      double longest   = 0.; ///< path [mm]
-      double last_rest = 0.; ///< longest time without motion [s]
+      double slowest = std::numeric_limits<double>::infinity(); ///< [mm/s]
+      double fastest = 0.;
+      double lowest  = std::numeric_limits<double>::infinity(); ///< [MPa]
+      double highest = 0.;
+      double longest = 0.; ///< path [mm]
     };
 
 
@@ -88,7 +87,7 @@ namespace SlipStep
       explicit Motion(const double pressure)
         : pressure(pressure)
       {
-        add(0., 0., 1);
+        add(0., 0.);
       }
 
       void slide(const double speed, const double length)
@@ -99,19 +98,19 @@ namespace SlipStep
         for (int i = 1; i <= n; ++i)
           {
             const double share = std::pow(static_cast<double>(i) / n, 3.);
-            add(t + share * length / speed, u + share * length, 1);
+            add(t + share * length / speed, u + share * length);
           }
       }
 
       void rest(const double time)
       {
-        add(test.time.back() + time, test.displacement.back(), 1);
+        add(test.time.back() + time, test.displacement.back());
       }
 
       MeasuredTest test;
 
     private:
-      void add(const double time, const double displacement, const int)
+      void add(const double time, const double displacement)
       {
         test.time.push_back(time);
         test.displacement.push_back(displacement);
@@ -419,8 +418,9 @@ namespace SlipStep
           campaign.parameters.reject(
             "Calibration/Parameters",
             campaign.fitted[i].path +
-              " has no influence on these tests: between its bounds the "
-              "friction changes by less than a hundredth of the noise");
+              " has no influence on these tests: between its bounds, with the "
+              "start values of all others, the friction changes by less than a "
+              "hundredth of the noise");
       }
   }
 } // namespace SlipStep

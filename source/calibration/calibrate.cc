@@ -3,6 +3,7 @@
 #include <slipstep/calibration/advice.h>
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/calibration/calibration_report.h>
+#include <slipstep/calibration/calibration_text.h>
 #include <slipstep/calibration/fit.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/run_recorder.h>
@@ -18,6 +19,7 @@
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <sstream>
 
 namespace SlipStep
@@ -37,11 +39,15 @@ namespace SlipStep
     private:
       void search();
 
+      std::vector<double> keep_start();
+
       void correct_steps();
 
-      bool follow_profiles();
+      std::vector<double> follow_profiles();
 
       void keep_profile(const std::size_t i, const Profile &profile);
+
+      DerivedQuantity derived_quantity(const Derived &quantity);
 
       void derive();
 
@@ -119,6 +125,16 @@ namespace SlipStep
         try
           {
             found[i] = fit(simulator, starts[i], all_parameters(campaign));
+            // To be compared with others, without the error of its own steps.
+            if (std::isfinite(found[i].misfit))
+              {
+                const unsigned int iterations = found[i].iterations;
+                simulator.plan(found[i].scaled);
+                simulator.correct(found[i].scaled);
+                found[i] =
+                  fit(simulator, found[i].scaled, all_parameters(campaign), 0);
+                found[i].iterations += iterations;
+              }
           }
         catch (const InputError &error)
           {
@@ -186,9 +202,12 @@ namespace SlipStep
           if (moved < 0.1)
             return;
         }
-      result.warnings.push_back(
+      const std::string warning =
         "The error of the time steps moves parameters by more than a tenth of "
-        "their standard deviations: take a smaller Time stepping/Tolerance.");
+        "their standard deviations: take a smaller Time stepping/Tolerance.";
+      if (std::find(result.warnings.begin(), result.warnings.end(), warning) ==
+          result.warnings.end())
+        result.warnings.push_back(warning);
     }
 
 
@@ -217,9 +236,8 @@ namespace SlipStep
 
 
 
-    // Returns whether a better optimum was met on the way, which is then the
-    // best.
-    bool Calibrator::follow_profiles()
+    // Returns a better optimum if one was met on the way, else nothing.
+    std::vector<double> Calibrator::follow_profiles()
     {
       const double confidence =
         campaign.parameters.number("Calibration/Confidence");
@@ -239,44 +257,57 @@ namespace SlipStep
         if (!followed.better.empty())
           {
             const FitResult again =
-              fit(*planned, followed.better, all_parameters(campaign));
-            if (again.misfit < optimum.misfit)
-              {
-                best = again.scaled;
-                return true;
-              }
+              fit(*planned, followed.better, all_parameters(campaign), 0);
+            if (again.misfit < optimum.misfit - 0.01 * optimum.inflation)
+              return again.scaled;
           }
-      return false;
+      return {};
     }
 
 
 
     // To first order in the parameters' natural terms.
+    DerivedQuantity Calibrator::derived_quantity(const Derived &quantity)
+    {
+      DerivedQuantity derived;
+      derived.name    = quantity.name;
+      derived.formula = quantity.formula;
+      derived.value   = evaluate(quantity, planned->with(best));
+      Eigen::VectorXd gradient(best.size());
+      for (std::size_t i = 0; i < best.size(); ++i)
+        {
+          const double        step  = best[i] > 0.5 ? -1e-6 : 1e-6;
+          std::vector<double> other = best;
+          other[i] += step;
+          gradient(i) =
+            (evaluate(quantity, planned->with(other)) - derived.value) / step /
+            optimum.size[i];
+        }
+      derived.deviation =
+        (gradient.transpose() * optimum.directions)
+          .transpose()
+          .cwiseProduct(optimum.direction_deviations.cwiseMin(1e9))
+          .norm();
+      return derived;
+    }
+
+
+
+    // What has no value there is no reason to lose the rest.
     void Calibrator::derive()
     {
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
       for (const Derived &quantity : campaign.derived)
-        {
-          DerivedQuantity derived;
-          derived.name    = quantity.name;
-          derived.formula = quantity.formula;
-          derived.value   = evaluate(quantity, planned->with(best));
-          Eigen::VectorXd gradient(best.size());
-          for (std::size_t i = 0; i < best.size(); ++i)
-            {
-              const double        step  = best[i] > 0.5 ? -1e-6 : 1e-6;
-              std::vector<double> other = best;
-              other[i] += step;
-              gradient(i) =
-                (evaluate(quantity, planned->with(other)) - derived.value) /
-                step / optimum.size[i];
-            }
-          const Eigen::VectorXd parts =
-            (gradient.transpose() * optimum.directions)
-              .transpose()
-              .cwiseProduct(optimum.direction_deviations.cwiseMin(1e9));
-          derived.deviation = parts.norm();
-          result.derived.push_back(derived);
-        }
+        try
+          {
+            result.derived.push_back(derived_quantity(quantity));
+          }
+        catch (const InputError &error)
+          {
+            result.derived.push_back(
+              {quantity.name, quantity.formula, none, none});
+            result.warnings.push_back(error.what());
+          }
     }
 
 
@@ -290,16 +321,34 @@ namespace SlipStep
             fitted.parameter.text(fitted.value, 6) +
             ": the tests want it beyond, or do not need it.");
       unsigned int n_elsewhere = 0;
-      for (const StartResult &start : result.starts)
-        if (!start.end.empty() &&
-            start.misfit > result.misfit * 1.01 + optimum.inflation)
-          ++n_elsewhere;
+      for (const StartComparison &start : compare_starts(result))
+        n_elsewhere += start.has_end && !start.is_equal;
       if (n_elsewhere > 0)
         result.warnings.push_back(
           std::to_string(n_elsewhere) + " of " +
           std::to_string(result.starts.size()) +
           " starts ended in a worse optimum: the problem is not convex, take "
           "more Calibration/Starts to be sure.");
+    }
+
+
+
+    // What the start values give: rms of every test.
+    std::vector<double> Calibrator::keep_start()
+    {
+      std::vector<double> residuals(campaign.n_residuals());
+      planned->residuals(campaign.scaled_start(), residuals.data());
+      std::vector<double> rms;
+      const double       *part = residuals.data();
+      for (const CampaignTest &test : campaign.tests)
+        {
+          const double square =
+            std::inner_product(part, part + test.n_residuals(), part, 0.);
+          rms.push_back(test.noise * std::sqrt(square / test.n_residuals()));
+          result.start_misfit += square;
+          part += test.n_residuals();
+        }
+      return rms;
     }
 
 
@@ -313,16 +362,27 @@ namespace SlipStep
       search();
 
       planned = std::make_unique<Simulator>(campaign);
-      std::vector<TestMisfit> at_start;
       planned->plan(campaign.scaled_start());
-      result.start_misfit =
-        linearise(*planned, campaign.scaled_start(), at_start).misfit;
+      const std::vector<double> start_rms = keep_start();
       correct_steps();
-      for (unsigned int n = 0; n < 5 && follow_profiles(); ++n)
-        correct_steps();
+      for (unsigned int n = 0; n < 6; ++n)
+        {
+          const std::vector<double> better = follow_profiles();
+          if (better.empty())
+            break;
+          if (n == 5)
+            {
+              result.warnings.push_back(
+                "Following the intervals still leads to better values: take "
+                "them with care.");
+              break;
+            }
+          best = better;
+          correct_steps();
+        }
 
       for (std::size_t i = 0; i < result.tests.size(); ++i)
-        result.tests[i].start_rms = at_start[i].rms;
+        result.tests[i].start_rms = start_rms[i];
       result.misfit      = optimum.misfit;
       result.n_rows      = campaign.n_residuals();
       result.n_effective = optimum.n_effective;
@@ -363,6 +423,17 @@ namespace SlipStep
                  fitted.parameter.text(fitted.value),
                  "calibration");
     apply_ties(read_derived(result), result);
+    // Without the starts: they are the values now.
+    std::string list;
+    for (const FittedParameter &fitted : calibration.parameters)
+      {
+        const FitParameter &parameter = fitted.parameter;
+        list += (list.empty() ? "" : "; ") + parameter.path + " from " +
+                parameter.text(parameter.lower) + " to " +
+                parameter.text(parameter.upper) +
+                (parameter.is_logarithmic ? " log" : " linear");
+      }
+    result.set("Calibration/Parameters", list, "calibration");
     return result;
   }
 

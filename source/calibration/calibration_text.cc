@@ -272,10 +272,10 @@ namespace SlipStep
               }
           }
         comparison.excess = start.misfit - best.misfit;
-        // A tenth of what moves a single parameter by a standard deviation.
+        // Less than what moves a single parameter by a standard deviation.
         comparison.is_equal =
           comparison.has_end &&
-          comparison.excess <= 0.1 * std::max(calibration.inflation, 1.);
+          comparison.excess <= std::max(calibration.inflation, 1.);
         comparison.is_same = comparison.is_equal && comparison.distance < 0.01;
         comparisons.push_back(comparison);
       }

@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iomanip>
 #include <numeric>
+#include <set>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -117,13 +120,45 @@ namespace SlipStep
 
 
 
-    // Not less than what simulating it is worth.
-    double noise_of(const MeasuredTest &test)
+    double estimated_noise(const MeasuredTest &test)
     {
-      double level = noise_level(test.friction);
-      if (!test.friction_y.empty())
-        level = std::max(level, noise_level(test.friction_y));
-      return std::max({level, 1e-4 * range_of(test.friction), 1e-7});
+      return std::max(noise_level(test.friction),
+                      test.friction_y.empty() ? 0. :
+                                                noise_level(test.friction_y));
+    }
+
+
+
+    // A record without visible noise, filtered or generated, must not outweigh
+    // all others: an estimate counts at least a ten-thousandth of the friction
+    // and a tenth of what is usual among the tests.
+    void keep_noise_visible(std::vector<CampaignTest> &tests)
+    {
+      std::vector<double> estimates;
+      for (const CampaignTest &test : tests)
+        estimates.push_back(test.noise);
+      for (CampaignTest &test : tests)
+        {
+          double largest = 0.;
+          for (const auto *values :
+               {&test.rows.friction, &test.rows.friction_y})
+            for (const double value : *values)
+              largest = std::max(largest, std::abs(value));
+          if (largest == 0.)
+            throw InputError(test.rows.file.string() +
+                             ": the friction is zero throughout");
+          const double least =
+            std::max(1e-4 * largest, 0.1 * median(estimates));
+          if (test.noise_is_stated || test.noise >= least)
+            continue;
+          test.noise = least;
+          std::ostringstream warning;
+          warning << test.rows.file.string()
+                  << ": hardly any noise is visible; " << std::setprecision(2)
+                  << least
+                  << " is taken, unless a line '# noise: ...' says more.";
+          test.rows.warnings.push_back(warning.str());
+        }
     }
 
 
@@ -151,7 +186,8 @@ namespace SlipStep
       const double noted     = noted_noise(test);
       const double stated    = noted > 0. ? noted : stated_noise(parameters);
       result.noise_is_stated = stated > 0.;
-      result.noise = result.noise_is_stated ? stated : noise_of(result.rows);
+      result.noise =
+        result.noise_is_stated ? stated : estimated_noise(result.rows);
       return result;
     }
   } // namespace
@@ -204,8 +240,14 @@ namespace SlipStep
       else
         measured.push_back(read_measured_test(file));
     check_conditions(measured);
+    std::set<fs::path> files;
     for (const MeasuredTest &test : measured)
-      tests.push_back(prepare(test, parameters));
+      {
+        if (!files.insert(fs::canonical(test.file)).second)
+          parameters.reject(tests_key, test.file.string() + " is listed twice");
+        tests.push_back(prepare(test, parameters));
+      }
+    keep_noise_visible(tests);
     if (n_residuals() <= fitted.size())
       parameters.reject("Calibration/Parameters",
                         std::to_string(fitted.size()) +
@@ -284,6 +326,25 @@ namespace SlipStep
 
 
 
+    void plan_test(Replay             &replay,
+                   const CampaignTest &test,
+                   const FrictionLaw  &law,
+                   const Machine      &machine,
+                   const double        tolerance)
+    {
+      try
+        {
+          replay.plan(law, machine, tolerance);
+        }
+      catch (const RunError &error)
+        {
+          throw RunError(test.rows.file.string() +
+                         " cannot be simulated: " + error.what());
+        }
+    }
+
+
+
     // y = y + factor x
     void add(const double               factor,
              const std::vector<double> &x,
@@ -343,15 +404,8 @@ namespace SlipStep
     const Machine     machine(parameters);
     corrections.clear();
     for_each_test(replays.size(), [&](const std::size_t i) {
-      try
-        {
-          replays[i].plan(law, machine, campaign.search_tolerance);
-        }
-      catch (const RunError &error)
-        {
-          throw RunError(campaign.tests[i].rows.file.string() +
-                         " cannot be simulated: " + error.what());
-        }
+      plan_test(
+        replays[i], campaign.tests[i], law, machine, campaign.search_tolerance);
     });
     ++n_done;
   }
@@ -380,7 +434,7 @@ namespace SlipStep
     for_each_test(replays.size(), [&](const std::size_t i) {
       const CampaignTest &test = campaign.tests[i];
       Replay              fine = replays[i];
-      fine.plan(law, machine, campaign.fine_tolerance);
+      plan_test(fine, test, law, machine, campaign.fine_tolerance);
       corrections[i] = at_rows(fine.halved(), law, machine, test);
       add(1., corrections[i], corrections[i]);
       add(-1., at_rows(fine, law, machine, test), corrections[i]);

@@ -113,6 +113,15 @@ namespace SlipStep
         evaluate(derived, parameters);
         result.push_back(derived);
       }
+    // Ties are applied one after the other.
+    for (std::size_t i = 0; i < result.size(); ++i)
+      for (std::size_t j = i; j < result.size() && result[i].is_tie; ++j)
+        if (result[j].is_tie &&
+            result[i].formula.find(result[j].name + "}") != std::string::npos)
+          reject(result[i],
+                 parameters,
+                 i == j ? "it cannot follow itself" :
+                          result[j].name + " is tied only later");
     return result;
   }
 

@@ -81,7 +81,9 @@ namespace SlipStep
                FitResult                       &result)
     {
       // A start that the law refuses is no error of Ceres' to be printed.
-      FLAGS_minloglevel = google::GLOG_FATAL;
+      static const bool is_quiet =
+        (FLAGS_minloglevel = google::GLOG_FATAL) == google::GLOG_FATAL;
+      (void)is_quiet;
 
       std::vector<double> values;
       for (const unsigned int i : free)
@@ -134,8 +136,15 @@ namespace SlipStep
     result.scaled = scaled_start;
     if (free.empty())
       {
-        result.misfit    = simulator.misfit(result.scaled);
-        result.converged = true;
+        try
+          {
+            result.misfit    = simulator.misfit(result.scaled);
+            result.converged = true;
+          }
+        catch (const InputError &error)
+          {
+            result.message = error.what();
+          }
         return result;
       }
     if (replans > 0)

@@ -70,13 +70,12 @@ namespace SlipStep
       result.rms = test.noise * root_mean_square(residuals, test.n_residuals());
       result.mean =
         -test.noise * std::accumulate(residuals, residuals + n, 0.) / n;
-      result.correlation_length = correlation_length(residuals, n);
-      result.measured_work      = work(test.rows, nullptr);
-      result.simulated_work     = work(test.rows, &curve);
-      result.time               = test.rows.time;
-      result.displacement       = test.rows.displacement;
-      result.measured           = test.rows.friction;
-      result.simulated          = curve.friction;
+      result.measured_work  = work(test.rows, nullptr);
+      result.simulated_work = work(test.rows, &curve);
+      result.time           = test.rows.time;
+      result.displacement   = test.rows.displacement;
+      result.measured       = test.rows.friction;
+      result.simulated      = curve.friction;
       return result;
     }
 
@@ -199,13 +198,18 @@ namespace SlipStep
       {
         const CampaignTest &test = campaign.tests[i];
         tests.push_back(misfit_of(test, simulator.simulate(scaled, i), part));
-        const double square =
-          std::pow(root_mean_square(part, test.n_residuals()), 2);
-        together +=
-          square * test.n_residuals() * tests.back().correlation_length;
-        result.n_effective +=
-          test.n_residuals() / tests.back().correlation_length;
-        part += test.n_residuals();
+        // The noise of each axis is its own.
+        const std::size_t n_rows = test.rows.time.size();
+        for (const double *end = part + test.n_residuals(); part != end;
+             part += n_rows)
+          {
+            const double length = correlation_length(part, n_rows);
+            together +=
+              length * std::inner_product(part, part + n_rows, part, 0.);
+            result.n_effective += n_rows / length;
+            tests.back().correlation_length =
+              std::max(tests.back().correlation_length, length);
+          }
       }
     result.inflation = std::max(1., result.misfit / (n - n_parameters)) *
                        (result.misfit > 0. ? together / result.misfit : 1.);
@@ -361,7 +365,12 @@ namespace SlipStep
                                                    0.05,
                                                    0.95);
         }
-      end = is_open ? start + sign * room : start + sign * distance;
+      // Contradicted is only what was simulated: where the law refuses what
+      // lies beyond, or the search ends, the interval is open at the last
+      // value.
+      const bool is_contradicted = upper < infinite && upper_root < infinite;
+      is_open                    = !is_contradicted;
+      end = start + sign * (is_contradicted ? upper : lower);
     }
   } // namespace
 

@@ -63,6 +63,14 @@ namespace
         EXPECT_NE(result.err.find(word), std::string::npos)
           << "  \"" << word << "\" is not in: " << result.err;
       EXPECT_FALSE(fs::exists(process.folder() / "output"));
+      // What needs no search is found by slipstep check, too.
+      if (section.find("Parameters") != std::string::npos)
+        {
+          const auto check = process.run({"check", "case.prm"});
+          EXPECT_TRUE(check.err == result.err ||
+                      result.err.find("no influence") != std::string::npos)
+            << check.err;
+        }
     }
 
     const std::string one =
@@ -128,6 +136,9 @@ TEST_F(Calibrate, WhatIsWrongWithTheTestsIsSaid)
   process.write("c.csv",
                 "# condition: x\ntime_s,displacement_mm,pressure_MPa,friction\n"
                 "0,0,2,0.1\n1,1,2,0.1\n2,2,2,0.1\n");
+  write_test("a.csv", 1.);
+  expect_refusal(one + "set Tests = a.csv, measured/../a.csv\n",
+                 {"a.csv", "listed twice"});
   expect_refusal(one + "set Tests = b.csv, c.csv\n",
                  {"b.csv", "c.csv", "pressure"});
 }
@@ -155,6 +166,12 @@ TEST_F(Calibrate, WhatItWritesCanBeUsed)
   const auto point =
     process.run({"point", "found/fitted.prm", "--output", "point", "--quiet"});
   EXPECT_EQ(point.exit_code, 0) << point.err;
+  // A point run into the same folder keeps what was found.
+  const auto beside =
+    process.run({"point", "found/fitted.prm", "--output", "found", "--quiet"});
+  EXPECT_EQ(beside.exit_code, 0) << beside.err;
+  for (const char *name : {"calibration.json", "fitted.prm", "history.csv"})
+    EXPECT_TRUE(fs::exists(process.folder() / "found" / name)) << name;
   // Results may be replaced, other files not.
   EXPECT_EQ(calibrate(one, {"--output", "found", "--quiet"}).exit_code, 0);
   EXPECT_EQ(calibrate(one, {"--output", "measured"}).exit_code, 2);

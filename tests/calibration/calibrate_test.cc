@@ -79,6 +79,7 @@ TEST_F(Planted, ParametersAreFoundToTheNoise)
   for (const StartResult &start : found.starts)
     EXPECT_NEAR(start.misfit, found.misfit, 1e-2 * found.misfit);
   EXPECT_TRUE(found.weak.empty());
+  EXPECT_TRUE(found.warnings.empty()) << found.warnings.front();
 }
 
 
@@ -235,6 +236,127 @@ TEST_F(Planted, FewerRowsThanParametersAreRefused)
   plant(folder.path(), calibration_case(paper), {1.}, 4, 5e-4, 5);
   EXPECT_THROW(Campaign(fitting({{"Calibration/Parameters", four}})),
                InputError);
+}
+
+
+
+// What the law refuses nothing contradicts: the interval is open there, and one
+// parameter alone is no exception.
+TEST_F(Planted, AnIntervalIsOpenWhereTheLawRefusesMore)
+{
+  plant(folder.path(), calibration_case(paper), {1.}, 12, 2e-2, 5, 5.);
+  for (const std::string more :
+       {"", "; Friction/softening/Rate from 0.04 to 0.05"})
+    {
+      const Calibration      found   = calibrate(fitting(
+        {{"Calibration/Parameters",
+                 "Friction/softening/Kinetic coefficient from 0.05 to 0.3" + more}}));
+      const FittedParameter &kinetic = found.parameters.front();
+      EXPECT_TRUE(kinetic.is_upper_open);
+      EXPECT_LE(kinetic.upper, 0.0899 * (1. + 1e-9));
+      EXPECT_GE(kinetic.upper, kinetic.value);
+    }
+}
+
+
+
+TEST_F(Planted, ATieMustNotFollowItselfOrALaterOne)
+{
+  plant(folder.path(), calibration_case(paper), {1.}, 20, 1e-3, 5);
+  for (const std::string ties :
+       {"Friction/softening/Rate = 0.9 * {Friction/softening/Rate}",
+        "Friction/softening/Rate = 0.9 / {Friction/softening/Steepness}; "
+        "Friction/softening/Steepness = 2 * {Friction/Static coefficient}"})
+    EXPECT_THROW(Campaign(
+                   fitting({{"Calibration/Parameters",
+                             "Friction/Static coefficient from 0.05 to 0.2"},
+                            {"Calibration/Derived", ties}})),
+                 InputError)
+      << ties;
+}
+
+
+
+TEST_F(Planted, ADerivedQuantityWithoutValueLosesNothingElse)
+{
+  plant(folder.path(), calibration_case(paper), {1.}, 100, 1e-3, 5);
+  const Calibration found = calibrate(fitting(
+    {{"Friction/Static coefficient", "0.13"},
+     {"Calibration/Parameters", "Friction/Static coefficient from 0.08 to 0.3"},
+     {"Calibration/Derived",
+      "x = sqrt({Friction/Static coefficient} - 0.12)"}}));
+  EXPECT_TRUE(std::isnan(found.derived.front().value));
+  EXPECT_FALSE(found.warnings.empty());
+  EXPECT_NEAR(found.parameters.front().value, 0.0899, 2e-3);
+}
+
+
+
+// A record without noise does not take over the whole fit, and it is told.
+TEST_F(Planted, ARecordWithoutNoiseIsWarnedOf)
+{
+  plant(folder.path(), calibration_case(paper), {1., 20., 200.}, 100, 1e-3, 5);
+  MeasuredTest constant;
+  for (unsigned int i = 0; i < 100; ++i)
+    {
+      constant.time.push_back(i);
+      constant.displacement.push_back(i);
+      constant.pressure.push_back(5.8);
+      constant.friction.push_back(0.13);
+    }
+  write_measured_test(folder.path() / "constant.csv", constant);
+  const Campaign campaign(
+    fitting({{"Calibration/Parameters",
+              "Friction/Static coefficient from 0.05 to 0.2"}}));
+  EXPECT_NEAR(campaign.tests.front().noise, 1e-4, 3e-5);
+  ASSERT_EQ(campaign.warnings().size(), 1u);
+  EXPECT_NE(campaign.warnings().front().find("constant.csv"),
+            std::string::npos);
+
+  constant.friction.assign(100, 0.);
+  write_measured_test(folder.path() / "constant.csv", constant);
+  EXPECT_THROW(Campaign(campaign.parameters), InputError);
+}
+
+
+
+// Which axis is which does not matter for how much a record knows.
+TEST_F(Planted, NoiseThatHangsTogetherCountsOnBothAxes)
+{
+  std::mt19937                     random(1);
+  std::normal_distribution<double> normal;
+  MeasuredTest                     along, across;
+  double                           red = 0.;
+  for (unsigned int i = 0; i < 400; ++i)
+    {
+      red = 0.9 * red + normal(random);
+      along.time.push_back(i);
+      along.displacement.push_back(0.1 * i);
+      along.displacement_y.push_back(0.1 * i);
+      along.pressure.push_back(5.8);
+      along.friction.push_back(0.06 + 1e-3 * red);
+      along.friction_y.push_back(0.06 + 1e-3 * normal(random));
+    }
+  across = along;
+  std::swap(across.friction, across.friction_y);
+  double inflation[2];
+  for (unsigned int i = 0; i < 2; ++i)
+    {
+      write_measured_test(folder.path() / "test.csv", i == 0 ? along : across);
+      const Campaign campaign(
+        fitting({{"Friction/Effects", "subloading"},
+                 {"Calibration/Noise", "0.001"},
+                 {"Calibration/Lead-in", "1 mm"},
+                 {"Calibration/Parameters",
+                  "Friction/Static coefficient from 0.05 to 0.2"}}));
+      Simulator simulator(campaign);
+      simulator.plan(campaign.scaled_start());
+      std::vector<TestMisfit> tests;
+      const FitResult best = fit(simulator, campaign.scaled_start(), {0});
+      inflation[i]         = linearise(simulator, best.scaled, tests).inflation;
+    }
+  EXPECT_GT(inflation[0], 3.);
+  EXPECT_NEAR(inflation[1] / inflation[0], 1., 0.01);
 }
 
 

@@ -21,8 +21,9 @@ namespace SlipStep
     /// the tests say nothing.
     double deviation = std::numeric_limits<double>::infinity();
 
-    /// Profile-likelihood interval at the stated confidence. Open where it
-    /// reaches the bound: then the end is the bound.
+    /// Profile-likelihood interval at the stated confidence. Open where the
+    /// tests contradict nothing up to the bound, or up to values that the law
+    /// refuses: the end is then the last value tried.
     double lower         = 0.;
     double upper         = 0.;
     bool   is_lower_open = false;
@@ -57,7 +58,8 @@ namespace SlipStep
     double      rms             = 0.; ///< of the difference of friction
     double      start_rms       = 0.; ///< with the start values
     double      mean            = 0.; ///< of measured minus simulated
-    /// How many rows in a row are off together, 1: independent.
+    /// How many rows in a row are off together, 1: independent; of two axes
+    /// the larger one.
     double correlation_length = 1.;
     /// Frictional work per area, the integral of friction times pressure over
     /// the displacement [N/mm], over the rows compared.
