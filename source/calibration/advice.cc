@@ -90,6 +90,7 @@ namespace SlipStep
         add(0., 0.);
       }
 
+      /// A negative length goes back.
       void slide(const double speed, const double length)
       {
         // Dense at the beginning, where stick ends.
@@ -98,7 +99,7 @@ namespace SlipStep
         for (int i = 1; i <= n; ++i)
           {
             const double share = std::pow(static_cast<double>(i) / n, 3.);
-            add(t + share * length / speed, u + share * length);
+            add(t + share * std::abs(length) / speed, u + share * length);
           }
       }
 
@@ -179,17 +180,8 @@ namespace SlipStep
       }
     Motion reversal(now.highest);
     reversal.slide(middle, now.longest / 2.);
-    MeasuredTest     &test = reversal.test;
-    const double      t = test.time.back(), u = test.displacement.back();
-    const std::size_t n = test.time.size();
-    for (std::size_t i = 1; i < n; ++i)
-      {
-        test.time.push_back(t + test.time[i]);
-        test.displacement.push_back(u - test.displacement[i]);
-        test.pressure.push_back(now.highest);
-        test.friction.push_back(0.);
-      }
-    result.push_back({"a reversal", test});
+    reversal.slide(middle, -now.longest / 2.);
+    result.push_back({"a reversal", reversal.test});
     return result;
   }
 

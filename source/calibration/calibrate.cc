@@ -1,5 +1,3 @@
-#include <deal.II/base/parallel.h>
-
 #include <slipstep/calibration/advice.h>
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/calibration/calibration_report.h>
@@ -64,25 +62,6 @@ namespace SlipStep
       Linearisation              optimum;
       Calibration                result;
     };
-
-
-
-    // Side by side on the cores; the first exception is thrown again.
-    void side_by_side(const std::size_t                             n,
-                      const std::function<void(const std::size_t)> &work)
-    {
-      dealii::parallel::apply_to_subranges(
-        std::size_t(0),
-        n,
-        [&](const std::size_t begin, const std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i)
-            {
-              throw_if_stopped();
-              work(i);
-            }
-        },
-        1);
-    }
 
 
 

@@ -218,10 +218,11 @@ namespace SlipStep
     , search_tolerance(10. * parameters.number("Time stepping/Tolerance"))
     , fine_tolerance(0.001 * search_tolerance)
   {
+    const std::set<std::string> inactive =
+      FrictionLaw(parameters).inactive_sections();
     for (const FitParameter &parameter : fitted)
       {
-        for (const std::string &section :
-             FrictionLaw(parameters).inactive_sections())
+        for (const std::string &section : inactive)
           if (parameter.path.compare(0, section.size() + 1, section + "/") == 0)
             parameters.reject("Calibration/Parameters",
                               parameter.path +
@@ -293,22 +294,6 @@ namespace SlipStep
 
   namespace
   {
-    // All tests side by side; each writes what is its own.
-    void for_each_test(const std::size_t                             n_tests,
-                       const std::function<void(const std::size_t)> &work)
-    {
-      dealii::parallel::apply_to_subranges(
-        std::size_t(0),
-        n_tests,
-        [&](const std::size_t begin, const std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i)
-            work(i);
-        },
-        1);
-    }
-
-
-
     Replay::Curve at_rows(const Replay       &replay,
                           const FrictionLaw  &law,
                           const Machine      &machine,
@@ -373,6 +358,24 @@ namespace SlipStep
 
 
 
+  void side_by_side(const std::size_t                             n,
+                    const std::function<void(const std::size_t)> &work)
+  {
+    dealii::parallel::apply_to_subranges(
+      std::size_t(0),
+      n,
+      [&](const std::size_t begin, const std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          {
+            throw_if_stopped();
+            work(i);
+          }
+      },
+      1);
+  }
+
+
+
   Simulator::Simulator(const Campaign &campaign)
     : campaign(campaign)
     , parameters(campaign.parameters)
@@ -403,7 +406,7 @@ namespace SlipStep
     const FrictionLaw law(with(scaled));
     const Machine     machine(parameters);
     corrections.clear();
-    for_each_test(replays.size(), [&](const std::size_t i) {
+    side_by_side(replays.size(), [&](const std::size_t i) {
       plan_test(
         replays[i], campaign.tests[i], law, machine, campaign.search_tolerance);
     });
@@ -431,7 +434,7 @@ namespace SlipStep
     const FrictionLaw law(with(scaled));
     const Machine     machine(parameters);
     corrections.resize(replays.size());
-    for_each_test(replays.size(), [&](const std::size_t i) {
+    side_by_side(replays.size(), [&](const std::size_t i) {
       const CampaignTest &test = campaign.tests[i];
       Replay              fine = replays[i];
       plan_test(fine, test, law, machine, campaign.fine_tolerance);
@@ -447,7 +450,6 @@ namespace SlipStep
 
   void Simulator::residuals(const std::vector<double> &scaled, double *result)
   {
-    throw_if_stopped();
     const FrictionLaw     law(with(scaled));
     const Machine         machine(parameters);
     std::vector<double *> place;
@@ -456,7 +458,7 @@ namespace SlipStep
         place.push_back(result);
         result += test.n_residuals();
       }
-    for_each_test(replays.size(), [&](const std::size_t i) {
+    side_by_side(replays.size(), [&](const std::size_t i) {
       const CampaignTest &test  = campaign.tests[i];
       Replay::Curve       curve = at_rows(replays[i], law, machine, test);
       if (!corrections.empty())

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,12 @@ namespace SlipStep
 
   /// @throws RunError if a signal asked to stop
   void throw_if_stopped();
+
+  /// Do work for 0 to n - 1 side by side on the cores, each writing only what
+  /// is its own; the first exception is thrown again.
+  /// @throws RunError if a signal asked to stop
+  void side_by_side(const std::size_t                             n,
+                    const std::function<void(const std::size_t)> &work);
 
   /// Simulates all tests of a campaign. Each thread of a fit has its own; the
   /// tests of one simulation run side by side on all cores.
