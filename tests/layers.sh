@@ -5,7 +5,7 @@
 set -u
 cd "${1:-$(dirname "$0")/..}" || exit 1
 
-rooms=(utilities friction experiment calibration diagnosis solid)
+rooms=(utilities friction experiment planting calibration diagnosis solid)
 most_lines=700
 violations=0
 
@@ -57,6 +57,17 @@ for room in "${rooms[@]}"; do
     while read -r place header; do
       [[ $header == slipstep/solid/* ]] &&
         complain "$place: calibration must not include $header"
+    done < <(includes "${files[@]}")
+  fi
+
+  # Who plants an effect must not lean on the law that is to find it.
+  if [ "$room" = planting ]; then
+    while read -r place header; do
+      case $header in
+        slipstep/planting/* | slipstep/utilities/*) ;;
+        slipstep/experiment/measured_test.h) ;;
+        slipstep/*) complain "$place: planting must not include $header" ;;
+      esac
     done < <(includes "${files[@]}")
   fi
 done

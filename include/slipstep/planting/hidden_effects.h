@@ -1,0 +1,56 @@
+#ifndef slipstep_planting_hidden_effects_h
+#define slipstep_planting_hidden_effects_h
+
+#include <slipstep/planting/true_contact.h>
+
+#include <cmath>
+
+namespace SlipStep
+{
+  namespace Planting
+  {
+    /// @name The effects, file by file.
+    ///@{
+    std::vector<HiddenEffectKind> catalogue_effects();
+    std::vector<HiddenEffectKind> alternative_effects();
+    std::vector<HiddenEffectKind> outside_effects();
+    ///@}
+
+    /// What a usual campaign reaches: an amplitude is the change of friction
+    /// there.
+    struct Reach
+    {
+      static constexpr double reference_pressure = 5.8;  ///< [MPa]
+      static constexpr double least_pressure     = 1.5;  ///< [MPa]
+      static constexpr double largest_pressure   = 20.;  ///< [MPa]
+      static constexpr double least_speed        = 0.01; ///< [mm/s]
+      static constexpr double largest_speed      = 8.;   ///< [mm/s]
+      static constexpr double long_rest          = 300.; ///< [s]
+    };
+
+    inline double uniform(Random &random, const double least, const double most)
+    {
+      return std::uniform_real_distribution<double>(least, most)(random);
+    }
+
+    inline double
+    log_uniform(Random &random, const double least, const double most)
+    {
+      return std::exp(uniform(random, std::log(least), std::log(most)));
+    }
+
+    inline double either_sign(Random &random)
+    {
+      return uniform(random, -1., 1.) < 0. ? -1. : 1.;
+    }
+
+    /// The share of G by which strength may fall per factor e of slip rate:
+    /// half of what the overstress lets it rise, so that sliding stays stable.
+    inline double largest_weakening(const TrueContact &contact)
+    {
+      return 0.5 / contact.flow.exponent;
+    }
+  } // namespace Planting
+} // namespace SlipStep
+
+#endif

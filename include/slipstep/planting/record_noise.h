@@ -1,0 +1,77 @@
+#ifndef slipstep_planting_record_noise_h
+#define slipstep_planting_record_noise_h
+
+#include <slipstep/planting/influence.h>
+
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  namespace Planting
+  {
+    /// Departures of the noise from the usual.
+    enum class NoiseKind
+    {
+      normal,
+      heavy_tails, ///< white noise is Student's t with three degrees of freedom
+      two_drifts   ///< one drift is quick, another slow
+    };
+
+    /// "heavy_tails"
+    std::string to_string(const NoiseKind kind);
+
+    /// @throws InputError naming the nearest if there is none
+    NoiseKind noise_kind(const std::string &name);
+
+    /// Noise of a campaign's records. Standard deviations, relative to the mean
+    /// friction of a test unless said.
+    struct NoiseLevels
+    {
+      NoiseKind kind  = NoiseKind::normal;
+      double    white = 0.01;  ///< of every row
+      double    drift = 0.005; ///< Ornstein-Uhlenbeck, of all drifts together
+      double    gain  = 0.006; ///< of a test, factor on its friction
+      double offset = 0.002; ///< of a test, relative to the static coefficient
+      /// Correlation times of the drifts over the duration of a test.
+      std::vector<double> correlation_times;
+    };
+
+    /// What stays the same throughout one record.
+    struct RecordNoise
+    {
+      double gain     = 0.;
+      double offset_x = 0., offset_y = 0.;
+    };
+
+    /// Levels of one campaign.
+    NoiseLevels
+    draw_levels(const NoiseKind kind, const double factor, Random &random);
+
+    RecordNoise draw_record_noise(const NoiseLevels &levels,
+                                  const double       static_coefficient,
+                                  Random            &random);
+
+    /// White noise of standard deviation 1.
+    std::vector<double>
+    white_noise(const std::size_t n, const NoiseKind kind, Random &random);
+
+    /// A stationary Ornstein-Uhlenbeck process of standard deviation 1 at given
+    /// times [s].
+    std::vector<double> drift_noise(const std::vector<double> &times,
+                                    const double               correlation_time,
+                                    Random                    &random);
+
+    /// One axis of a record: (1 + gain) friction + offset + drift + white.
+    /// @param mean mean magnitude of the friction of the test
+    std::vector<double> noisy_record(const std::vector<double> &times,
+                                     const std::vector<double> &friction,
+                                     const double               mean,
+                                     const double               gain,
+                                     const double               offset,
+                                     const NoiseLevels         &levels,
+                                     Random                    &random);
+  } // namespace Planting
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,351 @@
+#include <slipstep/planting/hidden_effects.h>
+#include <slipstep/planting/planted_campaign.h>
+#include <slipstep/planting/protocols.h>
+#include <slipstep/planting/start_model.h>
+
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/write_file.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace SlipStep
+{
+  namespace Planting
+  {
+    namespace
+    {
+      const std::vector<std::pair<CampaignClass, std::string>> class_names = {
+        {CampaignClass::none, "none"},
+        {CampaignClass::one, "one"},
+        {CampaignClass::two, "two"},
+        {CampaignClass::other_formula, "other_formula"},
+        {CampaignClass::outside, "outside"},
+        {CampaignClass::ablated, "ablated"}};
+
+      /// What random numbers are for.
+      enum class Stream : std::uint32_t
+      {
+        truth = 1,
+        tests,
+        noise,
+        start_model
+      };
+
+      Random random_numbers(const CampaignOptions &options, const Stream stream)
+      {
+        std::seed_seq sequence{static_cast<std::uint32_t>(options.seed),
+                               static_cast<std::uint32_t>(options.seed >> 32),
+                               static_cast<std::uint32_t>(
+                                 options.campaign_class),
+                               static_cast<std::uint32_t>(stream)};
+        return Random(sequence);
+      }
+    } // namespace
+
+
+
+    std::string to_string(const CampaignClass campaign_class)
+    {
+      for (const auto &[one, name] : class_names)
+        if (one == campaign_class)
+          return name;
+      return "";
+    }
+
+
+
+    CampaignClass campaign_class(const std::string &wanted)
+    {
+      std::vector<std::string> names;
+      std::string              known;
+      for (const auto &[one, name] : class_names)
+        {
+          if (name == wanted)
+            return one;
+          names.push_back(name);
+          known += (known.empty() ? "" : ", ") + name;
+        }
+      throw InputError("class \"" + wanted + "\": allowed is one of: " + known +
+                       did_you_mean(wanted, names));
+    }
+
+
+
+    namespace
+    {
+      unsigned int n_hidden(const CampaignClass campaign_class)
+      {
+        return campaign_class == CampaignClass::none ? 0 :
+               campaign_class == CampaignClass::two  ? 2 :
+                                                       1;
+      }
+
+      Formula formula_of(const CampaignClass campaign_class)
+      {
+        return campaign_class == CampaignClass::other_formula ?
+                 Formula::alternative :
+               campaign_class == CampaignClass::outside ? Formula::outside :
+                                                          Formula::catalogue;
+      }
+
+      std::vector<std::string> candidates(const CampaignClass campaign_class)
+      {
+        if (campaign_class == CampaignClass::ablated)
+          return {"overstress", "softening"};
+        std::vector<std::string> names;
+        for (const auto &kind : hidden_effects(formula_of(campaign_class)))
+          names.push_back(kind.name);
+        return names;
+      }
+
+
+
+      void check_wish(const CampaignOptions &options)
+      {
+        const std::string name     = to_string(options.campaign_class);
+        const auto        possible = candidates(options.campaign_class);
+        for (const std::string &effect : options.effects)
+          {
+            if (n_hidden(options.campaign_class) > 0)
+              hidden_effect(effect, formula_of(options.campaign_class));
+            if (std::count(options.effects.begin(),
+                           options.effects.end(),
+                           effect) > 1)
+              throw InputError("effect \"" + effect + "\" is named twice");
+            if (std::count(possible.begin(), possible.end(), effect) == 0)
+              throw InputError("class " + name +
+                               " hides overstress or "
+                               "softening, not \"" +
+                               effect + "\"");
+          }
+        if (!options.effects.empty() &&
+            options.effects.size() != n_hidden(options.campaign_class))
+          throw InputError("class " + name + " hides " +
+                           std::to_string(n_hidden(options.campaign_class)) +
+                           " effects, not " +
+                           std::to_string(options.effects.size()));
+      }
+
+
+
+      // Those that make the base come first: others depend on it.
+      std::vector<std::string> choose_effects(const CampaignOptions &options,
+                                              Random                &random)
+      {
+        std::vector<std::string> names = candidates(options.campaign_class);
+        // Drawn in any case, so that the numbers after it are the same.
+        std::shuffle(names.begin(), names.end(), random);
+        names.resize(n_hidden(options.campaign_class));
+        if (!options.effects.empty())
+          names = options.effects;
+        std::stable_partition(names.begin(),
+                              names.end(),
+                              [](const std::string &name) {
+                                return name == "overstress" ||
+                                       name == "softening";
+                              });
+        return names;
+      }
+
+
+
+      PlantedEffect hide(const std::string     &name,
+                         const CampaignOptions &options,
+                         TrueContact           &contact,
+                         Random                &random)
+      {
+        const HiddenEffectKind &kind =
+          hidden_effect(name, formula_of(options.campaign_class));
+        const double drawn =
+          log_uniform(random, least_amplitude, largest_amplitude);
+        PlantedEffect effect{name,
+                             formula_of(options.campaign_class),
+                             kind.formula,
+                             options.amplitude > 0. ? options.amplitude : drawn,
+                             {}};
+        if (options.campaign_class != CampaignClass::ablated)
+          {
+            effect.parameters = kind.add(contact, effect.amplitude, random);
+            return effect;
+          }
+        // The base has it already.
+        const CoefficientRule &rule = contact.coefficient;
+        effect.amplitude =
+          name == "softening" ?
+            rule.static_coefficient / rule.kinetic_coefficient - 1. :
+            contact.flow.steady_ratio(Reach::largest_speed) /
+                contact.flow.steady_ratio(Reach::least_speed) -
+              1.;
+        for (const TruthParameter &parameter : base_parameters(contact))
+          if (parameter.name.find("/" + name + "/") != std::string::npos)
+            effect.parameters.push_back(parameter);
+        return effect;
+      }
+
+
+
+      void plant_truth(PlantedCampaign &campaign)
+      {
+        Random random    = random_numbers(campaign.options, Stream::truth);
+        campaign.contact = draw_base(random);
+        std::vector<std::string> names =
+          choose_effects(campaign.options, random);
+        for (const std::string &name : names)
+          campaign.hidden.push_back(
+            hide(name, campaign.options, campaign.contact, random));
+        campaign.base_parameters = base_parameters(campaign.contact);
+        campaign.base_effects    = {"subloading", "overstress", "softening"};
+        for (const std::string &name : names)
+          if (campaign.hidden.front().formula != Formula::outside &&
+              name != "overstress" && name != "softening" &&
+              name != "compliance")
+            campaign.base_effects.push_back(name);
+        Random errors = random_numbers(campaign.options, Stream::start_model);
+        campaign.start_model = start_model(campaign.contact, names, errors);
+      }
+
+
+
+      /// The protocol of every test, in the order in which they are run.
+      std::vector<std::size_t> draw_run_order(const unsigned int n_protocols,
+                                              const unsigned int n_tests,
+                                              Random            &random)
+      {
+        std::vector<std::size_t> all(n_protocols);
+        std::iota(all.begin(), all.end(), 0);
+        std::vector<std::size_t> repeated = all;
+        std::shuffle(repeated.begin(), repeated.end(), random);
+        all.insert(all.end(),
+                   repeated.begin(),
+                   repeated.begin() + (n_tests - n_protocols));
+        std::shuffle(all.begin(), all.end(), random);
+        return all;
+      }
+
+
+
+      std::string two_digits(const std::size_t number)
+      {
+        return (number < 10 ? "0" : "") + std::to_string(number);
+      }
+
+
+
+      double mean_friction(const TrueFriction &friction)
+      {
+        double sum = 0.;
+        for (std::size_t i = 0; i < friction.along_x.size(); ++i)
+          sum += std::hypot(friction.along_x[i], friction.along_y[i]);
+        return sum / friction.along_x.size();
+      }
+
+
+
+      void record(const NoiseLevels &levels,
+                  const double       static_coefficient,
+                  Random            &random,
+                  PlantedTest       &test)
+      {
+        test.noise = draw_record_noise(levels, static_coefficient, random);
+        const double  mean     = mean_friction(test.truth);
+        MeasuredTest &measured = test.measured;
+        measured.friction      = noisy_record(measured.time,
+                                         test.truth.along_x,
+                                         mean,
+                                         test.noise.gain,
+                                         test.noise.offset_x,
+                                         levels,
+                                         random);
+        if (!measured.friction_y.empty())
+          measured.friction_y = noisy_record(measured.time,
+                                             test.truth.along_y,
+                                             mean,
+                                             test.noise.gain,
+                                             test.noise.offset_y,
+                                             levels,
+                                             random);
+      }
+
+
+
+      void run_tests(PlantedCampaign &campaign)
+      {
+        const CampaignOptions &options = campaign.options;
+        Random                 random  = random_numbers(options, Stream::tests);
+        const unsigned int     n_protocols =
+          options.n_tests -
+          (options.with_replicates ? std::lround(0.3 * options.n_tests) : 0);
+        const std::vector<Protocol> protocols =
+          draw_protocols(n_protocols, random);
+        const std::vector<std::size_t> order =
+          draw_run_order(n_protocols, options.n_tests, random);
+
+        Random noise = random_numbers(options, Stream::noise);
+        campaign.noise =
+          draw_levels(options.noise, options.noise_factor, noise);
+        for (std::size_t i = 0; i < order.size(); ++i)
+          {
+            const Protocol &protocol = protocols[order[i]];
+            PlantedTest     test;
+            test.measured      = motion_of(protocol);
+            test.measured.name = "test " + two_digits(i + 1);
+            test.measured.file = "test_" + two_digits(i + 1) + ".csv";
+            test.measured.condition =
+              two_digits(order[i] + 1) + ' ' + protocol.name;
+            test.measured.notes["order"] = std::to_string(i + 1);
+            campaign.contact.progress =
+              order.size() > 1 ? static_cast<double>(i) / (order.size() - 1) :
+                                 0.;
+            test.truth = simulate(campaign.contact, test.measured);
+            record(campaign.noise,
+                   campaign.contact.coefficient.static_coefficient,
+                   noise,
+                   test);
+            campaign.tests.push_back(std::move(test));
+          }
+        campaign.contact.progress = 0.;
+      }
+    } // namespace
+
+
+
+    PlantedCampaign plant_campaign(const CampaignOptions &options)
+    {
+      check_wish(options);
+      if (options.n_tests < 2 || options.n_tests > n_protocols)
+        throw InputError("a campaign has 2 to " + std::to_string(n_protocols) +
+                         " tests, not " + std::to_string(options.n_tests));
+      PlantedCampaign campaign;
+      campaign.options = options;
+      plant_truth(campaign);
+      run_tests(campaign);
+      return campaign;
+    }
+
+
+
+    void write_campaign(const std::filesystem::path &folder,
+                        const PlantedCampaign       &campaign)
+    {
+      namespace fs                    = std::filesystem;
+      constexpr unsigned int n_digits = 7;
+
+      if (fs::exists(folder) &&
+          (!fs::is_directory(folder) || !fs::is_empty(folder)))
+        throw InputError(folder.string() +
+                         ": exists already; name a new or an empty folder");
+      std::error_code error;
+      fs::create_directories(folder / "measured", error);
+      if (error)
+        throw InputError(folder.string() + ": this folder cannot be created");
+      for (const PlantedTest &test : campaign.tests)
+        write_measured_test(folder / "measured" / test.measured.file,
+                            test.measured,
+                            n_digits);
+      write_file(folder / "case.prm", campaign.start_model);
+    }
+  } // namespace Planting
+} // namespace SlipStep
