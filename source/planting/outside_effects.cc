@@ -86,10 +86,9 @@ namespace SlipStep
                     strength * (1. - now.pressure / std::max(largest, 1e-3));
            },
            {},
+           // Within a hundredth of a second.
            [](const Instant &now, const double largest) {
-             return now.pressure >= largest * (1. - 1e-9) ?
-                      std::max(now.pressure_rate, 0.) :
-                      0.;
+             return 100. * std::max(now.pressure - largest, 0.);
            },
            [](const double pressure) { return pressure; }});
         return {{"a", strength, ""}};

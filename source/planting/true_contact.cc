@@ -231,7 +231,7 @@ namespace SlipStep
       // step that is too long may be anywhere; any answer gets them rejected.
       double Rates::solve_flow(Instant &now, const Vector &x) const
       {
-        const double r_s     = std::clamp(x[normal_ratio], 0., 1.);
+        const double r_s     = std::clamp(x[normal_ratio], 0., 1.5);
         now.slip_rate        = 0.;
         const double at_rest = now.traction / strength(now, x);
         now.slip_rate        = contact.flow.slip_rate(at_rest, r_s);
@@ -319,7 +319,7 @@ namespace SlipStep
         rates[normal_ratio] = r < r_s ?
                                 -(r_s - r) * haste / lag :
                                 contact.subloading_rate * now.slip_rate /
-                                  std::tan(half_pi * std::clamp(r_s, lag, 1.));
+                                  std::tan(half_pi * std::clamp(r_s, lag, 1.5));
         for (std::size_t i = 0; i < memories.size(); ++i)
           if (memories[i] > 0)
             rates[memories[i]] =
@@ -346,9 +346,11 @@ namespace SlipStep
             for (std::size_t i = 0; i < size; ++i)
               matrix(i, j) = (rates_1[i] - rates_0[i]) / shift;
           }
-        const double shift = 1e-6 * interval.duration;
+        // Central, since an error of it is one of the step.
+        const double shift = 1e-3 * interval.duration;
+        (*this)(x, rates_0, time - shift);
         (*this)(x, rates_1, time + shift);
-        per_time = (rates_1 - rates_0) / shift;
+        per_time = (rates_1 - rates_0) / (2. * shift);
       }
 
 
@@ -389,6 +391,19 @@ namespace SlipStep
 
 
 
+      /// Whether speed, direction or rate of the pressure change.
+      bool is_abrupt(const Interval &before, const Interval &now)
+      {
+        const double change = std::hypot(now.velocity[0] - before.velocity[0],
+                                         now.velocity[1] - before.velocity[1]);
+        const double speed  = std::hypot(now.velocity[0], now.velocity[1]);
+        return change > 1e-6 * speed ||
+               std::abs(now.pressure_rate - before.pressure_rate) >
+                 1e-6 * std::abs(now.pressure_rate);
+      }
+
+
+
       /// Goes through a test row by row.
       class Integrator
       {
@@ -405,7 +420,7 @@ namespace SlipStep
 
         Rates                                                       rates;
         odeint::rosenbrock4_controller<odeint::rosenbrock4<double>> stepper;
-        double wanted_step = 0.;
+        double wanted_step = 1e-6;
       };
 
 
@@ -447,15 +462,19 @@ namespace SlipStep
       {
         TrueFriction result;
         Vector       x = rates.start(motion.pressure.front());
-        wanted_step    = 1e-6 * (motion.time[1] - motion.time[0]);
+        Interval     before;
         for (std::size_t row = 0; row < motion.time.size(); ++row)
           {
             rates.interval      = interval_of(motion, row);
             const auto friction = rates.friction(x);
             result.along_x.push_back(friction[0]);
             result.along_y.push_back(friction[1]);
-            if (row + 1 < motion.time.size())
-              cross_interval(x);
+            if (row + 1 == motion.time.size())
+              break;
+            if (is_abrupt(before, rates.interval))
+              wanted_step = 1e-5 * rates.interval.duration;
+            before = rates.interval;
+            cross_interval(x);
           }
         return result;
       }
