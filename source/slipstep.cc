@@ -17,6 +17,7 @@
 #include <slipstep/experiment/sweep.h>
 #include <slipstep/experiment/test_set.h>
 #include <slipstep/friction/law.h>
+#include <slipstep/planting/plant.h>
 #include <slipstep/solid/case.h>
 #include <slipstep/solid/refine_block.h>
 #include <slipstep/solid/run_block.h>
@@ -635,6 +636,8 @@ namespace SlipStep
         return guarded([&]() { return calibrate_case(line); });
       else if (line.command == "import")
         return guarded([&]() { return import_tests(line); });
+      else if (line.command == "plant")
+        return guarded([&]() { return plant(line); });
       else if (line.command == "effects")
         return guarded([&]() {
           print_effects(std::cout, line.format == "md");

@@ -107,10 +107,17 @@ namespace SlipStep
       {
         const std::string name     = to_string(options.campaign_class);
         const auto        possible = candidates(options.campaign_class);
+        if (!options.effects.empty() &&
+            options.effects.size() != n_hidden(options.campaign_class))
+          throw InputError("class " + name + " hides " +
+                           std::to_string(n_hidden(options.campaign_class)) +
+                           (n_hidden(options.campaign_class) == 1 ?
+                              " effect, not " :
+                              " effects, not ") +
+                           std::to_string(options.effects.size()));
         for (const std::string &effect : options.effects)
           {
-            if (n_hidden(options.campaign_class) > 0)
-              hidden_effect(effect, formula_of(options.campaign_class));
+            hidden_effect(effect, formula_of(options.campaign_class));
             if (std::count(options.effects.begin(),
                            options.effects.end(),
                            effect) > 1)
@@ -121,12 +128,6 @@ namespace SlipStep
                                "softening, not \"" +
                                effect + "\"");
           }
-        if (!options.effects.empty() &&
-            options.effects.size() != n_hidden(options.campaign_class))
-          throw InputError("class " + name + " hides " +
-                           std::to_string(n_hidden(options.campaign_class)) +
-                           " effects, not " +
-                           std::to_string(options.effects.size()));
       }
 
 
@@ -327,16 +328,24 @@ namespace SlipStep
 
 
 
+    void check_is_free(const std::filesystem::path &folder)
+    {
+      namespace fs = std::filesystem;
+      if (fs::exists(folder) &&
+          (!fs::is_directory(folder) || !fs::is_empty(folder)))
+        throw InputError(folder.string() +
+                         ": exists already; name a new or an empty folder");
+    }
+
+
+
     void write_campaign(const std::filesystem::path &folder,
                         const PlantedCampaign       &campaign)
     {
       namespace fs                    = std::filesystem;
       constexpr unsigned int n_digits = 7;
 
-      if (fs::exists(folder) &&
-          (!fs::is_directory(folder) || !fs::is_empty(folder)))
-        throw InputError(folder.string() +
-                         ": exists already; name a new or an empty folder");
+      check_is_free(folder);
       std::error_code error;
       fs::create_directories(folder / "measured", error);
       if (error)

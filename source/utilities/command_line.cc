@@ -94,6 +94,27 @@ namespace SlipStep
          2,
          {"set", "output", "variant", "quiet"},
          {}},
+        {"plant",
+         "FOLDER",
+         "make measured tests with a hidden effect, as an exercise",
+         "Writes tests as a laboratory would (FOLDER/measured), a case that\n"
+         "lacks what is hidden and is badly set (case.prm), and the answer, not\n"
+         "to be read by accident (answer.sealed; slipstep plant --open FILE\n"
+         "prints it). Classes: none, one (effect of the catalogue), two,\n"
+         "other_formula, outside (the catalogue), ablated (the case lacks\n"
+         "overstress or softening). The same class and seed give the same tests.\n",
+         0,
+         1,
+         {"class",
+          "seed",
+          "effect",
+          "tests",
+          "no-replicates",
+          "noise",
+          "noise-factor",
+          "open",
+          "quiet"},
+         {}},
         {"check",
          "CASE.prm ...",
          "read and cross-check cases and tests, compute nothing",
@@ -176,6 +197,21 @@ namespace SlipStep
         ("format", po::value<std::string>()->value_name("NAME"),
          "of the list: prm, json, md (parameters); text, md (effects)")
         ("resume", "go on where an earlier run of the case was stopped")
+        ("class", po::value<std::string>()->value_name("NAME"),
+         "what is hidden: none, one, two, other_formula, outside, ablated")
+        ("seed", po::value<std::string>()->value_name("N"),
+         "of the random numbers, 1 unless given")
+        ("effect", po::value<std::string>()->value_name("NAME[,NAME]"),
+         "hide this instead of drawing")
+        ("tests", po::value<std::string>()->value_name("N"),
+         "number of tests, 20 unless given")
+        ("no-replicates", "every test under a condition of its own")
+        ("noise", po::value<std::string>()->value_name("NAME"),
+         "normal, heavy_tails, two_drifts")
+        ("noise-factor", po::value<std::string>()->value_name("F"),
+         "so many times the usual noise")
+        ("open", po::value<std::string>()->value_name("FILE"),
+         "print a sealed answer")
         ("quiet", "print errors and warnings only")
         ("help", "this text")
         ("version", "version of the program");
@@ -323,6 +359,16 @@ namespace SlipStep
     line.version           = values.count("version") > 0;
     line.help              = values.count("help") > 0;
     line.settings_as_typed = list("set");
+    for (const std::string name :
+         {"class", "seed", "effect", "tests", "noise", "noise-factor", "open"})
+      if (values.count(name))
+        {
+          line.plant_options[name] = text(name);
+          if (text(name).empty())
+            throw InputError("--" + name + ": a value is needed");
+        }
+    if (values.count("no-replicates"))
+      line.plant_options["no-replicates"];
     for (const std::string &typed : line.settings_as_typed)
       {
         const auto setting = parse_setting(typed);

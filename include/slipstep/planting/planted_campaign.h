@@ -96,6 +96,9 @@ namespace SlipStep
     ///   the class
     PlantedCampaign plant_campaign(const CampaignOptions &options);
 
+    /// @throws InputError if there is something in the folder already
+    void check_is_free(const std::filesystem::path &folder);
+
     /// Write FOLDER/case.prm and FOLDER/measured/*.csv.
     /// @throws InputError if the folder cannot be made or has a campaign
     /// already

@@ -2,6 +2,7 @@
 #define slipstep_utilities_command_line_h
 
 #include <filesystem>
+#include <map>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -21,7 +22,9 @@ namespace SlipStep
     std::string              output; ///< "" = not given
     std::string              format; ///< "" = the command's default
     std::string              variant;
-    bool                     quiet = false;
+    /// Options of slipstep plant, by name; "" for those without a value.
+    std::map<std::string, std::string> plant_options;
+    bool                               quiet = false;
     /// Go on where an earlier run was stopped.
     bool resume = false;
     /// Started by the sweep of a parent, which does the reporting.

@@ -1,0 +1,115 @@
+#include <slipstep/planting/answer.h>
+#include <slipstep/planting/plant.h>
+#include <slipstep/planting/planted_campaign.h>
+
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/write_file.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// The value of an option, or "" if it was not given.
+    std::string value_of(const CommandLine &line, const std::string &option)
+    {
+      const auto found = line.plant_options.find(option);
+      return found == line.plant_options.end() ? "" : found->second;
+    }
+
+
+
+    std::uint64_t whole_number(const CommandLine  &line,
+                               const std::string  &option,
+                               const std::uint64_t if_missing)
+    {
+      const std::string text = value_of(line, option);
+      if (text.empty())
+        return if_missing;
+      if (text.find_first_not_of("0123456789") != std::string::npos ||
+          text.size() > 18)
+        throw InputError("--" + option + " " + text +
+                         ": must be a whole number, 0 or more");
+      return std::stoull(text);
+    }
+
+
+
+    double factor(const CommandLine &line, const std::string &option)
+    {
+      const std::string text = value_of(line, option);
+      if (text.empty())
+        return 1.;
+      std::size_t end   = 0;
+      double      value = -1.;
+      try
+        {
+          value = std::stod(text, &end);
+        }
+      catch (const std::logic_error &)
+        {}
+      if (end != text.size() || !std::isfinite(value) || value < 0.)
+        throw InputError("--" + option + " " + text +
+                         ": must be a number, 0 or more");
+      return value;
+    }
+
+
+
+    Planting::CampaignOptions options_of(const CommandLine &line)
+    {
+      Planting::CampaignOptions options;
+      const std::string         class_name = value_of(line, "class");
+      if (!class_name.empty())
+        options.campaign_class = Planting::campaign_class(class_name);
+      const std::string noise = value_of(line, "noise");
+      if (!noise.empty())
+        options.noise = Planting::noise_kind(noise);
+      options.effects =
+        dealii::Utilities::split_string_list(value_of(line, "effect"), ',');
+      options.seed            = whole_number(line, "seed", options.seed);
+      options.n_tests         = whole_number(line, "tests", options.n_tests);
+      options.noise_factor    = factor(line, "noise-factor");
+      options.with_replicates = line.plant_options.count("no-replicates") == 0;
+      return options;
+    }
+  } // namespace
+
+
+
+  int plant(const CommandLine &line)
+  {
+    const std::string answer = value_of(line, "open");
+    if (!answer.empty())
+      {
+        if (!line.files.empty())
+          throw InputError("slipstep plant --open prints an answer; it takes "
+                           "no folder");
+        std::cout << Planting::open_sealed(answer);
+        return 0;
+      }
+    if (line.files.empty())
+      throw InputError("slipstep plant: the name of a folder is missing; "
+                       "usage: slipstep plant FOLDER");
+
+    const std::filesystem::path     folder  = line.files.front();
+    const Planting::CampaignOptions options = options_of(line);
+    Planting::check_is_free(folder);
+    const Planting::PlantedCampaign campaign =
+      Planting::plant_campaign(options);
+    Planting::write_campaign(folder, campaign);
+    write_file(folder / "answer.sealed",
+               Planting::sealed(Planting::answer_json(campaign)));
+    if (!line.quiet)
+      std::cout << folder.string() << ": " << campaign.tests.size()
+                << " tests in measured/, the model to start from is case.prm, "
+                   "the answer is sealed in answer.sealed"
+                << std::endl;
+    return 0;
+  }
+} // namespace SlipStep
