@@ -72,8 +72,10 @@ namespace SlipStep
         options.noise = Planting::noise_kind(noise);
       options.effects =
         dealii::Utilities::split_string_list(value_of(line, "effect"), ',');
-      options.seed            = whole_number(line, "seed", options.seed);
-      options.n_tests         = whole_number(line, "tests", options.n_tests);
+      options.seed = whole_number(line, "seed", options.seed);
+      options.n_tests =
+        std::min<std::uint64_t>(whole_number(line, "tests", options.n_tests),
+                                1000);
       options.noise_factor    = factor(line, "noise-factor");
       options.with_replicates = line.plant_options.count("no-replicates") == 0;
       return options;

@@ -1,0 +1,158 @@
+#include <slipstep/planting/answer.h>
+#include <slipstep/planting/planted_campaign.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "tests/temporary_folder.h"
+
+using namespace SlipStep;
+using namespace SlipStep::Planting;
+
+namespace
+{
+  PlantedCampaign plant(const CampaignClass             campaign_class,
+                        const std::uint64_t             seed,
+                        const std::vector<std::string> &effects = {})
+  {
+    CampaignOptions options;
+    options.campaign_class = campaign_class;
+    options.seed           = seed;
+    options.effects        = effects;
+    return plant_campaign(options);
+  }
+} // namespace
+
+
+
+TEST(PlantedCampaign, IsAFunctionOfItsOptions)
+{
+  const auto a = plant(CampaignClass::two, 5), b = plant(CampaignClass::two, 5),
+             c = plant(CampaignClass::two, 6);
+  ASSERT_EQ(a.tests.size(), 20u);
+  EXPECT_EQ(a.start_model, b.start_model);
+  EXPECT_EQ(answer_json(a), answer_json(b));
+  for (std::size_t i = 0; i < a.tests.size(); ++i)
+    EXPECT_EQ(a.tests[i].measured.friction, b.tests[i].measured.friction);
+  EXPECT_NE(a.start_model, c.start_model);
+  EXPECT_NE(a.tests[0].measured.friction, c.tests[0].measured.friction);
+}
+
+
+
+TEST(PlantedCampaign, HidesWhatItsClassSays)
+{
+  const std::map<CampaignClass, unsigned int> sizes = {
+    {CampaignClass::none, 0},
+    {CampaignClass::one, 1},
+    {CampaignClass::two, 2},
+    {CampaignClass::other_formula, 1},
+    {CampaignClass::outside, 1},
+    {CampaignClass::ablated, 1}};
+  for (const auto &[campaign_class, size] : sizes)
+    {
+      const auto campaign = plant(campaign_class, 4);
+      ASSERT_EQ(campaign.hidden.size(), size);
+      for (const PlantedEffect &effect : campaign.hidden)
+        EXPECT_EQ(campaign.start_model.find(", " + effect.name),
+                  std::string::npos);
+    }
+  EXPECT_EQ(plant(CampaignClass::one, 4, {"healing"}).hidden[0].name,
+            "healing");
+  EXPECT_THROW(plant(CampaignClass::one, 4, {"texture"}), InputError);
+  EXPECT_THROW(plant(CampaignClass::none, 4, {"healing"}), InputError);
+  EXPECT_THROW(plant(CampaignClass::ablated, 4, {"healing"}), InputError);
+  EXPECT_THROW(plant(CampaignClass::two, 4, {"healing", "healing"}),
+               InputError);
+}
+
+
+
+TEST(PlantedCampaign, ReplicatesDifferByNoiseOnly)
+{
+  const auto campaign = plant(CampaignClass::one, 9);
+  std::map<std::string, std::vector<const PlantedTest *>> conditions;
+  for (const PlantedTest &test : campaign.tests)
+    conditions[test.measured.condition].push_back(&test);
+  EXPECT_EQ(conditions.size(), 14u);
+  unsigned int n_pairs = 0;
+  for (const auto &[condition, tests] : conditions)
+    if (tests.size() > 1)
+      {
+        ++n_pairs;
+        const PlantedTest &a = *tests[0], &b = *tests[1];
+        EXPECT_EQ(a.measured.displacement, b.measured.displacement);
+        EXPECT_EQ(a.measured.pressure, b.measured.pressure);
+        EXPECT_EQ(a.truth.along_x, b.truth.along_x);
+        EXPECT_NE(a.measured.friction, b.measured.friction);
+        for (std::size_t i = 0; i < a.measured.time.size(); ++i)
+          EXPECT_NEAR(a.measured.friction[i], b.measured.friction[i], 0.02);
+      }
+  EXPECT_EQ(n_pairs, 6u);
+
+  CampaignOptions options;
+  options.with_replicates = false;
+  std::set<std::string> different;
+  for (const PlantedTest &test : plant_campaign(options).tests)
+    different.insert(test.measured.condition);
+  EXPECT_EQ(different.size(), 20u);
+}
+
+
+
+// The noise has random numbers of its own.
+TEST(PlantedCampaign, NoiseLeavesTheTruthAlone)
+{
+  CampaignOptions options;
+  options.n_tests      = 10;
+  const auto noisy     = plant_campaign(options);
+  options.noise_factor = 0.;
+  const auto exact     = plant_campaign(options);
+  ASSERT_EQ(exact.tests.size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i)
+    {
+      EXPECT_EQ(noisy.tests[i].truth.along_x, exact.tests[i].truth.along_x);
+      EXPECT_EQ(exact.tests[i].measured.friction, exact.tests[i].truth.along_x);
+    }
+}
+
+
+
+TEST(PlantedCampaign, FolderAndSealedAnswer)
+{
+  const TemporaryFolder temporary;
+  const auto            folder   = temporary.path() / "campaign";
+  const auto            campaign = plant(CampaignClass::outside, 2);
+  write_campaign(folder, campaign);
+  EXPECT_THROW(write_campaign(folder, campaign), InputError);
+  EXPECT_TRUE(std::filesystem::exists(folder / "case.prm"));
+  for (const PlantedTest &test : campaign.tests)
+    {
+      const MeasuredTest read =
+        read_measured_test(folder / "measured" / test.measured.file);
+      EXPECT_EQ(read.condition, test.measured.condition);
+      EXPECT_EQ(read.notes.at("order"), test.measured.notes.at("order"));
+      EXPECT_TRUE(read.warnings.empty());
+      ASSERT_EQ(read.friction.size(), test.measured.friction.size());
+      ASSERT_EQ(read.friction_y.size(), test.measured.friction_y.size());
+      EXPECT_NEAR(read.friction.back(), test.measured.friction.back(), 1e-7);
+    }
+
+  const std::string text = answer_json(campaign), code = sealed(text);
+  EXPECT_EQ(code.find(campaign.hidden[0].name), std::string::npos);
+  std::ofstream(folder / "answer.sealed") << code;
+  EXPECT_EQ(open_sealed(folder / "answer.sealed"), text);
+  const auto answer = nlohmann::json::parse(text);
+  EXPECT_EQ(answer["class"], "outside");
+  EXPECT_EQ(answer["hidden"][0]["effect"], campaign.hidden[0].name);
+  std::ofstream(folder / "damaged") << code.substr(0, 100) << "?\n";
+  EXPECT_THROW(open_sealed(folder / "damaged"), InputError);
+  EXPECT_THROW(open_sealed(folder / "case.prm"), InputError);
+}
