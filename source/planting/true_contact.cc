@@ -152,6 +152,13 @@ namespace SlipStep
                   cone[1] * v[0] + cone[2] * v[1]};
         }
 
+        /// Of the spring over that of the contact, alpha_t c.
+        double softness(const double traction) const
+        {
+          return contact.stiffness * contact.compliance /
+                 (1. + traction / contact.stiffening_traction);
+        }
+
         double strength(const Instant &now, const Vector &x) const;
 
         /// Set the slip rate. @return r
@@ -266,8 +273,7 @@ namespace SlipStep
         const Pair   drive = times_cone(interval.velocity);
         const Pair   right{alpha * (drive[0] - now.slip_rate * direction[0]),
                          alpha * (drive[1] - now.slip_rate * direction[1])};
-        const double soft = alpha * contact.compliance /
-                            (1. + now.traction / contact.stiffening_traction);
+        const double soft = softness(now.traction);
         const double xx = 1. + soft * square[0], xy = soft * square[1],
                      yy = 1. + soft * square[2], det = xx * yy - xy * xy;
         rates[traction_x] = (yy * right[0] - xy * right[1]) / det;
@@ -312,7 +318,7 @@ namespace SlipStep
           now.slip_rate * contact.coefficient.per_slip(now.coefficient) +
           contact.coefficient.per_time(now.coefficient);
         const double haste =
-          contact.stiffness *
+          contact.stiffness / (1. + softness(norm)) *
             std::hypot(interval.velocity[0], interval.velocity[1]) /
             (now.pressure * now.coefficient) +
           std::abs(now.pressure_rate) / now.pressure + 0.01;
