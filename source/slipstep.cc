@@ -5,8 +5,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
-#include <slipstep/calibration/calibrate.h>
 #include <slipstep/calibration/campaign.h>
+#include <slipstep/fit_commands.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/import_map.h>
 #include <slipstep/experiment/import_tests.h>
@@ -497,27 +497,6 @@ namespace SlipStep
 
     // ------------------------------------------------------- other commands
 
-    int calibrate_case(const CommandLine &line)
-    {
-      const Case the_case = read_case(line.files.front(), line);
-      if (the_case.is_sweep())
-        throw InputError("slipstep calibrate fits one case, but " +
-                         line.files.front().string() +
-                         " is a sweep: choose a member with --variant \"" +
-                         the_case.variants.front().label + "\"");
-      check_all(the_case);
-      check_output(the_case, line);
-      RunOptions options;
-      options.quiet             = line.quiet;
-      options.output            = chosen_output(the_case, line);
-      options.inactive_sections = inactive_sections(the_case.parameters);
-      const SignalGuard guard;
-      run_calibration(the_case.parameters, options);
-      return done;
-    }
-
-
-
     void check_case_file(const fs::path &file, const CommandLine &line)
     {
       const Case the_case = read_case(file, line);
@@ -633,7 +612,15 @@ namespace SlipStep
       else if (line.command == "refine")
         return guarded([&]() { return refine_block(line); });
       else if (line.command == "calibrate")
-        return guarded([&]() { return calibrate_case(line); });
+        return guarded([&]() {
+          calibrate_case(line);
+          return done;
+        });
+      else if (line.command == "diagnose")
+        return guarded([&]() {
+          diagnose_case(line);
+          return done;
+        });
       else if (line.command == "import")
         return guarded([&]() { return import_tests(line); });
       else if (line.command == "plant")

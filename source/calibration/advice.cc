@@ -1,3 +1,5 @@
+#include <deal.II/base/numbers.h>
+
 #include <slipstep/calibration/advice.h>
 #include <slipstep/calibration/fit.h>
 #include <slipstep/experiment/test_rows.h>
@@ -81,45 +83,82 @@ namespace SlipStep
 
 
 
+    /// A motion and the programme that says the same.
     class Motion
     {
     public:
       explicit Motion(const double pressure)
         : pressure(pressure)
       {
-        add(0., 0.);
+        add(0., 0., 0.);
+        programme << "press " << pressure << " MPa in 1 s";
       }
 
       /// A negative length goes back.
-      void slide(const double speed, const double length)
+      void
+      slide(const double speed, const double length, const double angle = 0.)
       {
         // Dense at the beginning, where stick ends.
         constexpr int n = 100;
         const double  t = test.time.back(), u = test.displacement.back();
+        const double  v = test.displacement_y.back();
+        const double  c = std::cos(angle * dealii::numbers::PI / 180.);
+        const double  s = std::sin(angle * dealii::numbers::PI / 180.);
         for (int i = 1; i <= n; ++i)
           {
             const double share = std::pow(static_cast<double>(i) / n, 3.);
-            add(t + share * std::abs(length) / speed, u + share * length);
+            add(t + share * std::abs(length) / speed,
+                u + share * length * c,
+                v + share * length * s);
           }
+        programme << "; slide " << (length < 0. ? "-" : "")
+                  << rounded(60. * speed, 4) << " mm/min for "
+                  << rounded(std::abs(length), 4) << " mm";
+        if (angle != 0.)
+          programme << " at " << angle << " deg";
       }
 
       void rest(const double time)
       {
-        add(test.time.back() + time, test.displacement.back());
+        add(test.time.back() + time,
+            test.displacement.back(),
+            test.displacement_y.back());
+        programme << "; hold " << rounded(time, 6) << " s";
       }
 
-      MeasuredTest test;
+      void press(const double new_pressure, const double time)
+      {
+        pressure = new_pressure;
+        add(test.time.back() + time,
+            test.displacement.back(),
+            test.displacement_y.back());
+        programme << "; press " << rounded(new_pressure, 4) << " MPa in "
+                  << rounded(time) << " s";
+      }
+
+      ProposedTest called(const std::string &words)
+      {
+        // One axis is enough where there is nothing along the other.
+        if (range_of(test.displacement_y) == 0.)
+          test.displacement_y.clear();
+        else
+          test.friction_y.assign(test.friction.size(), 0.);
+        return {words, test, programme.str()};
+      }
 
     private:
-      void add(const double time, const double displacement)
+      void add(const double time, const double x, const double y)
       {
         test.time.push_back(time);
-        test.displacement.push_back(displacement);
+        test.displacement.push_back(x);
+        test.displacement_y.push_back(y);
         test.pressure.push_back(pressure);
         test.friction.push_back(0.);
       }
 
-      const double pressure;
+      MeasuredTest       test;
+      double             pressure;
+      std::ostringstream programme;
     };
 
 
@@ -127,11 +166,62 @@ namespace SlipStep
     ProposedTest proposed_slide(const std::string &words,
                                 const double       speed,
                                 const double       pressure,
-                                const double       length)
+                                const double       length,
+                                const double       angle = 0.)
     {
       Motion motion(pressure);
-      motion.slide(speed, length);
-      return {words, motion.test};
+      motion.slide(speed, length, angle);
+      return motion.called(words);
+    }
+
+
+
+    // More than one thing happens in these.
+    void propose_changes(const Conditions          &now,
+                         const double               middle,
+                         std::vector<ProposedTest> &result)
+    {
+      const double half = now.longest / 2.;
+      for (const double rest : {10., 1000., 1e5})
+        {
+          Motion motion(now.highest);
+          motion.slide(middle, half);
+          motion.rest(rest);
+          motion.slide(middle, half);
+          result.push_back(motion.called("a rest of " + rounded(rest, 6) +
+                                         " s between two slides"));
+        }
+      {
+        Motion motion(now.highest);
+        motion.slide(middle, half);
+        motion.slide(middle, -half);
+        result.push_back(motion.called("a reversal"));
+      }
+      {
+        Motion motion(now.highest);
+        for (const double speed :
+             {now.slowest, middle, now.fastest, middle, now.slowest})
+          motion.slide(speed, now.longest / 5.);
+        result.push_back(motion.called("steps of the speed, up and down"));
+      }
+      {
+        Motion motion(now.highest);
+        motion.slide(middle, now.longest / 3.);
+        motion.press(now.lowest < 0.9 * now.highest ? now.lowest :
+                                                      now.highest / 4.,
+                     1.);
+        motion.slide(middle, now.longest / 3.);
+        motion.press(now.highest, 1.);
+        motion.slide(middle, now.longest / 3.);
+        result.push_back(motion.called("steps of the pressure within a slide"));
+      }
+      for (const double angle : {45., 90.})
+        result.push_back(
+          proposed_slide("sliding at " + rounded(angle) + " degrees",
+                         middle,
+                         now.highest,
+                         now.longest,
+                         angle));
     }
   } // namespace
 
@@ -168,20 +258,7 @@ namespace SlipStep
                        middle,
                        pressure,
                        now.longest));
-    for (const double rest : {10., 1000., 1e5})
-      {
-        Motion motion(now.highest);
-        motion.slide(middle, now.longest / 2.);
-        motion.rest(rest);
-        motion.slide(middle, now.longest / 2.);
-        result.push_back(
-          {"a rest of " + rounded(rest, 6) + " s between two slides",
-           motion.test});
-      }
-    Motion reversal(now.highest);
-    reversal.slide(middle, now.longest / 2.);
-    reversal.slide(middle, -now.longest / 2.);
-    result.push_back({"a reversal", reversal.test});
+    propose_changes(now, middle, result);
     return result;
   }
 

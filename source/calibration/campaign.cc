@@ -211,12 +211,47 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    std::vector<CampaignTest> prepared_tests(const Parameters &parameters)
+    {
+      std::vector<MeasuredTest> measured;
+      for (const fs::path &file : Campaign::test_files(parameters))
+        if (fs::is_directory(file))
+          for (MeasuredTest &test : read_test_set(file))
+            measured.push_back(std::move(test));
+        else
+          measured.push_back(read_measured_test(file));
+      check_conditions(measured);
+      std::vector<CampaignTest> tests;
+      std::set<fs::path>        files;
+      for (const MeasuredTest &test : measured)
+        {
+          if (!files.insert(fs::canonical(test.file)).second)
+            parameters.reject(tests_key,
+                              test.file.string() + " is listed twice");
+          tests.push_back(prepare(test, parameters));
+        }
+      keep_noise_visible(tests);
+      return tests;
+    }
+  } // namespace
+
+
+
   Campaign::Campaign(const Parameters &parameters)
+    : Campaign(parameters, prepared_tests(parameters))
+  {}
+
+
+
+  Campaign::Campaign(const Parameters                &parameters,
+                     const std::vector<CampaignTest> &tests)
     : parameters(parameters)
     , fitted(read_fit_parameters(parameters))
     , derived(read_derived(parameters))
+    , tests(tests)
     , search_tolerance(10. * parameters.number("Time stepping/Tolerance"))
-    , fine_tolerance(0.001 * search_tolerance)
   {
     const std::set<std::string> inactive =
       FrictionLaw(parameters).inactive_sections();
@@ -233,22 +268,6 @@ namespace SlipStep
             parameters.reject("Calibration/Derived",
                               tie.name + " is fitted already");
       }
-    std::vector<MeasuredTest> measured;
-    for (const fs::path &file : test_files(parameters))
-      if (fs::is_directory(file))
-        for (MeasuredTest &test : read_test_set(file))
-          measured.push_back(std::move(test));
-      else
-        measured.push_back(read_measured_test(file));
-    check_conditions(measured);
-    std::set<fs::path> files;
-    for (const MeasuredTest &test : measured)
-      {
-        if (!files.insert(fs::canonical(test.file)).second)
-          parameters.reject(tests_key, test.file.string() + " is listed twice");
-        tests.push_back(prepare(test, parameters));
-      }
-    keep_noise_visible(tests);
     if (n_residuals() <= fitted.size())
       parameters.reject("Calibration/Parameters",
                         std::to_string(fitted.size()) +
@@ -311,15 +330,17 @@ namespace SlipStep
 
 
 
-    void plan_test(Replay             &replay,
-                   const CampaignTest &test,
-                   const FrictionLaw  &law,
-                   const Machine      &machine,
-                   const double        tolerance)
+    void plan_test(
+      Replay             &replay,
+      const CampaignTest &test,
+      const FrictionLaw  &law,
+      const Machine      &machine,
+      const double        tolerance,
+      const std::size_t   most_steps = std::numeric_limits<std::size_t>::max())
     {
       try
         {
-          replay.plan(law, machine, tolerance);
+          replay.plan(law, machine, tolerance, most_steps);
         }
       catch (const RunError &error)
         {
@@ -401,14 +422,22 @@ namespace SlipStep
 
 
 
-  void Simulator::plan(const std::vector<double> &scaled)
+  void Simulator::plan(const std::vector<double> &scaled, const Simulator *like)
   {
+    constexpr std::size_t times_more = 5, least = 500;
+
     const FrictionLaw law(with(scaled));
     const Machine     machine(parameters);
     corrections.clear();
     side_by_side(replays.size(), [&](const std::size_t i) {
-      plan_test(
-        replays[i], campaign.tests[i], law, machine, campaign.search_tolerance);
+      plan_test(replays[i],
+                campaign.tests[i],
+                law,
+                machine,
+                campaign.search_tolerance,
+                like == nullptr ?
+                  std::numeric_limits<std::size_t>::max() :
+                  least + times_more * like->replays[i].n_steps());
     });
     ++n_done;
   }
@@ -429,18 +458,47 @@ namespace SlipStep
 
 
   // Richardson's extrapolation from fine steps and halved fine steps.
-  void Simulator::correct(const std::vector<double> &scaled)
+  void Simulator::correct(const std::vector<double> &scaled, const double share)
   {
     const FrictionLaw law(with(scaled));
+    const Machine     machine(parameters);
+    // Of first order, the steps shrink with the root of the tolerance.
+    const double times_more = 10. / std::sqrt(share);
+    corrections.clear();
+    std::vector<Replay::Curve> found(replays.size());
+    side_by_side(replays.size(), [&](const std::size_t i) {
+      const CampaignTest &test = campaign.tests[i];
+      Replay              fine = replays[i];
+      plan_test(fine,
+                test,
+                law,
+                machine,
+                share * campaign.search_tolerance,
+                static_cast<std::size_t>(times_more *
+                                         (100. + replays[i].n_steps())));
+      found[i] = at_rows(fine.halved(), law, machine, test);
+      add(1., found[i], found[i]);
+      add(-1., at_rows(fine, law, machine, test), found[i]);
+      add(-1., at_rows(replays[i], law, machine, test), found[i]);
+    });
+    corrections = std::move(found);
+    ++n_done;
+  }
+
+
+
+  void Simulator::correct_by(Simulator                 &reference,
+                             const std::vector<double> &reference_scaled)
+  {
+    const Parameters &parameters = reference.with(reference_scaled);
+    const FrictionLaw law(parameters);
     const Machine     machine(parameters);
     corrections.resize(replays.size());
     side_by_side(replays.size(), [&](const std::size_t i) {
       const CampaignTest &test = campaign.tests[i];
-      Replay              fine = replays[i];
-      plan_test(fine, test, law, machine, campaign.fine_tolerance);
-      corrections[i] = at_rows(fine.halved(), law, machine, test);
-      add(1., corrections[i], corrections[i]);
-      add(-1., at_rows(fine, law, machine, test), corrections[i]);
+      corrections[i] = at_rows(reference.replays[i], law, machine, test);
+      if (!reference.corrections.empty())
+        add(1., reference.corrections[i], corrections[i]);
       add(-1., at_rows(replays[i], law, machine, test), corrections[i]);
     });
     ++n_done;

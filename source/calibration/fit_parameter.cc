@@ -216,6 +216,13 @@ namespace SlipStep
 
 
 
+  double FitParameter::value_in(const Parameters &parameters) const
+  {
+    return parse_quantity(parameters.text(path), dimension);
+  }
+
+
+
   std::string FitParameter::unit() const
   {
     return base_unit(dimension);

@@ -219,6 +219,58 @@ namespace SlipStep
 
 
 
+  // The root of the rise is nearly linear in the distance, unless a parameter
+  // has no influence for a while: then the middle serves better.
+  RiseEnd follow_rise(const std::function<double(const double)> &rise,
+                      const double                               first_distance,
+                      const double                               room)
+  {
+    double lower = 0., lower_root = 0., upper = infinite, upper_root = 0.;
+    double distance = first_distance;
+    int    n_lower = 0, n_upper = 0; // in a row
+    bool   is_open = !(room > 0.);
+    for (unsigned int n = 0; n < 20 && !is_open; ++n)
+      {
+        const double value = rise(distance);
+        const double root  = std::sqrt(std::max(value, 0.));
+        if (std::abs(value - 1.) < 0.03)
+          return {distance / root, false};
+        if (value < 1.)
+          {
+            is_open    = distance >= room;
+            lower      = distance;
+            lower_root = root;
+            n_upper    = 0;
+            ++n_lower;
+          }
+        else
+          {
+            upper      = distance;
+            upper_root = root;
+            n_lower    = 0;
+            ++n_upper;
+          }
+        if (upper == infinite)
+          distance =
+            std::min(room,
+                     distance * std::clamp(1. / std::max(root, 1e-9), 1.3, 4.));
+        else if (upper_root == infinite || std::max(n_lower, n_upper) > 1)
+          distance = (lower + upper) / 2.;
+        else
+          distance =
+            lower + (upper - lower) *
+                      std::clamp((1. - lower_root) / (upper_root - lower_root),
+                                 0.05,
+                                 0.95);
+      }
+    // Contradicted is only what was simulated: where the law refuses what lies
+    // beyond, or the search ends, the interval is open at the last value.
+    const bool is_contradicted = upper < infinite && upper_root < infinite;
+    return {is_contradicted ? upper : lower, !is_contradicted};
+  }
+
+
+
   namespace
   {
     /// One side of a profile.
@@ -321,56 +373,14 @@ namespace SlipStep
 
 
 
-    // The root of the rise is nearly linear in the distance, unless a parameter
-    // has no influence for a while: then the middle serves better.
     void ProfileSide::follow()
     {
-      double lower = 0., lower_root = 0., upper = infinite, upper_root = 0.;
-      double distance = first_distance();
-      int    n_lower = 0, n_upper = 0; // in a row
-      is_open = !(room > 0.);
-      for (unsigned int n = 0; n < 20 && !is_open; ++n)
-        {
-          const double value = rise(distance);
-          const double root  = std::sqrt(std::max(value, 0.));
-          if (std::abs(value - 1.) < 0.03)
-            {
-              end = start + sign * distance / root;
-              return;
-            }
-          if (value < 1.)
-            {
-              is_open    = distance >= room;
-              lower      = distance;
-              lower_root = root;
-              n_upper    = 0;
-              ++n_lower;
-            }
-          else
-            {
-              upper      = distance;
-              upper_root = root;
-              n_lower    = 0;
-              ++n_upper;
-            }
-          if (upper == infinite)
-            distance = std::min(
-              room, distance * std::clamp(1. / std::max(root, 1e-9), 1.3, 4.));
-          else if (upper_root == infinite || std::max(n_lower, n_upper) > 1)
-            distance = (lower + upper) / 2.;
-          else
-            distance =
-              lower + (upper - lower) * std::clamp((1. - lower_root) /
-                                                     (upper_root - lower_root),
-                                                   0.05,
-                                                   0.95);
-        }
-      // Contradicted is only what was simulated: where the law refuses what
-      // lies beyond, or the search ends, the interval is open at the last
-      // value.
-      const bool is_contradicted = upper < infinite && upper_root < infinite;
-      is_open                    = !is_contradicted;
-      end = start + sign * (is_contradicted ? upper : lower);
+      const RiseEnd found =
+        follow_rise([this](const double distance) { return rise(distance); },
+                    first_distance(),
+                    room);
+      is_open = found.is_open;
+      end     = start + sign * found.distance;
     }
   } // namespace
 

@@ -171,7 +171,8 @@ namespace SlipStep
 
   void Replay::plan(const FrictionLaw &law,
                     const Machine     &machine,
-                    const double       tolerance)
+                    const double       tolerance,
+                    const std::size_t  most_steps)
   {
     ContactPoint point(law);
     Slider       slider;
@@ -197,6 +198,9 @@ namespace SlipStep
               continue;
             point.commit();
             steps.push_back(step);
+            if (steps.size() > most_steps)
+              throw RunError("more than " + std::to_string(most_steps) +
+                             " time steps are needed");
             begin = step.end;
             if (i >= n_before)
               time_list.push_back(time + begin * duration);

@@ -1,6 +1,7 @@
 #include <slipstep/solid/case.h>
 
 #include <slipstep/calibration/fit_parameter.h>
+#include <slipstep/diagnosis/diagnosis_parameters.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/machine.h>
 #include <slipstep/experiment/point_driver.h>
@@ -32,6 +33,7 @@ namespace SlipStep
     RefinementStudy::declare_parameters(parameters);
     declare_checkpoint_parameters(parameters);
     declare_calibration_parameters(parameters);
+    declare_diagnosis_parameters(parameters);
     declare_report_parameters(parameters);
   }
 
@@ -171,6 +173,7 @@ namespace SlipStep
     const Machine         machine(parameters);
     check_probes(parameters, block, parse_quantities(parameters, programme));
     check_report_parameters(parameters);
+    check_diagnosis_parameters(parameters);
     for (const std::string &path : parameters.paths("Refinement study/"))
       if (parameters.text(path) != parameters.entry(path).default_value)
         {

@@ -82,6 +82,19 @@ namespace SlipStep
          1,
          {"set", "output", "variant", "quiet"},
          {}},
+        {"diagnose",
+         "CASE.prm",
+         "find the effect that is missing in a case, and add it",
+         "Calibrates the case with its measured tests (section \"Calibration\"),\n"
+         "finds where they disagree beyond the noise of replicates, names what is\n"
+         "missing - or says that nothing is, that several effects would do, or\n"
+         "that no effect of the catalogue does - adds it, and shows the gap\n"
+         "shrink, on the contact point and with finite elements (section\n"
+         "\"Diagnosis\"). Writes report.html, diagnosis.json and improved.prm.\n",
+         1,
+         1,
+         {"set", "output", "variant", "quiet"},
+         {}},
         {"import",
          "MAP.prm [RAW]",
          "convert files of instruments into measured tests",

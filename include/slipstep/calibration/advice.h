@@ -13,10 +13,13 @@ namespace SlipStep
   {
     std::string  words; ///< "slide at 0.01 mm/min"
     MeasuredTest motion;
+    /// The same as "Loading/Programme" takes it.
+    std::string programme;
   };
 
   /// Tests beside those of the campaign: slower, faster, longer, after a hold,
-  /// under other pressures.
+  /// under other pressures, with steps of speed and pressure, back, and in
+  /// other directions.
   std::vector<ProposedTest> propose_tests(const Campaign &campaign);
 
   /// The combinations of parameters that the tests hardly determine (standard

@@ -46,6 +46,10 @@ namespace SlipStep
     /// parameters, or anything wrong with section "Calibration"
     explicit Campaign(const Parameters &parameters);
 
+    /// The same with tests that have been read and prepared already.
+    Campaign(const Parameters                &parameters,
+             const std::vector<CampaignTest> &tests);
+
     const Parameters                parameters;
     const std::vector<FitParameter> fitted;
     const std::vector<Derived>      derived;
@@ -54,12 +58,8 @@ namespace SlipStep
     /// Rows compared, twice for tests with two axes.
     std::size_t n_residuals() const;
 
-    /// @name Largest error of a step, see Replay::plan(): while searching, and
-    /// to correct what was found.
-    ///@{
+    /// Largest error of a step while searching, see Replay::plan().
     const double search_tolerance;
-    const double fine_tolerance;
-    ///@}
 
     /// The scaled values of the starts.
     std::vector<double> scaled_start() const;
@@ -91,12 +91,21 @@ namespace SlipStep
     /// Choose the steps for these scaled values; forgets what correct() found.
     /// @throws InputError if the law refuses them, RunError if a test cannot be
     /// simulated
-    void plan(const std::vector<double> &scaled);
+    /// @param like whose tests take at most a few times fewer steps; none: any
+    ///   number
+    void plan(const std::vector<double> &scaled,
+              const Simulator           *like = nullptr);
 
     /// From now on, add to all simulated curves what is missing from those of
     /// very small steps at these values: their error then is one of second
     /// order, and small as long as the values stay near.
-    void correct(const std::vector<double> &scaled);
+    /// @param share of the tolerance of the search that the small steps keep
+    void correct(const std::vector<double> &scaled, const double share = 0.001);
+
+    /// The same from the curves of another simulator at its values, whose case
+    /// differs in effects that are weak still.
+    void correct_by(Simulator                 &reference,
+                    const std::vector<double> &reference_scaled);
 
     /// Simulated minus measured friction over noise, all rows of all tests, by
     /// the steps planned.

@@ -26,6 +26,9 @@ namespace SlipStep
 
     double from_scaled(const double scaled) const;
 
+    /// Its value in a case, base units.
+    double value_in(const Parameters &parameters) const;
+
     /// "0.045 1/mm", as it stands in a case file.
     std::string text(const double value, const int n_digits = 10) const;
 

@@ -5,6 +5,8 @@
 #include <slipstep/experiment/measured_test.h>
 #include <slipstep/friction/law.h>
 
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace SlipStep
@@ -26,10 +28,14 @@ namespace SlipStep
 
     /// Choose the steps such that the error which the law estimates for each
     /// is at most @p tolerance, relative to the friction at full slip.
-    /// @throws RunError if no step is small enough
-    void plan(const FrictionLaw &law,
-              const Machine     &machine,
-              const double       tolerance);
+    /// @param most_steps where to give up: a contact that sticks and slips
+    ///   may take any number
+    /// @throws RunError if no step is small enough, or there are too many
+    void plan(
+      const FrictionLaw &law,
+      const Machine     &machine,
+      const double       tolerance,
+      const std::size_t  most_steps = std::numeric_limits<std::size_t>::max());
 
     /// The same with every step cut into two equal ones: friction differs by
     /// half of its error to first order.

@@ -1,0 +1,134 @@
+#ifndef slipstep_diagnosis_comparison_h
+#define slipstep_diagnosis_comparison_h
+
+#include <slipstep/calibration/campaign.h>
+#include <slipstep/diagnosis/candidates.h>
+#include <slipstep/diagnosis/noise.h>
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Where a test stands in the numbers that are compared.
+  struct ComparedTest
+  {
+    /// The first row of the record of every number, and the end.
+    std::vector<std::size_t> borders;
+    std::vector<Series>      series;     ///< one per axis
+    double                   level = 1.; ///< typical friction
+    Eigen::Index             begin = 0;
+    Eigen::Index             size  = 0; ///< all axes
+    /// Tests of the same number are replicates.
+    std::size_t condition = 0;
+
+    std::size_t n_bins() const
+    {
+      return borders.size() - 1;
+    }
+  };
+
+  /// A case with parameters fitted to the campaign.
+  struct Model
+  {
+    std::shared_ptr<const Campaign> campaign;
+    std::shared_ptr<Simulator>      simulator;
+    std::vector<double>             scaled;
+    /// What was added to the starting model.
+    std::vector<Part> parts;
+
+    /// The values of the parameters fitted.
+    Values values() const;
+
+    /// Whether an effect was added.
+    bool has(const std::string &name) const;
+
+    /// @name After Comparison::fit().
+    ///@{
+    double          objective = 0.;
+    Eigen::VectorXd residual;    ///< whitened, measured minus simulated
+    Eigen::MatrixXd derivatives; ///< of what is simulated, per scaled parameter
+    ///@}
+  };
+
+  /// The measured friction of a campaign, against which models are held: noise
+  /// is whitened, rows beyond a few hundred per test are averaged.
+  class Comparison
+  {
+  public:
+    /// @param most_rows of a test and axis
+    Comparison(const std::vector<CampaignTest> &tests,
+               const std::size_t                most_rows = 300);
+
+    std::vector<ComparedTest> tests;
+    std::vector<std::string>  conditions; ///< their names
+    Eigen::VectorXd           measured;   ///< averaged, all tests in a row
+
+    /// Weigh by this noise from now on; a gain multiplies @p friction.
+    void set_noise(const Noise &noise, const Eigen::VectorXd &friction);
+
+    const Noise &noise() const
+    {
+      return present_noise;
+    }
+
+    /// Simulated minus measured friction; empty if it cannot be simulated.
+    Eigen::VectorXd difference(Simulator                 &simulator,
+                               const std::vector<double> &scaled) const;
+
+    /// Whiten columns of friction of all tests.
+    void whiten(RowMatrix &columns) const;
+
+    /// Fit all parameters of a model, starting from those that it has.
+    /// @param precision of the objective
+    /// @param left_out tests that do not count
+    /// @param held parameters that stay
+    /// @return whether there is anything that can be simulated
+    bool fit(Model                   &model,
+             const double             precision,
+             const std::vector<bool> &left_out = {},
+             const std::vector<bool> &held     = {}) const;
+
+    /// The squares of a model's whitened differences, by test.
+    std::vector<double> squares_by_test(const Eigen::VectorXd &residual) const;
+
+    /// Differences between replicates of measured minus simulated friction, or
+    /// of measured friction where a model that is far off makes them larger.
+    std::vector<Contrast> contrasts(const Eigen::VectorXd &difference) const;
+
+    Eigen::Index n_rows() const
+    {
+      return measured.size();
+    }
+
+  private:
+    Noise                 present_noise;
+    std::vector<Whitener> whiteners;
+  };
+
+  /// The starting model with effects added, for tests that are prepared
+  /// already; its search begins at the values of the case, with time steps
+  /// for those.
+  /// @param like a model that differs in weak effects only, by which the error
+  ///   of the time steps is taken out; that error stays if there is none
+  /// @throws InputError, RunError if it cannot be simulated
+  Model make_model(const Parameters                &start,
+                   const std::vector<Part>         &parts,
+                   const Values                    &values,
+                   const std::vector<CampaignTest> &tests,
+                   const Model                     *like = nullptr);
+
+  /// How much smaller the errors of the steps are by which a model's own are
+  /// taken out, see Simulator::correct(): what is left is of second order, and
+  /// far below the noise.
+  constexpr double correction_share = 0.02;
+
+  /// d (natural parameter) / d (scaled parameter), natural being the logarithm
+  /// of positive parameters.
+  double natural_slope(const FitParameter &parameter, const double scaled);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,88 @@
+#ifndef slipstep_diagnosis_covariates_h
+#define slipstep_diagnosis_covariates_h
+
+#include <slipstep/diagnosis/comparison.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// What happens at a row.
+  enum class Phase
+  {
+    presliding, ///< the first flank
+    peak,
+    softening, ///< friction still falls, or rises, after the peak
+    steady,
+    hold,
+    restart, ///< the flank after a hold
+    reversal ///< the flank after a change of direction
+  };
+
+  constexpr unsigned int n_phases = 7;
+
+  std::string name_of(const Phase phase);
+
+  /// Everything known of the rows compared that may explain a difference, all
+  /// tests in a row; for both axes of a test the same.
+  struct Covariates
+  {
+    Eigen::VectorXd speed;    ///< of the load point [mm/s], 0 at rest
+    Eigen::VectorXd pressure; ///< [MPa]
+    Eigen::VectorXd path;     ///< [mm], since the beginning of the test
+    /// Slip since the last start, stop or reversal [mm].
+    Eigen::VectorXd since_start;
+    /// Duration of the last rest [s], 0 before any.
+    Eigen::VectorXd rest;
+    /// Time since that rest ended, or during it since it began [s].
+    Eigen::VectorXd    since_rest;
+    Eigen::VectorXd    angle;      ///< of motion [rad]
+    Eigen::VectorXd    is_reverse; ///< 1 where motion goes back
+    Eigen::VectorXd    heat;       ///< recent frictional work [MPa mm]
+    Eigen::VectorXd    order;    ///< of the test in the campaign; 0 if unknown
+    Eigen::VectorXd    friction; ///< as simulated
+    Eigen::VectorXd    axis;     ///< 0 or 1
+    std::vector<Phase> phase;
+  };
+
+  /// The values of a covariate by the name that a BasisColumn gives it.
+  const Eigen::VectorXd &values_of(const Covariates  &covariates,
+                                   const std::string &name);
+
+  /// @param friction simulated, as Comparison::measured
+  Covariates find_covariates(const Comparison                &comparison,
+                             const std::vector<CampaignTest> &tests,
+                             const Eigen::VectorXd           &friction,
+                             const double elastic_slip_per_pressure);
+
+  TestedRange tested_range(const Comparison                &comparison,
+                           const std::vector<CampaignTest> &tests,
+                           const Covariates                &covariates);
+
+  /// A correction of the simulated friction that depends on one covariate.
+  struct BasisColumn
+  {
+    std::string     covariate; ///< "speed"
+    Eigen::VectorXd friction;  ///< change, per unit
+    /// Where it is felt.
+    double      from = 0.;
+    double      to   = 0.;
+    std::string unit;
+  };
+
+  /// Smooth functions of every covariate that varies, times friction.
+  std::vector<BasisColumn> smooth_basis(const Comparison &comparison,
+                                        const Covariates &covariates);
+
+  /// What a model with anything at all could remove: the mean of every
+  /// condition and a few waves.
+  std::vector<Eigen::VectorXd> condition_basis(const Comparison  &comparison,
+                                               const Covariates  &covariates,
+                                               const unsigned int n_waves);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,237 @@
+#ifndef slipstep_diagnosis_diagnosis_h
+#define slipstep_diagnosis_diagnosis_h
+
+#include <slipstep/utilities/parameters.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace SlipStep
+{
+  /// What a diagnosis may come to.
+  enum class Verdict
+  {
+    named,       ///< these effects are missing
+    ambiguous,   ///< something is, and several effects explain it as well
+    unnamed,     ///< something is, and no effect of the catalogue explains it
+    no_gap,      ///< nothing is missing as far as these tests can tell
+    not_testable ///< these tests cannot tell
+  };
+
+  std::string name_of(const Verdict verdict);
+
+  /// A component of the noise.
+  struct NoiseComponent
+  {
+    std::string name;
+    double      value = 0.;
+    std::string unit;       ///< "of friction", "of the rows' own noise"
+    std::string source;     ///< "replicates" or "stated"
+    double      lower = 0.; ///< 95 % interval
+    double      upper = 0.;
+  };
+
+  /// A parameter fitted by the diagnosis.
+  struct DiagnosedParameter
+  {
+    std::string path;
+    std::string name;
+    std::string unit;
+    /// In that unit.
+    double value  = 0.;
+    double before = std::numeric_limits<double>::quiet_NaN(); ///< of the start
+    /// 95 % interval by profile likelihood; for parameters of the starting
+    /// model from the curvature.
+    double lower         = 0.;
+    double upper         = 0.;
+    bool   is_lower_open = false;
+    bool   is_upper_open = false;
+    bool   is_at_bound   = false;
+    /// (value, increase of the objective); empty for those of the start.
+    std::vector<std::pair<double, double>> profile;
+    std::string effect; ///< "" for a parameter of the starting model
+  };
+
+  /// Where the calibrated starting model disagrees.
+  struct Localisation
+  {
+    std::string covariate; ///< "speed"
+    std::string unit;
+    double      share = 0.; ///< of the excess that it explains alone
+    double      from  = 0.; ///< where the difference is felt most
+    double      to    = 0.;
+    int         sign  = 0; ///< 1: measured friction is higher there
+    std::vector<std::string> phases, tests; ///< most of it, largest first
+  };
+
+  /// An effect of the catalogue.
+  struct CandidateResult
+  {
+    std::string name;
+    std::string signature;
+    /// "named", "rival", "possible" (significant, but not needed), "rejected",
+    /// "in the model", "not testable"
+    std::string status;
+    double      score = 0.; ///< standard deviations
+    double      p     = 1.; ///< family-wise
+    /// Of the objective when it is added to the starting model; NaN if it was
+    /// not fitted.
+    double gain          = std::numeric_limits<double>::quiet_NaN();
+    double left_out_gain = std::numeric_limits<double>::quiet_NaN();
+    /// Smallest change of friction that would have been seen, as a share.
+    double      minimum_detectable = std::numeric_limits<double>::infinity();
+    bool        is_testable        = false;
+    std::string why;           ///< it was not tried or cannot be tested
+    std::string cheapest_test; ///< that would make it testable
+    std::vector<DiagnosedParameter> parameters; ///< of those named
+  };
+
+  /// Something that hinders the verdict.
+  struct Outlier
+  {
+    std::string test;
+    std::string words;
+  };
+
+  /// One test with the friction before and after. Values at the rows compared;
+  /// of two axes the first one, then the second one.
+  struct DiagnosedTest
+  {
+    std::string name, condition, file;
+    double      level      = 1.; ///< typical friction
+    bool        is_outlier = false;
+    double      start_time = 0.; ///< of the first row compared in the file [s]
+    std::vector<double>      time;         ///< since then [s]
+    std::vector<double>      displacement; ///< [mm]
+    std::vector<double>      measured, before, after;
+    std::vector<double>      measured_y, before_y, after_y;
+    std::vector<std::string> phase;
+    double noise = 0.; ///< standard deviation of a row from all noise
+    /// Standard deviation of the noise that rows share.
+    double shared_noise = 0.;
+    /// Root mean square of measured minus simulated, as shares of level.
+    double rms_before = 0., rms_after = 0.;
+    double left_out_before = 0., left_out_after = 0.;
+  };
+
+  /// The gap before and after, as shares of friction.
+  struct Shrink
+  {
+    double fitted_before = 0., fitted_after = 0.;
+    double left_out_before = 0., left_out_after = 0.;
+    double noise_floor = 0.;
+    /// The same in terms of what noise does not explain: root of the squares
+    /// above the floor.
+    double systematic_before = 0., systematic_after = 0.;
+  };
+
+  /// A step of the way from the starting model down to the noise.
+  struct GapStep
+  {
+    std::string label;
+    double      rms       = 0.; ///< share of friction
+    double      objective = 0.;
+  };
+
+  /// What is left over along one covariate, before, with what the effects
+  /// would change there.
+  struct CovariatePanel
+  {
+    std::string         covariate, unit;
+    bool                is_logarithmic = false;
+    std::vector<double> x;
+    std::vector<double> residual; ///< share of friction, means of bins
+    std::vector<double> error;    ///< their standard deviation
+    /// Names with changes in the same bins; winners first.
+    std::vector<std::pair<std::string, std::vector<double>>> signatures;
+  };
+
+  struct NextTest
+  {
+    std::string words;     ///< "sliding at 0.01 mm/min"; empty for none
+    std::string programme; ///< as Loading/Programme takes it
+    std::vector<std::string> separates; ///< names
+    double distance = 0.; ///< of the predictions, standard deviations
+  };
+
+  /// A simulation of the block of one test.
+  struct ElementCheck
+  {
+    std::string         test;
+    std::vector<double> displacement, measured;
+    std::vector<double> block_before, block_after, point_before, point_after;
+    /// Root mean squares, shares of friction.
+    double      block_gap_before = 0., block_gap_after = 0.;
+    double      point_gap_before = 0., point_gap_after = 0.;
+    double      difference = 0.; ///< of block and point, after
+    std::string remark;          ///< why there is none
+  };
+
+  /// Everything that `slipstep diagnose` found.
+  struct Diagnosis
+  {
+    std::uint64_t seed       = 0;
+    double        level      = 0.;
+    double        confidence = 0.95;
+
+    // ---- data
+    std::size_t                n_conditions = 0, n_replicate_pairs = 0;
+    std::size_t                n_samples = 0;
+    std::string                data_hash;
+    std::vector<DiagnosedTest> tests;
+    std::vector<Outlier>       outliers;
+
+    // ---- starting model and noise
+    std::vector<std::string>        start_effects;
+    std::vector<DiagnosedParameter> start_parameters;
+    std::vector<NoiseComponent>     noise;
+
+    // ---- gap
+    bool                      has_gap  = false;
+    double                    gap_p    = 1.;
+    double                    p_smooth = 1., p_waves = 1., p_conditions = 1.;
+    double                    excess = 0.; ///< of the objective
+    std::vector<Localisation> where;       ///< most first
+
+    // ---- verdict
+    Verdict                  verdict = Verdict::no_gap;
+    std::vector<std::string> effects;        ///< strongest first
+    std::vector<std::string> ambiguous_with; ///< the rivals
+    /// Of each rival, the effect in whose place it stands.
+    std::vector<std::string> rival_of;
+    double                   explained_share = 0.;
+    double                   remainder_p     = 1.;
+    /// Names that explained too little and were taken back.
+    std::vector<std::string>     withdrawn;
+    std::vector<CandidateResult> candidates; ///< best first
+    /// Covariate of the correction of unknown cause; "" if there is none.
+    std::string correction_covariate;
+    std::string correction_formula;
+    double      correction_share = 0.; ///< of the excess that it explains
+
+    // ---- the way down
+    Shrink                      shrink;
+    std::vector<GapStep>        steps;
+    std::vector<CovariatePanel> panels;
+    NextTest                    next_test;
+    std::vector<ElementCheck>   element_checks;
+    std::string                 improved_case; ///< file, "" if none is written
+
+    // ---- honesty
+    unsigned int             n_candidates = 0;
+    unsigned int             n_refits     = 0;
+    unsigned int             n_draws      = 0;
+    std::vector<std::string> would_overturn; ///< sentences
+    std::vector<std::string> warnings;
+    double                   wall_time = 0.; ///< [s]
+    double                   cpu_time  = 0.; ///< [s]
+  };
+
+  /// The verdict in one sentence with its numbers.
+  std::string headline(const Diagnosis &diagnosis);
+} // namespace SlipStep
+
+#endif

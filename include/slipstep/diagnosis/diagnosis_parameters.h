@@ -1,0 +1,16 @@
+#ifndef slipstep_diagnosis_diagnosis_parameters_h
+#define slipstep_diagnosis_diagnosis_parameters_h
+
+#include <slipstep/utilities/parameters.h>
+
+namespace SlipStep
+{
+  /// Declares section "Diagnosis".
+  void declare_diagnosis_parameters(Parameters &parameters);
+
+  /// Read section "Diagnosis" without computing.
+  /// @throws InputError
+  void check_diagnosis_parameters(const Parameters &parameters);
+} // namespace SlipStep
+
+#endif

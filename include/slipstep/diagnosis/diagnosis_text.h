@@ -1,0 +1,72 @@
+#ifndef slipstep_diagnosis_diagnosis_text_h
+#define slipstep_diagnosis_diagnosis_text_h
+
+#include <slipstep/diagnosis/diagnosis.h>
+
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// @name What a diagnosis found, in the words of screen and page. The
+  /// sentence with the verdict is headline().
+  ///@{
+
+  /// "friction that rises with sliding speed"; the name itself of an effect
+  /// that is not in the catalogue.
+  std::string plain_words(const std::string &effect);
+
+  /// The verdict in two or three words.
+  std::string short_verdict(const Verdict verdict);
+
+  /// "overstress and healing"
+  std::string list_text(const std::vector<std::string> &names,
+                        const std::string              &before_last = "and");
+
+  /// What is named, each with its rivals if it has any: "softening, and
+  /// overstress or stribeck"
+  std::string names_text(const Diagnosis &diagnosis);
+
+  /// A share as "4.12 %", with the digits that are worth reading.
+  std::string percent_text(const double share);
+
+  /// A chance; "< 0.001" below what is worth telling apart.
+  std::string chance_text(const double p);
+
+  /// "speed 0.1 … 10 mm/s"
+  std::string range_text(const Localisation &where);
+
+  /// "higher", "lower" or "different" than simulated.
+  std::string sign_text(const Localisation &where);
+
+  /// A value of the parameter with as many digits as its interval leaves
+  /// meaning, without unit; "–" if there is none.
+  std::string value_text(const DiagnosedParameter &parameter,
+                         const double              value);
+
+  /// The path without what all of them begin with: "overstress/Viscosity".
+  std::string label_text(const DiagnosedParameter &parameter);
+
+  /// "0.041 … 0.049"; "≥ 0.041", "≤ 0.049" or "open" where it has no end.
+  std::string interval_text(const DiagnosedParameter &parameter);
+
+  /// "95 % interval"
+  std::string interval_name(const Diagnosis &diagnosis);
+
+  /// A component of the noise with its interval, without its name.
+  std::string noise_text(const NoiseComponent &component);
+  ///@}
+
+  /// The parameters of all effects that are named or stand in for one.
+  std::vector<DiagnosedParameter> named_parameters(const Diagnosis &diagnosis);
+
+  /// Whether something was added to the starting model, so that there is an
+  /// after.
+  bool has_after(const Diagnosis &diagnosis);
+
+  /// What the terminal shows at the end: verdict, gap, where, the candidates,
+  /// parameters named, how far the gap shrank, the next test.
+  std::string diagnosis_table(const Diagnosis &diagnosis);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,30 @@
+#ifndef slipstep_diagnosis_judge_h
+#define slipstep_diagnosis_judge_h
+
+#include <slipstep/diagnosis/diagnosis.h>
+#include <slipstep/diagnosis/search.h>
+
+namespace SlipStep
+{
+  /// What the stages gap, name and prove come to.
+  struct Judgement
+  {
+    View         view; ///< the catalogue as seen from the starting model
+    GapTest      gap;
+    GapTest      remainder; ///< after what was added
+    SearchResult found;
+    Verdict      verdict = Verdict::no_gap;
+    /// Of the explainable excess.
+    double explained_share = 0.;
+    /// Taken back, since they explain too little.
+    std::vector<std::string> withdrawn;
+  };
+
+  Judgement judge(Workspace &workspace, const Model &base);
+
+  /// Directions of the covariates, and of the candidates seen from a model.
+  std::vector<Direction> smooth_directions(const Workspace &workspace,
+                                           const View      &view);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,49 @@
+#ifndef slipstep_diagnosis_least_squares_h
+#define slipstep_diagnosis_least_squares_h
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <vector>
+
+namespace SlipStep
+{
+  /// A sum of squares of the parameters x, each between 0 and 1.
+  struct SquaresProblem
+  {
+    /// The residuals; false where there are none.
+    std::function<bool(const Eigen::VectorXd &x, Eigen::VectorXd &residuals)>
+      residuals;
+    /// Their derivatives at x, where they are @p residuals; false where there
+    /// are none.
+    std::function<bool(const Eigen::VectorXd &x,
+                       const Eigen::VectorXd &residuals,
+                       Eigen::MatrixXd       &derivatives)>
+      derivatives;
+  };
+
+  struct SquaresMinimum
+  {
+    bool            found = false;
+    Eigen::VectorXd x;
+    double          sum = 0.; ///< of squares
+    Eigen::VectorXd residuals;
+    Eigen::MatrixXd derivatives;
+  };
+
+  /// The least sum of squares by the method of Levenberg and Marquardt with
+  /// active bounds, until a step gains less than @p precision.
+  ///
+  /// Beside fit(), which asks Ceres: a diagnosis makes hundreds of short fits
+  /// from good starts, for which the trial steps that Ceres spends on bounds
+  /// cost more than the rest.
+  ///
+  /// @param held parameters that stay; none if empty
+  SquaresMinimum least_squares(const SquaresProblem    &problem,
+                               const Eigen::VectorXd   &start,
+                               const double             precision,
+                               const std::vector<bool> &held            = {},
+                               const unsigned int       most_iterations = 30);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,132 @@
+#ifndef slipstep_diagnosis_noise_h
+#define slipstep_diagnosis_noise_h
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Rows of numbers, one column per quantity, stored by rows.
+  using RowMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  /// What makes measured friction differ from the friction of the contact:
+  /// noise of every row, a drift within a test (a process of Ornstein and
+  /// Uhlenbeck), and what is the same throughout a test but not in the next
+  /// one: gain, offset and slope.
+  ///
+  /// Standard deviations; all but the first as shares of the test's friction.
+  struct Noise
+  {
+    double white = 1.; ///< in units of the rows' own noise
+    double drift = 0.;
+    /// Over which the drift forgets, as a share of the test's duration.
+    double drift_time = 0.1;
+    double gain       = 0.;
+    double offset     = 0.;
+    double slope      = 0.; ///< of a straight line, from first to last row
+
+    static constexpr std::size_t n_components = 6;
+
+    using Logarithms = Eigen::Matrix<double, n_components, 1>;
+
+    Logarithms logarithms() const;
+
+    static Noise from_logarithms(const Logarithms &logarithms);
+  };
+
+  /// One time series of friction, on which noise acts.
+  struct Series
+  {
+    std::vector<double> time; ///< from 0 to 1
+    /// Standard deviation of the rows by themselves.
+    std::vector<double> row_noise;
+    /// Friction without noise: what a gain multiplies.
+    std::vector<double> friction;
+  };
+
+  /// Turns noise into independent numbers of variance one, and back, for one
+  /// test: one series, or one per axis with the gain in common.
+  ///
+  /// Drift and rows are whitened by the innovations of a Kalman filter, the
+  /// rest by an update of low rank: the work is proportional to the rows.
+  class Whitener
+  {
+  public:
+    Whitener(const std::vector<Series> &series,
+             const double               level,
+             const Noise               &noise);
+
+    /// Whiten every column; rows are those of the first series, then of the
+    /// second.
+    void apply(Eigen::Ref<RowMatrix> columns) const;
+
+    /// Logarithm of the determinant of the covariance.
+    double log_determinant() const
+    {
+      return log_det;
+    }
+
+    std::size_t n_rows() const
+    {
+      return gains.size();
+    }
+
+  private:
+    void filter(Eigen::Ref<RowMatrix> columns) const;
+
+    /// Rows at which a series begins.
+    std::vector<bool>   begins;
+    std::vector<double> decay, gains, inverse_deviation;
+    /// Orthonormal columns of what is common to a test, filtered, and what is
+    /// left of each (less 1).
+    RowMatrix       common;
+    Eigen::VectorXd shrinkage;
+    double          log_det = 0.;
+  };
+
+  /// A sample of noise for the rows of a test.
+  Eigen::VectorXd sample_noise(const std::vector<Series> &series,
+                               const double               level,
+                               const Noise               &noise,
+                               std::mt19937_64           &random);
+
+  /// The difference of replicates: one of n - 1 independent ones of n tests,
+  /// scaled such that it has the covariance of one test.
+  struct Contrast
+  {
+    std::vector<Series> series;
+    double              level = 1.;
+    Eigen::VectorXd     values;
+    /// The tests it is made of, first the one that gives the times.
+    std::vector<std::size_t> tests;
+  };
+
+  /// Noise with its uncertainty.
+  struct NoiseEstimate
+  {
+    Noise noise;
+    /// Of the logarithms of its components.
+    Eigen::Matrix<double, Noise::n_components, Noise::n_components> covariance;
+    std::size_t n_contrasts = 0;
+
+    /// One that is as plausible.
+    Noise draw(std::mt19937_64 &random) const;
+  };
+
+  /// Standard deviations, in logarithms, of what is thought of the noise before
+  /// any replicates are seen.
+  Noise::Logarithms prior_deviations();
+
+  /// The most plausible noise, given replicates and what was thought of it
+  /// before, with the uncertainty from the curvature there.
+  NoiseEstimate estimate_noise(const std::vector<Contrast> &contrasts,
+                               const Noise                 &prior);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,44 @@
+#ifndef slipstep_diagnosis_prepare_h
+#define slipstep_diagnosis_prepare_h
+
+#include <slipstep/diagnosis/diagnosis.h>
+#include <slipstep/diagnosis/search.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// What is done, for the user who waits.
+  using Stage = std::function<void(const std::string &)>;
+
+  /// A case ready to be diagnosed.
+  struct Prepared
+  {
+    std::unique_ptr<Workspace> workspace;
+    Model                      base; ///< the calibrated starting model
+    /// Of the starting model as the case has it: root mean square of the
+    /// differences, as a share of friction, and the objective.
+    double start_rms = 0., start_objective = 0.;
+    /// Tests that contradict their own replicates; they are left out.
+    std::vector<Outlier>      outliers;
+    std::vector<CampaignTest> outlier_tests;
+    std::vector<std::string>  warnings;
+  };
+
+  /// The stages ingest, calibrate and noise.
+  /// @throws InputError, RunError if the starting model cannot be simulated
+  Prepared prepare(const Parameters &parameters, const Stage &stage);
+
+  /// The case with everything that is to be calibrated listed: that which
+  /// "Calibration/Parameters" names, else all parameters of active effects.
+  Parameters with_parameters_listed(const Parameters &parameters);
+
+  /// Root mean square of differences, as a share of the tests' friction.
+  double relative_rms(const Comparison      &comparison,
+                      const Eigen::VectorXd &difference);
+} // namespace SlipStep
+
+#endif

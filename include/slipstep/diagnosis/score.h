@@ -1,0 +1,109 @@
+#ifndef slipstep_diagnosis_score_h
+#define slipstep_diagnosis_score_h
+
+#include <slipstep/diagnosis/candidates.h>
+#include <slipstep/diagnosis/comparison.h>
+#include <slipstep/diagnosis/covariates.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// What a campaign in which the model is right would look like: whitened
+  /// samples of noise as columns. Each has noise of its own, as plausible as
+  /// the estimate by which it is whitened, so that the few degrees of freedom
+  /// of replicates are in the scatter of everything computed from it.
+  RowMatrix draw_null(const Comparison    &comparison,
+                      const NoiseEstimate &estimate,
+                      const unsigned int   n_draws,
+                      const std::uint64_t  seed);
+
+  /// A change of the simulated friction, to be held against what is left over.
+  struct Direction
+  {
+    Eigen::VectorXd friction; ///< the change, not whitened
+    bool            is_one_sided = false;
+    /// Which candidate it is; or which column of the smooth basis.
+    std::size_t candidate = 0;
+    std::size_t formula   = 0;
+    std::size_t shape     = 0;
+  };
+
+  /// How well one direction fits the residual.
+  struct Score
+  {
+    /// In standard deviations of the null; 0 for the wrong sign.
+    double value = 0.;
+    /// Of the change, by least squares.
+    double strength = 0.;
+    /// Length of the whitened change, before and after what the model's own
+    /// parameters could do is taken off.
+    double own_length  = 0.;
+    double free_length = 0.;
+  };
+
+  /// Directions seen from a fitted model, with what chance makes of them.
+  class ScoreTest
+  {
+  public:
+    ScoreTest(const Comparison             &comparison,
+              const Model                  &model,
+              const RowMatrix              &null_draws,
+              const std::vector<Direction> &directions);
+
+    std::vector<Score> scores;
+
+    /// Chance of a largest score among all directions as large as this value.
+    double family_p(const double value) const;
+
+    /// What any mixture of the directions would take off the objective beyond
+    /// chance, and the chance of as much.
+    struct Together
+    {
+      double          gain   = 0.; ///< with what chance takes off
+      double          excess = 0.; ///< without
+      double          p      = 1.;
+      Eigen::VectorXd explained; ///< part of the residual, whitened
+    };
+
+    /// @param which directions; all if empty
+    Together together(const std::vector<std::size_t> &which = {}) const;
+
+    /// How strong each direction is in the mixture that explains most.
+    /// @param smoothness of neighbours, 0 for none: a share of the mean square
+    ///   by which second differences are kept small
+    Eigen::VectorXd mixture(const double smoothness = 0.) const;
+
+  private:
+    Eigen::MatrixXd     columns; ///< whitened, free of the model's, length 1
+    Eigen::VectorXd     residual;
+    const RowMatrix    &null_draws;
+    std::vector<double> largest; ///< of every draw, sorted
+  };
+
+  /// Whether anything is missing.
+  struct GapTest
+  {
+    double p            = 1.; ///< of all four, Bonferroni
+    double p_smooth     = 1.; ///< largest score of covariates and candidates
+    double p_waves      = 1.; ///< slow waves within tests
+    double p_conditions = 1.; ///< between conditions
+    double p_together   = 1.; ///< all of these at once
+    /// What a model with anything at all could explain, beyond chance.
+    double          excess = 0.;
+    Eigen::VectorXd explained; ///< that part of the residual, whitened
+  };
+
+  /// @param smooth directions of covariates and candidates
+  GapTest test_gap(const Comparison             &comparison,
+                   const Covariates             &covariates,
+                   const Model                  &model,
+                   const RowMatrix              &null_draws,
+                   const std::vector<Direction> &smooth);
+} // namespace SlipStep
+
+#endif

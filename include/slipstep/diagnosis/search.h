@@ -1,0 +1,119 @@
+#ifndef slipstep_diagnosis_search_h
+#define slipstep_diagnosis_search_h
+
+#include <slipstep/diagnosis/candidates.h>
+#include <slipstep/diagnosis/comparison.h>
+#include <slipstep/diagnosis/covariates.h>
+#include <slipstep/diagnosis/score.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// What a search looks at: the tests, their noise, and the rules.
+  struct Workspace
+  {
+    Parameters                start;
+    std::vector<CampaignTest> tests;
+    Comparison                comparison;
+    NoiseEstimate             noise;
+    Covariates                covariates;
+    TestedRange               range;
+    RowMatrix                 null_draws;
+    double                    level        = 0.03;
+    unsigned int              most_effects = 4;
+    unsigned int              n_refits     = 0; ///< counted here
+    /// Told what is being done.
+    std::function<void(const std::string &)> progress;
+  };
+
+  /// @name Rules, in units of the objective (chi^2).
+  ///@{
+  /// What every parameter has to gain.
+  constexpr double cost_of_parameter = 4.;
+  /// A name whose removal costs less is dropped ...
+  constexpr double least_cost = 15.;
+  /// ... and below this, unless left-out conditions gain by it, too.
+  constexpr double sure_cost = 30.;
+  /// 2 ln 20: nearer than this, a rival explains the tests as well.
+  constexpr double rival_distance = 6.;
+  /// Of the explainable excess, if the remainder is still significant.
+  constexpr double sufficient_share = 0.8;
+  /// In any case, as far as an excess is known ...
+  constexpr double least_share = 0.6;
+  /// ... its own scatter being about this.
+  constexpr double sure_excess = 25.;
+  ///@}
+
+  /// A candidate as seen from a model.
+  struct CandidateView
+  {
+    Candidate candidate;
+    /// The best of its directions; none if it could not be simulated.
+    std::optional<Direction> best;
+    Score                    score;
+    /// Chance of such a score among all candidates.
+    double p = 1.;
+    /// Smallest greatest change of friction that would have been seen at five
+    /// standard deviations, as a share; infinite if none would.
+    double minimum_detectable = std::numeric_limits<double>::infinity();
+  };
+
+  /// The catalogue as seen from a model, best score first.
+  struct View
+  {
+    std::vector<CandidateView> candidates;
+    std::vector<Direction>     directions;
+  };
+
+  View look(Workspace &workspace, const Model &model);
+
+  /// A model with one more effect, fitted; none if it cannot be simulated.
+  std::optional<Model> refit_with(Workspace           &workspace,
+                                  const Model         &model,
+                                  const CandidateView &view);
+
+  /// Fit a model once more with time steps of its own, the error of which is
+  /// taken out.
+  void settle(const Workspace &workspace, Model &model);
+
+  /// The objective with the price of the parameters.
+  double penalised(const Model &model);
+
+  /// A rival of a named effect: with it in the place of the name the tests are
+  /// explained as well.
+  struct Rival
+  {
+    std::string name; ///< of the rival
+    std::string instead_of;
+    double      distance = 0.; ///< penalised objective above the winner's
+    Model       model;
+  };
+
+  /// What a search came to.
+  struct SearchResult
+  {
+    Model              model;
+    std::vector<Rival> rivals;
+    /// Cost of removing each part, and what left-out conditions gain by it.
+    std::vector<double> costs, left_out_gains;
+    /// The objective of single additions to the starting model, for those that
+    /// were fitted.
+    std::vector<std::pair<std::string, double>> gains;
+  };
+
+  /// Add effects as long as they are needed, take away those that are not, and
+  /// exchange those for which another does better.
+  SearchResult search(Workspace &workspace, const Model &base);
+
+  /// How well every condition is predicted by a model fitted to all others:
+  /// squares of whitened differences, by test.
+  std::vector<double> left_out_squares(const Workspace &workspace,
+                                       const Model     &model,
+                                       Eigen::VectorXd *differences = nullptr);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,27 @@
+#ifndef slipstep_diagnosis_where_h
+#define slipstep_diagnosis_where_h
+
+#include <slipstep/diagnosis/diagnosis.h>
+#include <slipstep/diagnosis/judge.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Where the calibrated starting model disagrees: every covariate that
+  /// explains a part of the excess, most first.
+  std::vector<Localisation>
+  localise(const Workspace &workspace, const Model &base, const GapTest &gap);
+
+  /// What is left over along the covariates, with what models would change.
+  /// @param changes names with changes of the simulated friction
+  std::vector<CovariatePanel> covariate_panels(
+    const Workspace                                            &workspace,
+    const Eigen::VectorXd                                      &difference,
+    const std::vector<std::pair<std::string, Eigen::VectorXd>> &changes,
+    const std::vector<Localisation>                            &where);
+} // namespace SlipStep
+
+#endif

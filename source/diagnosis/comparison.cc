@@ -1,0 +1,458 @@
+#include <slipstep/diagnosis/comparison.h>
+#include <slipstep/diagnosis/least_squares.h>
+#include <slipstep/experiment/test_rows.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace SlipStep
+{
+  namespace
+  {
+    std::vector<std::size_t> equal_parts(const std::size_t n_rows,
+                                         const std::size_t most)
+    {
+      const std::size_t        n = std::min(n_rows, most);
+      std::vector<std::size_t> borders;
+      for (std::size_t i = 0; i <= n; ++i)
+        borders.push_back(i * n_rows / n);
+      return borders;
+    }
+
+
+
+    // Means of what stands at the rows between the borders.
+    template <class RowValue>
+    void average(const std::vector<std::size_t> &borders,
+                 const RowValue                 &value,
+                 double                         *result)
+    {
+      for (std::size_t i = 0; i + 1 < borders.size(); ++i)
+        {
+          double sum = 0.;
+          for (std::size_t row = borders[i]; row < borders[i + 1]; ++row)
+            sum += value(row);
+          result[i] = sum / (borders[i + 1] - borders[i]);
+        }
+    }
+
+
+
+    Series series_of(const ComparedTest &compared, const CampaignTest &test)
+    {
+      const std::vector<double> &time   = test.rows.time;
+      const std::size_t          n_bins = compared.n_bins();
+      Series                     series;
+      series.time.resize(n_bins);
+      average(
+        compared.borders,
+        [&](const std::size_t row) {
+          return (time[row] - time.front()) / (time.back() - time.front());
+        },
+        series.time.data());
+      for (std::size_t i = 0; i < n_bins; ++i)
+        series.row_noise.push_back(
+          test.noise / std::sqrt(static_cast<double>(compared.borders[i + 1] -
+                                                     compared.borders[i])));
+      series.friction.resize(n_bins);
+      return series;
+    }
+
+
+
+    double typical_friction(const MeasuredTest &rows)
+    {
+      double sum = 0.;
+      for (std::size_t i = 0; i < rows.friction.size(); ++i)
+        sum += std::pow(rows.friction[i], 2) +
+               (rows.friction_y.empty() ? 0. : std::pow(rows.friction_y[i], 2));
+      return std::sqrt(sum / rows.friction.size());
+    }
+  } // namespace
+
+
+
+  Comparison::Comparison(const std::vector<CampaignTest> &campaign_tests,
+                         const std::size_t                most_rows)
+  {
+    std::map<std::string, std::size_t> number;
+    Eigen::Index                       n = 0;
+    for (const CampaignTest &test : campaign_tests)
+      {
+        ComparedTest compared;
+        compared.borders = equal_parts(test.rows.time.size(), most_rows);
+        compared.level   = typical_friction(test.rows);
+        compared.begin   = n;
+        compared.series.assign(test.has_two_axes() ? 2 : 1,
+                               series_of(compared, test));
+        compared.size = compared.series.size() * compared.n_bins();
+        n += compared.size;
+        // A test that names no condition is one by itself.
+        const std::string condition = test.rows.condition.empty() ?
+                                        "test " + test.rows.name :
+                                        test.rows.condition;
+        const auto        found     = number.emplace(condition, number.size());
+        if (found.second)
+          conditions.push_back(condition);
+        compared.condition = found.first->second;
+        tests.push_back(compared);
+      }
+    measured.resize(n);
+    for (std::size_t i = 0; i < tests.size(); ++i)
+      {
+        const MeasuredTest &rows = campaign_tests[i].rows;
+        double             *out  = measured.data() + tests[i].begin;
+        for (std::size_t s = 0; s < tests[i].series.size(); ++s)
+          average(
+            tests[i].borders,
+            [&](const std::size_t row) {
+              return (s == 0 ? rows.friction : rows.friction_y)[row];
+            },
+            out + s * tests[i].n_bins());
+      }
+  }
+
+
+
+  void Comparison::set_noise(const Noise           &noise,
+                             const Eigen::VectorXd &friction)
+  {
+    present_noise = noise;
+    whiteners.clear();
+    for (ComparedTest &test : tests)
+      {
+        const double *value = friction.data() + test.begin;
+        for (Series &series : test.series)
+          for (double &entry : series.friction)
+            entry = *value++;
+        whiteners.emplace_back(test.series, test.level, noise);
+      }
+  }
+
+
+
+  Eigen::VectorXd
+  Comparison::difference(Simulator                 &simulator,
+                         const std::vector<double> &scaled) const
+  {
+    const Campaign     &campaign = simulator.campaign;
+    std::vector<double> rows(campaign.n_residuals());
+    try
+      {
+        simulator.residuals(scaled, rows.data());
+      }
+    catch (const InputError &)
+      {
+        return {};
+      }
+    catch (const RunError &)
+      {
+        throw_if_stopped();
+        return {};
+      }
+    Eigen::VectorXd result(n_rows());
+    const double   *begin = rows.data();
+    for (std::size_t i = 0; i < tests.size(); ++i)
+      {
+        double *out = result.data() + tests[i].begin;
+        for (std::size_t s = 0; s < tests[i].series.size(); ++s)
+          {
+            average(
+              tests[i].borders,
+              [&](const std::size_t row) {
+                return campaign.tests[i].noise * begin[row];
+              },
+              out + s * tests[i].n_bins());
+            begin += campaign.tests[i].rows.time.size();
+          }
+      }
+    return result;
+  }
+
+
+
+  void Comparison::whiten(RowMatrix &columns) const
+  {
+    for (std::size_t i = 0; i < tests.size(); ++i)
+      whiteners[i].apply(columns.middleRows(tests[i].begin, tests[i].size));
+  }
+
+
+
+  double natural_slope(const FitParameter &parameter, const double scaled)
+  {
+    if (parameter.is_logarithmic)
+      return std::log(parameter.upper / parameter.lower);
+    const double range = parameter.upper - parameter.lower;
+    const double value = parameter.from_scaled(scaled);
+    return parameter.lower >= 0. ? range / std::max(value, 0.01 * range) : 2.;
+  }
+
+
+
+  namespace
+  {
+    /// Differences of one model, whitened; below them how far each parameter
+    /// is from its start, in case the tests say nothing of it.
+    class WhitenedProblem
+    {
+    public:
+      WhitenedProblem(const Comparison        &comparison,
+                      Model                   &model,
+                      const std::vector<bool> &left_out)
+        : comparison(comparison)
+        , model(model)
+        , left_out(left_out)
+      {
+        for (std::size_t i = 0; i < model.scaled.size(); ++i)
+          {
+            const FitParameter &parameter = model.campaign->fitted[i];
+            start.push_back(parameter.to_scaled(parameter.start));
+            belief.push_back(natural_slope(parameter, start.back()) /
+                             believed_deviation);
+          }
+      }
+
+      bool residuals(const Eigen::VectorXd &x, Eigen::VectorXd &result)
+      {
+        const std::vector<double> scaled(x.data(), x.data() + x.size());
+        const Eigen::VectorXd     difference =
+          comparison.difference(*model.simulator, scaled);
+        if (difference.size() == 0)
+          return false;
+        RowMatrix whitened = difference;
+        comparison.whiten(whitened);
+        leave_out(whitened);
+        result.resize(whitened.rows() + x.size());
+        result.head(whitened.rows()) = whitened;
+        for (Eigen::Index i = 0; i < x.size(); ++i)
+          result(whitened.rows() + i) = belief[i] * (x(i) - start[i]);
+        return true;
+      }
+
+      bool derivatives(const Eigen::VectorXd &x,
+                       const Eigen::VectorXd &,
+                       Eigen::MatrixXd &result)
+      {
+        constexpr double      step = 1e-4;
+        std::vector<double>   scaled(x.data(), x.data() + x.size());
+        const Eigen::VectorXd here =
+          comparison.difference(*model.simulator, scaled);
+        RowMatrix columns(here.size(), x.size());
+        for (Eigen::Index i = 0; i < x.size(); ++i)
+          {
+            double          moved = x(i) + step > 1. ? -step : step;
+            Eigen::VectorXd there;
+            for (unsigned int side = 0; side < 2 && there.size() == 0; ++side)
+              {
+                if (side == 1)
+                  moved = -moved;
+                scaled[i] = x(i) + moved;
+                there     = comparison.difference(*model.simulator, scaled);
+              }
+            scaled[i] = x(i);
+            if (there.size() == 0)
+              return false;
+            columns.col(i) = (there - here) / moved;
+          }
+        comparison.whiten(columns);
+        leave_out(columns);
+        result = Eigen::MatrixXd::Zero(columns.rows() + x.size(), x.size());
+        result.topRows(columns.rows()) = columns;
+        for (Eigen::Index i = 0; i < x.size(); ++i)
+          result(columns.rows() + i, i) = belief[i];
+        return true;
+      }
+
+    private:
+      // Standard deviation of a parameter's logarithm around its start.
+      static constexpr double believed_deviation = 2.;
+
+      void leave_out(RowMatrix &columns) const
+      {
+        for (std::size_t i = 0; i < left_out.size(); ++i)
+          if (left_out[i])
+            columns
+              .middleRows(comparison.tests[i].begin, comparison.tests[i].size)
+              .setZero();
+      }
+
+      const Comparison        &comparison;
+      Model                   &model;
+      const std::vector<bool> &left_out;
+      std::vector<double>      start, belief;
+    };
+  } // namespace
+
+
+
+  bool Comparison::fit(Model                   &model,
+                       const double             precision,
+                       const std::vector<bool> &left_out,
+                       const std::vector<bool> &held) const
+  {
+    WhitenedProblem      problem(*this, model, left_out);
+    const SquaresMinimum minimum =
+      least_squares({[&](const Eigen::VectorXd &x, Eigen::VectorXd &residuals) {
+                       return problem.residuals(x, residuals);
+                     },
+                     [&](const Eigen::VectorXd &x,
+                         const Eigen::VectorXd &residuals,
+                         Eigen::MatrixXd       &derivatives) {
+                       return problem.derivatives(x, residuals, derivatives);
+                     }},
+                    Eigen::Map<const Eigen::VectorXd>(model.scaled.data(),
+                                                      model.scaled.size()),
+                    precision,
+                    held);
+    model.objective =
+      minimum.found ? minimum.sum : std::numeric_limits<double>::infinity();
+    if (!minimum.found)
+      return false;
+    model.scaled.assign(minimum.x.data(), minimum.x.data() + minimum.x.size());
+    model.residual    = -minimum.residuals;
+    model.derivatives = minimum.derivatives;
+    return true;
+  }
+
+
+
+  std::vector<double>
+  Comparison::squares_by_test(const Eigen::VectorXd &residual) const
+  {
+    std::vector<double> result;
+    for (const ComparedTest &test : tests)
+      result.push_back(residual.segment(test.begin, test.size).squaredNorm());
+    return result;
+  }
+
+
+
+  namespace
+  {
+    // For each row of one test that of another one at the same time.
+    std::vector<std::size_t> partners(const std::vector<double> &time,
+                                      const std::vector<double> &other)
+    {
+      std::vector<std::size_t> result;
+      std::size_t              j = 0;
+      for (const double t : time)
+        {
+          while (j + 1 < other.size() &&
+                 std::abs(other[j + 1] - t) <= std::abs(other[j] - t))
+            ++j;
+          result.push_back(j);
+        }
+      return result;
+    }
+
+
+
+    // The n-th of the contrasts by Helmert: one test against the mean of those
+    // before it, of length one.
+    Contrast helmert(const std::vector<ComparedTest> &tests,
+                     const std::vector<std::size_t>  &members,
+                     const std::size_t                n,
+                     const Eigen::VectorXd           &difference)
+    {
+      const ComparedTest &first = tests[members[0]];
+      Contrast            result;
+      result.series = first.series;
+      result.level  = first.level;
+      result.values = Eigen::VectorXd::Zero(first.size);
+      result.tests.assign(members.begin(), members.begin() + n + 1);
+      const double length = std::sqrt(n * (n + 1.));
+      for (Series &series : result.series)
+        std::fill(series.row_noise.begin(), series.row_noise.end(), 0.);
+      for (std::size_t m = 0; m <= n; ++m)
+        {
+          const ComparedTest &test   = tests[members[m]];
+          const double        weight = (m < n ? 1. : -1. * n) / length;
+          const std::vector<std::size_t> rows =
+            partners(first.series[0].time, test.series[0].time);
+          for (std::size_t s = 0;
+               s < std::min(first.series.size(), test.series.size());
+               ++s)
+            for (std::size_t i = 0; i < rows.size(); ++i)
+              {
+                result.values(s * rows.size() + i) -=
+                  weight * difference(test.begin + s * test.n_bins() + rows[i]);
+                result.series[s].row_noise[i] +=
+                  std::pow(weight * test.series[s].row_noise[rows[i]], 2);
+              }
+        }
+      for (Series &series : result.series)
+        for (double &noise : series.row_noise)
+          noise = std::sqrt(noise);
+      return result;
+    }
+  } // namespace
+
+
+
+  std::vector<Contrast>
+  Comparison::contrasts(const Eigen::VectorXd &difference) const
+  {
+    std::vector<Contrast> result;
+    for (std::size_t c = 0; c < conditions.size(); ++c)
+      {
+        std::vector<std::size_t> members;
+        for (std::size_t i = 0; i < tests.size(); ++i)
+          if (tests[i].condition == c)
+            members.push_back(i);
+        for (std::size_t n = 1; n < members.size(); ++n)
+          {
+            const Contrast left = helmert(tests, members, n, difference);
+            const Contrast raw  = helmert(tests, members, n, -measured);
+            result.push_back(left.values.norm() < raw.values.norm() ? left :
+                                                                      raw);
+          }
+      }
+    return result;
+  }
+
+
+
+  Values Model::values() const
+  {
+    Values result;
+    for (std::size_t i = 0; i < scaled.size(); ++i)
+      result[campaign->fitted[i].path] =
+        campaign->fitted[i].from_scaled(scaled[i]);
+    return result;
+  }
+
+
+
+  bool Model::has(const std::string &name) const
+  {
+    return std::any_of(parts.begin(), parts.end(), [&](const Part &part) {
+      return part.name == name;
+    });
+  }
+
+
+
+  Model make_model(const Parameters                &start,
+                   const std::vector<Part>         &parts,
+                   const Values                    &values,
+                   const std::vector<CampaignTest> &tests,
+                   const Model                     *like)
+  {
+    Model            model;
+    const Parameters parameters = assemble(start, parts, values);
+    model.parts                 = parts;
+    model.campaign              = std::make_shared<Campaign>(parameters, tests);
+    model.simulator             = std::make_shared<Simulator>(*model.campaign);
+    for (const FitParameter &parameter : model.campaign->fitted)
+      model.scaled.push_back(std::clamp(
+        parameter.to_scaled(parameter.value_in(parameters)), 0., 1.));
+    model.simulator->plan(model.scaled,
+                          like == nullptr ? nullptr : like->simulator.get());
+    if (like != nullptr)
+      model.simulator->correct_by(*like->simulator, like->scaled);
+    return model;
+  }
+} // namespace SlipStep

@@ -1,0 +1,198 @@
+#include <slipstep/diagnosis/prove.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    constexpr unsigned int n_knots = 6;
+
+    /// A covariate that effect 'expression' knows.
+    struct Covariate
+    {
+      std::string     key;
+      Eigen::VectorXd x; ///< NaN where there is none
+    };
+
+
+
+    std::optional<Covariate> covariate_of(const Workspace   &workspace,
+                                          const std::string &name)
+    {
+      const Covariates     &covariates = workspace.covariates;
+      const Eigen::VectorXd values     = values_of(covariates, name);
+      if (name == "speed")
+        return Covariate{"log10 speed", values.unaryExpr([](const double v) {
+                           return v > 0. ?
+                                    std::log10(v) :
+                                    std::numeric_limits<double>::quiet_NaN();
+                         })};
+      if (name == "pressure" || name == "path")
+        return Covariate{name, values};
+      return {};
+    }
+
+
+
+    std::vector<double> knots_of(const Eigen::VectorXd &x)
+    {
+      std::vector<double> values;
+      for (const double value : x)
+        if (std::isfinite(value))
+          values.push_back(value);
+      std::sort(values.begin(), values.end());
+      std::vector<double> knots;
+      if (values.empty() || !(values.back() > values.front()))
+        return knots;
+      for (unsigned int k = 0; k < n_knots; ++k)
+        knots.push_back(values.front() +
+                        (values.back() - values.front()) * k / (n_knots - 1.));
+      return knots;
+    }
+
+
+
+    // Hat functions around the knots, constant beyond them.
+    double
+    hat(const std::vector<double> &knots, const std::size_t k, const double x)
+    {
+      const double at    = std::clamp(x, knots.front(), knots.back());
+      const double width = knots[1] - knots[0];
+      return std::max(0., 1. - std::abs(at - knots[k]) / width);
+    }
+
+
+
+    // 1 + corrections, piecewise linear: a sum of max(0, x - x_k).
+    std::string formula_of(const std::vector<double> &knots,
+                           const Eigen::VectorXd     &corrections)
+    {
+      std::ostringstream out;
+      out.imbue(std::locale::classic());
+      out << std::setprecision(5) << 1. + corrections(0);
+      double slope = 0.;
+      for (std::size_t k = 0; k + 1 < knots.size(); ++k)
+        {
+          const double next =
+            (corrections(k + 1) - corrections(k)) / (knots[k + 1] - knots[k]);
+          out << " + (" << next - slope << ") * max(0, x - (" << knots[k]
+              << "))";
+          slope = next;
+        }
+      return out.str();
+    }
+
+
+
+    std::string number(const double value)
+    {
+      std::ostringstream out;
+      out.imbue(std::locale::classic());
+      out << std::setprecision(10) << value;
+      return out.str();
+    }
+
+
+
+    std::optional<Correction> correct_along(const Workspace   &workspace,
+                                            const Model       &base,
+                                            const Judgement   &judgement,
+                                            const std::string &name)
+    {
+      const std::optional<Covariate> covariate = covariate_of(workspace, name);
+      if (!covariate.has_value())
+        return {};
+      const std::vector<double> knots = knots_of(covariate->x);
+      if (knots.empty())
+        return {};
+      std::vector<Direction> directions(n_knots);
+      for (unsigned int k = 0; k < n_knots; ++k)
+        directions[k].friction =
+          covariate->x
+            .unaryExpr([&](const double x) {
+              return std::isfinite(x) ? hat(knots, k, x) : 0.;
+            })
+            .cwiseProduct(workspace.covariates.friction);
+      const ScoreTest test(workspace.comparison,
+                           base,
+                           workspace.null_draws,
+                           directions);
+      Eigen::VectorXd corrections = test.mixture(0.01);
+      // What is the same everywhere belongs to the coefficients.
+      corrections.array() -= corrections.mean();
+      corrections = corrections.cwiseMax(-0.9).cwiseMin(3.);
+
+      Correction result;
+      result.covariate = covariate->key;
+      result.formula   = formula_of(knots, corrections);
+      Formula formula;
+      formula.effect   = "expression";
+      formula.settings = {{"Friction/expression/Covariate", result.covariate},
+                          {"Friction/expression/Formula", result.formula},
+                          {"Friction/expression/From", number(knots.front())},
+                          {"Friction/expression/To", number(knots.back())}};
+      try
+        {
+          result.model = make_model(workspace.start,
+                                    {{"expression", formula}},
+                                    base.values(),
+                                    workspace.tests,
+                                    &base);
+        }
+      catch (const InputError &)
+        {
+          return {};
+        }
+      catch (const RunError &)
+        {
+          throw_if_stopped();
+          return {};
+        }
+      if (!workspace.comparison.fit(result.model, 0.05))
+        return {};
+      const GapTest after =
+        test_gap(workspace.comparison,
+                 workspace.covariates,
+                 result.model,
+                 workspace.null_draws,
+                 smooth_directions(workspace, judgement.view));
+      result.share = judgement.gap.excess > 0. ?
+                       1. - after.excess / judgement.gap.excess :
+                       0.;
+      return result;
+    }
+  } // namespace
+
+
+
+  std::optional<Correction>
+  find_correction(const Workspace                 &workspace,
+                  const Model                     &base,
+                  const Judgement                 &judgement,
+                  const std::vector<Localisation> &where)
+  {
+    constexpr double least_share = 0.5;
+
+    const std::vector<std::string> effects =
+      workspace.start.list("Friction/Effects");
+    if (std::find(effects.begin(), effects.end(), "expression") !=
+        effects.end())
+      return {};
+    for (const Localisation &place : where)
+      {
+        const std::optional<Correction> correction =
+          correct_along(workspace, base, judgement, place.covariate);
+        if (correction.has_value())
+          return correction->share >= least_share ? correction : std::nullopt;
+      }
+    return {};
+  }
+} // namespace SlipStep

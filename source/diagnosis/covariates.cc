@@ -1,0 +1,616 @@
+#include <deal.II/base/numbers.h>
+
+#include <slipstep/diagnosis/covariates.h>
+#include <slipstep/experiment/test_rows.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace SlipStep
+{
+  namespace
+  {
+    using dealii::numbers::PI;
+
+    /// The rows of one test, before they are averaged.
+    struct TestRows
+    {
+      std::vector<double> speed, angle, path, since_start, rest, since_rest,
+        heat;
+      std::vector<Phase> phase;
+    };
+
+
+
+    class RowReader
+    {
+    public:
+      RowReader(const MeasuredTest        &rows,
+                const std::vector<double> &friction,
+                const double               elastic_slip_per_pressure);
+
+      TestRows read();
+
+    private:
+      void find_motion();
+
+      void follow_history();
+
+      void find_phases();
+
+      void name_stroke(const std::size_t begin, const std::size_t end);
+
+      const MeasuredTest        &rows;
+      const std::vector<double> &friction;
+      const double               elastic_slip_per_pressure;
+      const std::size_t          n;
+      TestRows                   result;
+      /// Row at which the present stroke began, and how.
+      std::vector<std::size_t> stroke_begin;
+      std::vector<Phase>       stroke_start;
+    };
+
+
+
+    RowReader::RowReader(const MeasuredTest        &rows,
+                         const std::vector<double> &friction,
+                         const double               elastic_slip_per_pressure)
+      : rows(rows)
+      , friction(friction)
+      , elastic_slip_per_pressure(elastic_slip_per_pressure)
+      , n(rows.time.size())
+    {}
+
+
+
+    // Whether the direction changes more often than anybody would do it.
+    bool trembles(const std::vector<double> &displacement)
+    {
+      std::size_t n_changes = 0;
+      for (std::size_t i = 2; i < displacement.size(); ++i)
+        n_changes += (displacement[i] - displacement[i - 1]) *
+                       (displacement[i - 1] - displacement[i - 2]) <
+                     0.;
+      return n_changes > displacement.size() / 20;
+    }
+
+
+
+    // Velocity over the interval that ends with a row, without tremble: what is
+    // less than a hundredth of the usual speed is rest.
+    void RowReader::find_motion()
+    {
+      result.speed.assign(n, 0.);
+      result.angle.assign(n, 0.);
+      // A record may tremble by its last digits.
+      const std::vector<double> x =
+        trembles(rows.displacement) ?
+          without_jitter(rows.displacement,
+                         4. * noise_level(rows.displacement)) :
+          rows.displacement;
+      for (std::size_t i = 1; i < n; ++i)
+        {
+          const double dx = x[i] - x[i - 1];
+          const double dy =
+            rows.displacement_y.empty() ?
+              0. :
+              rows.displacement_y[i] - rows.displacement_y[i - 1];
+          result.speed[i] =
+            std::hypot(dx, dy) / (rows.time[i] - rows.time[i - 1]);
+          result.angle[i] = std::atan2(dy, dx);
+        }
+      std::vector<double> moving;
+      for (const double speed : result.speed)
+        if (speed > 0.)
+          moving.push_back(speed);
+      const double least = 1e-3 * median(moving);
+      for (double &speed : result.speed)
+        if (speed < least)
+          speed = 0.;
+      if (n > 1)
+        {
+          result.speed[0] = result.speed[1];
+          result.angle[0] = result.angle[1];
+        }
+    }
+
+
+
+    void RowReader::follow_history()
+    {
+      result.path.assign(n, 0.);
+      result.since_start.assign(n, 0.);
+      result.rest.assign(n, 0.);
+      result.since_rest.assign(n, 0.);
+      result.heat.assign(n, 0.);
+      double       path = 0., since = 0., rest = 0., since_rest = 0., heat = 0.;
+      bool         has_moved = false;
+      const double forget    = 0.1 * (rows.time.back() - rows.time.front());
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          const double dt     = i == 0 ? 0. : rows.time[i] - rows.time[i - 1];
+          const bool   rests  = result.speed[i] == 0.;
+          const bool   rested = i == 0 || result.speed[i - 1] == 0.;
+          const bool   turns =
+            i > 0 && !rests && !rested &&
+            std::cos(result.angle[i] - result.angle[i - 1]) < 0.5;
+          if (rests && !rested)
+            rest = since_rest = 0.;
+          if ((!rests && rested) || turns || i == 0)
+            {
+              since = 0.;
+              if (has_moved || i > 0)
+                since_rest = 0.;
+              stroke_begin.push_back(i);
+              stroke_start.push_back(turns     ? Phase::reversal :
+                                     has_moved ? Phase::restart :
+                                                 Phase::presliding);
+            }
+          path += result.speed[i] * dt;
+          since += result.speed[i] * dt;
+          since_rest += dt;
+          if (rests && has_moved)
+            rest += dt;
+          has_moved = has_moved || !rests;
+          heat      = heat * std::exp(-dt / forget) + std::abs(friction[i]) *
+                                                   rows.pressure[i] *
+                                                   result.speed[i] * dt;
+          result.path[i]        = path;
+          result.since_start[i] = since;
+          result.rest[i]        = rest;
+          result.since_rest[i]  = since_rest;
+          result.heat[i]        = heat;
+        }
+    }
+
+
+
+    // From the start of motion to the next start: flank, peak, softening,
+    // steady, and the rest before the next one.
+    void RowReader::name_stroke(const std::size_t s, const std::size_t end)
+    {
+      const std::size_t begin = stroke_begin[s];
+      std::size_t       top = begin, last = begin;
+      for (std::size_t i = begin; i < end; ++i)
+        if (result.speed[i] > 0.)
+          {
+            last = i;
+            if (std::abs(friction[i]) > std::abs(friction[top]))
+              top = i;
+          }
+      const double peak = std::abs(friction[top]);
+      // What is still to fall until the end, at most.
+      const double rest_of_fall =
+        0.1 * std::abs(peak - std::abs(friction[last])) + 0.005 * peak;
+      bool has_risen = false, is_over = false;
+      for (std::size_t i = begin; i < end; ++i)
+        {
+          const double now = std::abs(friction[i]);
+          const double elastic =
+            2. * elastic_slip_per_pressure * rows.pressure[i];
+          if (result.speed[i] == 0.)
+            {
+              result.phase[i] = Phase::hold;
+              continue;
+            }
+          has_risen = has_risen || now > 0.9 * peak || i >= top ||
+                      result.since_start[i] > 100. * elastic;
+          is_over = is_over || (i > top && now < 0.97 * peak);
+          if (!has_risen)
+            result.phase[i] = stroke_start[s];
+          else if (!is_over && now > 0.97 * peak &&
+                   i <= top + std::max<std::size_t>(3, (end - begin) / 10))
+            result.phase[i] = Phase::peak;
+          else if (std::abs(now - std::abs(friction[last])) > rest_of_fall)
+            result.phase[i] = Phase::softening;
+          else
+            result.phase[i] = Phase::steady;
+        }
+    }
+
+
+
+    void RowReader::find_phases()
+    {
+      result.phase.assign(n, Phase::hold);
+      for (std::size_t s = 0; s < stroke_begin.size(); ++s)
+        name_stroke(s, s + 1 < stroke_begin.size() ? stroke_begin[s + 1] : n);
+    }
+
+
+
+    TestRows RowReader::read()
+    {
+      find_motion();
+      follow_history();
+      find_phases();
+      return result;
+    }
+
+
+
+    double order_of(const MeasuredTest &rows)
+    {
+      const auto note = rows.notes.find("order");
+      try
+        {
+          return note == rows.notes.end() ? 0. : std::stod(note->second);
+        }
+      catch (const std::exception &)
+        {
+          return 0.;
+        }
+    }
+  } // namespace
+
+
+
+  std::string name_of(const Phase phase)
+  {
+    static const std::array<std::string, n_phases> names = {{"presliding",
+                                                             "peak",
+                                                             "softening",
+                                                             "steady",
+                                                             "hold",
+                                                             "restart",
+                                                             "reversal"}};
+    return names[static_cast<unsigned int>(phase)];
+  }
+
+
+
+  const Eigen::VectorXd &values_of(const Covariates  &covariates,
+                                   const std::string &name)
+  {
+    return name == "speed"              ? covariates.speed :
+           name == "pressure"           ? covariates.pressure :
+           name == "rest"               ? covariates.rest :
+           name == "slip since start"   ? covariates.since_start :
+           name == "heat"               ? covariates.heat :
+           name == "order of the tests" ? covariates.order :
+           name == "direction"          ? covariates.is_reverse :
+           name == "angle"              ? covariates.angle :
+           name == "flank"              ? covariates.since_start :
+                                          covariates.path;
+  }
+
+
+
+  Covariates find_covariates(const Comparison                &comparison,
+                             const std::vector<CampaignTest> &tests,
+                             const Eigen::VectorXd           &friction,
+                             const double elastic_slip_per_pressure)
+  {
+    const Eigen::Index n = comparison.n_rows();
+    Covariates         result;
+    result.phase.resize(n);
+    result.friction = friction;
+    for (Eigen::VectorXd *values : {&result.speed,
+                                    &result.pressure,
+                                    &result.path,
+                                    &result.since_start,
+                                    &result.rest,
+                                    &result.since_rest,
+                                    &result.angle,
+                                    &result.is_reverse,
+                                    &result.heat,
+                                    &result.order,
+                                    &result.axis})
+      *values = Eigen::VectorXd::Zero(n);
+    for (std::size_t t = 0; t < tests.size(); ++t)
+      {
+        const ComparedTest &test   = comparison.tests[t];
+        const std::size_t   n_bins = test.n_bins();
+        // At every row the friction of the bin.
+        std::vector<double> rows_friction;
+        for (std::size_t i = 0; i < n_bins; ++i)
+          for (std::size_t row = test.borders[i]; row < test.borders[i + 1];
+               ++row)
+            rows_friction.push_back(
+              test.series.size() == 1 ?
+                friction(test.begin + i) :
+                std::hypot(friction(test.begin + i),
+                           friction(test.begin + n_bins + i)));
+        const TestRows rows =
+          RowReader(tests[t].rows, rows_friction, elastic_slip_per_pressure)
+            .read();
+        for (std::size_t s = 0; s < test.series.size(); ++s)
+          for (std::size_t i = 0; i < n_bins; ++i)
+            {
+              const Eigen::Index k = test.begin + s * n_bins + i;
+              const std::size_t  row =
+                (test.borders[i] + test.borders[i + 1]) / 2;
+              result.speed(k)       = rows.speed[row];
+              result.pressure(k)    = tests[t].rows.pressure[row];
+              result.path(k)        = rows.path[row];
+              result.since_start(k) = rows.since_start[row];
+              result.rest(k)        = rows.rest[row];
+              result.since_rest(k)  = rows.since_rest[row];
+              result.angle(k)       = rows.angle[row];
+              result.is_reverse(k) =
+                rows.speed[row] > 0. && std::cos(rows.angle[row]) < -0.5 ? 1. :
+                                                                           0.;
+              result.heat(k)  = rows.heat[row];
+              result.order(k) = order_of(tests[t].rows);
+              result.axis(k)  = s;
+              result.phase[k] = rows.phase[row];
+            }
+      }
+    return result;
+  }
+
+
+
+  TestedRange tested_range(const Comparison                &comparison,
+                           const std::vector<CampaignTest> &tests,
+                           const Covariates                &covariates)
+  {
+    TestedRange         result;
+    std::vector<double> moving, frictions;
+    for (Eigen::Index k = 0; k < comparison.n_rows(); ++k)
+      {
+        if (covariates.speed(k) > 0. && covariates.phase[k] != Phase::hold)
+          moving.push_back(covariates.speed(k));
+        frictions.push_back(std::abs(covariates.friction(k)));
+      }
+    std::sort(moving.begin(), moving.end());
+    if (!moving.empty())
+      {
+        // Without the few rows of a start or a stop.
+        result.slowest = moving[moving.size() / 50];
+        result.fastest = moving[moving.size() - 1 - moving.size() / 50];
+      }
+    result.typical_friction = median(frictions);
+    result.lowest           = std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t < tests.size(); ++t)
+      {
+        const MeasuredTest &rows = tests[t].rows;
+        for (const double pressure : rows.pressure)
+          if (pressure > 0.)
+            {
+              result.lowest  = std::min(result.lowest, pressure);
+              result.highest = std::max(result.highest, pressure);
+            }
+        result.longest_test =
+          std::max(result.longest_test, rows.time.back() - rows.time.front());
+        const ComparedTest &test = comparison.tests[t];
+        for (Eigen::Index k = test.begin; k < test.begin + test.size; ++k)
+          {
+            result.longest_path =
+              std::max(result.longest_path, covariates.path(k));
+            result.longest_rest =
+              std::max(result.longest_rest, covariates.rest(k));
+            if (covariates.phase[k] != Phase::hold)
+              result.longest_slide =
+                std::max(result.longest_slide, covariates.since_rest(k));
+          }
+      }
+    return result;
+  }
+
+
+
+  namespace
+  {
+    double largest(const Eigen::VectorXd &values)
+    {
+      return values.size() == 0 ? 0. : values.maxCoeff();
+    }
+
+
+
+    /// Adds functions of one covariate after the other.
+    class BasisMaker
+    {
+    public:
+      explicit BasisMaker(const Covariates &covariates)
+        : covariates(covariates)
+        , n(covariates.friction.size())
+      {}
+
+      // Three polynomials of x over the rows where it is finite, times
+      // friction; nothing if it hardly varies there.
+      void polynomials(const std::string     &name,
+                       const std::string     &unit,
+                       const Eigen::VectorXd &x,
+                       const bool             is_logarithmic)
+      {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (Eigen::Index i = 0; i < n; ++i)
+          if (std::isfinite(x(i)))
+            {
+              low  = std::min(low, x(i));
+              high = std::max(high, x(i));
+            }
+        if (!(high - low > (is_logarithmic ? 0.05 : 1e-6 * std::abs(high))))
+          return;
+        for (unsigned int degree = 1; degree <= 3; ++degree)
+          {
+            BasisColumn column{name, Eigen::VectorXd::Zero(n), low, high, unit};
+            if (is_logarithmic)
+              {
+                column.from = std::pow(10., low);
+                column.to   = std::pow(10., high);
+              }
+            for (Eigen::Index i = 0; i < n; ++i)
+              if (std::isfinite(x(i)))
+                {
+                  const double t     = 2. * (x(i) - low) / (high - low) - 1.;
+                  column.friction(i) = covariates.friction(i) *
+                                       (degree == 1 ? t :
+                                        degree == 2 ? 1.5 * t * t - 0.5 :
+                                                      t * (2.5 * t * t - 1.5));
+                }
+            add(column);
+          }
+      }
+
+      void add(const BasisColumn &column)
+      {
+        if (column.friction.squaredNorm() > 0.)
+          columns.push_back(column);
+      }
+
+      const Covariates        &covariates;
+      const Eigen::Index       n;
+      std::vector<BasisColumn> columns;
+    };
+
+
+
+    // The logarithm where there is one, else nothing.
+    Eigen::VectorXd logarithm(const Eigen::VectorXd &x)
+    {
+      return x.unaryExpr([](const double value) {
+        return value > 0. ? std::log10(value) :
+                            std::numeric_limits<double>::quiet_NaN();
+      });
+    }
+
+
+
+    void add_memories(BasisMaker &maker)
+    {
+      const Covariates &at     = maker.covariates;
+      const double      length = largest(at.path);
+      // After a rest, a function of how long it was, forgotten by slip.
+      if (largest(at.rest) > 0.)
+        for (const double share : {0.01, 0.1, 1.})
+          {
+            BasisColumn column{"rest",
+                               Eigen::VectorXd::Zero(maker.n),
+                               0.,
+                               largest(at.rest),
+                               "s"};
+            for (Eigen::Index i = 0; i < maker.n; ++i)
+              if (at.rest(i) > 0. && at.speed(i) > 0.)
+                column.friction(i) =
+                  at.friction(i) * std::log1p(at.rest(i)) *
+                  std::exp(-at.since_start(i) / (share * length));
+            maker.add(column);
+          }
+      // Since every start.
+      for (const double share : {0.003, 0.03, 0.3})
+        {
+          BasisColumn column{"slip since start",
+                             Eigen::VectorXd::Zero(maker.n),
+                             0.,
+                             3. * share * length,
+                             "mm"};
+          for (Eigen::Index i = 0; i < maker.n; ++i)
+            if (at.speed(i) > 0.)
+              column.friction(i) =
+                at.friction(i) *
+                std::exp(-at.since_start(i) / (share * length));
+          maker.add(column);
+        }
+      // Since the beginning of the test.
+      for (const double share : {0.01, 0.1})
+        {
+          BasisColumn column{"path",
+                             Eigen::VectorXd::Zero(maker.n),
+                             0.,
+                             3. * share * length,
+                             "mm"};
+          for (Eigen::Index i = 0; i < maker.n; ++i)
+            column.friction(i) =
+              at.friction(i) * std::exp(-at.path(i) / (share * length));
+          maker.add(column);
+        }
+    }
+
+
+
+    void add_directions(BasisMaker &maker)
+    {
+      const Covariates &at  = maker.covariates;
+      const auto        add = [&](const std::string &name,
+                           const auto        &factor,
+                           const double       to) {
+        BasisColumn column{name, Eigen::VectorXd::Zero(maker.n), 0., to, "deg"};
+        for (Eigen::Index i = 0; i < maker.n; ++i)
+          column.friction(i) = at.friction(i) * factor(i);
+        maker.add(column);
+      };
+      if (largest(at.is_reverse) > 0.)
+        add(
+          "direction",
+          [&](const Eigen::Index i) { return at.is_reverse(i); },
+          180.);
+      bool is_oblique = false;
+      for (Eigen::Index i = 0; i < maker.n; ++i)
+        is_oblique = is_oblique || std::abs(std::sin(at.angle(i))) > 0.05;
+      if (!is_oblique)
+        return;
+      for (const double multiple : {2., 4.})
+        {
+          add(
+            "angle",
+            [&](const Eigen::Index i) {
+              return std::cos(multiple * at.angle(i));
+            },
+            90.);
+          add(
+            "angle",
+            [&](const Eigen::Index i) {
+              return std::sin(multiple * at.angle(i));
+            },
+            90.);
+        }
+    }
+  } // namespace
+
+
+
+  std::vector<BasisColumn> smooth_basis(const Comparison &comparison,
+                                        const Covariates &covariates)
+  {
+    BasisMaker maker(covariates);
+    maker.polynomials("speed", "mm/s", logarithm(covariates.speed), true);
+    maker.polynomials("pressure", "MPa", logarithm(covariates.pressure), true);
+    maker.polynomials("path", "mm", covariates.path, false);
+    maker.polynomials("heat", "MPa mm", covariates.heat, false);
+    maker.polynomials("order of the tests", "", covariates.order, false);
+    add_memories(maker);
+    add_directions(maker);
+    // The pressure's own change, along the flanks.
+    BasisColumn flank{"flank", Eigen::VectorXd::Zero(maker.n), 0., 0., ""};
+    for (const ComparedTest &test : comparison.tests)
+      for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
+        {
+          const Phase phase = covariates.phase[i];
+          if (phase == Phase::presliding || phase == Phase::restart ||
+              phase == Phase::reversal)
+            flank.friction(i) = test.level;
+        }
+    maker.add(flank);
+    return maker.columns;
+  }
+
+
+
+  std::vector<Eigen::VectorXd> condition_basis(const Comparison  &comparison,
+                                               const Covariates  &covariates,
+                                               const unsigned int n_waves)
+  {
+    std::vector<Eigen::VectorXd> result;
+    for (std::size_t c = 0; c < comparison.conditions.size(); ++c)
+      for (unsigned int wave = 0; wave <= n_waves; ++wave)
+        {
+          Eigen::VectorXd column = Eigen::VectorXd::Zero(comparison.n_rows());
+          for (const ComparedTest &test : comparison.tests)
+            if (test.condition == c)
+              for (Eigen::Index i = 0; i < test.size; ++i)
+                {
+                  const Eigen::Index row = test.begin + i;
+                  column(row)            = covariates.friction(row) *
+                                std::cos(wave * PI * (i % test.n_bins() + 0.5) /
+                                         test.n_bins());
+                }
+          result.push_back(column);
+        }
+    return result;
+  }
+} // namespace SlipStep

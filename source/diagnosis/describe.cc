@@ -1,0 +1,315 @@
+#include <slipstep/diagnosis/describe.h>
+#include <slipstep/diagnosis/diagnosis_text.h>
+
+#include <boost/crc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // The same for the same numbers, whatever the tests are called.
+    std::string hash_of(const std::vector<CampaignTest> &tests)
+    {
+      std::uint32_t sum = 0;
+      for (const CampaignTest &test : tests)
+        {
+          boost::crc_32_type crc;
+          for (const std::vector<double> *values : {&test.rows.time,
+                                                    &test.rows.displacement,
+                                                    &test.rows.pressure,
+                                                    &test.rows.friction,
+                                                    &test.rows.friction_y})
+            crc.process_bytes(values->data(), values->size() * sizeof(double));
+          sum += crc.checksum();
+        }
+      std::ostringstream out;
+      out << std::hex << std::setw(8) << std::setfill('0') << sum;
+      return out.str();
+    }
+
+
+
+    std::vector<double> part_of(const Eigen::VectorXd &values,
+                                const ComparedTest    &test,
+                                const std::size_t      axis)
+    {
+      const double *begin = values.data() + test.begin + axis * test.n_bins();
+      return {begin, begin + test.n_bins()};
+    }
+
+
+
+    double root_mean_square(const Eigen::VectorXd &values,
+                            const ComparedTest    &test)
+    {
+      return values.segment(test.begin, test.size).norm() /
+             std::sqrt(test.n_bins()) / test.level;
+    }
+
+
+
+    // Variance of the rows of a test by the noise, as a share of its friction:
+    // of rows by themselves, and of what they share.
+    std::pair<double, double> noise_variances(const ComparedTest &test,
+                                              const Noise        &noise)
+    {
+      double      own = 0., gain = 0.;
+      std::size_t n = 0;
+      for (const Series &series : test.series)
+        for (std::size_t i = 0; i < series.row_noise.size(); ++i, ++n)
+          {
+            own += std::pow(noise.white * series.row_noise[i] / test.level, 2);
+            gain += std::pow(noise.gain * series.friction[i] / test.level, 2);
+          }
+      // By the number of axes: a test with two has the noise of both.
+      const double n_rows = test.n_bins();
+      const double n_axes = n / n_rows;
+      return {own / n_rows,
+              gain / n_rows + n_axes * (noise.drift * noise.drift +
+                                        noise.offset * noise.offset +
+                                        noise.slope * noise.slope / 12.)};
+    }
+  } // namespace
+
+
+
+  void describe_data(const Prepared &prepared, Diagnosis &diagnosis)
+  {
+    const Workspace &workspace  = *prepared.workspace;
+    diagnosis.n_conditions      = workspace.comparison.conditions.size();
+    diagnosis.n_replicate_pairs = workspace.noise.n_contrasts;
+    diagnosis.n_samples         = workspace.comparison.n_rows();
+    diagnosis.data_hash         = hash_of(workspace.tests);
+    diagnosis.outliers          = prepared.outliers;
+    diagnosis.warnings          = prepared.warnings;
+    diagnosis.start_effects     = workspace.start.list("Friction/Effects");
+    diagnosis.start_parameters =
+      find_intervals(workspace, prepared.base, diagnosis.confidence);
+  }
+
+
+
+  void describe_noise(const Workspace &workspace, Diagnosis &diagnosis)
+  {
+    static const std::vector<std::pair<std::string, std::string>> names = {
+      {"white", "of the scatter between neighbouring rows"},
+      {"drift", "of friction"},
+      {"drift time", "of a test's duration"},
+      {"gain", "of friction"},
+      {"offset", "of friction"},
+      {"slope", "of friction"}};
+    const Noise::Logarithms logarithms = workspace.noise.noise.logarithms();
+    for (std::size_t i = 0; i < names.size(); ++i)
+      {
+        const double   deviation = std::sqrt(workspace.noise.covariance(i, i));
+        NoiseComponent component;
+        component.name  = names[i].first;
+        component.unit  = names[i].second;
+        component.value = std::exp(logarithms(i));
+        component.lower = std::exp(logarithms(i) - 1.96 * deviation);
+        component.upper = std::exp(logarithms(i) + 1.96 * deviation);
+        component.source =
+          workspace.noise.n_contrasts > 0 ? "replicates" : "stated";
+        diagnosis.noise.push_back(component);
+      }
+  }
+
+
+
+  void describe_tests(const Prepared &prepared,
+                      const Model    &after,
+                      Diagnosis      &diagnosis)
+  {
+    const Workspace      &workspace  = *prepared.workspace;
+    const Comparison     &comparison = workspace.comparison;
+    const Eigen::VectorXd before_difference =
+      comparison.difference(*prepared.base.simulator, prepared.base.scaled);
+    const Eigen::VectorXd after_difference =
+      comparison.difference(*after.simulator, after.scaled);
+    Eigen::VectorXd left_out_before, left_out_after;
+    left_out_squares(workspace, prepared.base, &left_out_before);
+    left_out_squares(workspace, after, &left_out_after);
+    for (std::size_t t = 0; t < workspace.tests.size(); ++t)
+      {
+        const ComparedTest &compared = comparison.tests[t];
+        const MeasuredTest &rows     = workspace.tests[t].rows;
+        DiagnosedTest       test;
+        test.name       = rows.name;
+        test.condition  = rows.condition;
+        test.file       = rows.file.string();
+        test.level      = compared.level;
+        test.start_time = rows.time.front();
+        for (std::size_t i = 0; i < compared.n_bins(); ++i)
+          {
+            const std::size_t row =
+              (compared.borders[i] + compared.borders[i + 1]) / 2;
+            test.time.push_back(rows.time[row] - rows.time.front());
+            test.displacement.push_back(
+              rows.displacement_y.empty() ?
+                rows.displacement[row] :
+                std::hypot(rows.displacement[row], rows.displacement_y[row]));
+            test.phase.push_back(
+              name_of(workspace.covariates.phase[compared.begin + i]));
+          }
+        const Eigen::VectorXd simulated_before =
+          comparison.measured + before_difference;
+        const Eigen::VectorXd simulated_after =
+          comparison.measured + after_difference;
+        test.measured = part_of(comparison.measured, compared, 0);
+        test.before   = part_of(simulated_before, compared, 0);
+        test.after    = part_of(simulated_after, compared, 0);
+        if (compared.series.size() > 1)
+          {
+            test.measured_y = part_of(comparison.measured, compared, 1);
+            test.before_y   = part_of(simulated_before, compared, 1);
+            test.after_y    = part_of(simulated_after, compared, 1);
+          }
+        const auto variances = noise_variances(compared, comparison.noise());
+        test.noise =
+          compared.level * std::sqrt(variances.first + variances.second);
+        test.shared_noise    = compared.level * std::sqrt(variances.second);
+        test.rms_before      = root_mean_square(before_difference, compared);
+        test.rms_after       = root_mean_square(after_difference, compared);
+        test.left_out_before = root_mean_square(left_out_before, compared);
+        test.left_out_after  = root_mean_square(left_out_after, compared);
+        diagnosis.tests.push_back(test);
+      }
+    for (const CampaignTest &outlier : prepared.outlier_tests)
+      {
+        DiagnosedTest test;
+        test.name         = outlier.rows.name;
+        test.condition    = outlier.rows.condition;
+        test.file         = outlier.rows.file.string();
+        test.is_outlier   = true;
+        test.time         = outlier.rows.time;
+        test.displacement = outlier.rows.displacement;
+        test.measured     = outlier.rows.friction;
+        diagnosis.tests.push_back(test);
+      }
+    std::stable_sort(diagnosis.tests.begin(),
+                     diagnosis.tests.end(),
+                     [](const DiagnosedTest &a, const DiagnosedTest &b) {
+                       return a.name < b.name;
+                     });
+    diagnosis.shrink.left_out_before =
+      relative_rms(comparison, left_out_before);
+    diagnosis.shrink.left_out_after = relative_rms(comparison, left_out_after);
+  }
+
+
+
+  void describe_shrink(const Prepared &prepared,
+                       const Model    &after,
+                       Diagnosis      &diagnosis)
+  {
+    const Workspace  &workspace  = *prepared.workspace;
+    const Comparison &comparison = workspace.comparison;
+    Shrink           &shrink     = diagnosis.shrink;
+    const auto        rms        = [&](const Model &model) {
+      return relative_rms(comparison,
+                          comparison.difference(*model.simulator,
+                                                model.scaled));
+    };
+    shrink.fitted_before = rms(prepared.base);
+    shrink.fitted_after  = rms(after);
+    double      sum      = 0.;
+    std::size_t n        = 0;
+    for (const ComparedTest &test : comparison.tests)
+      {
+        const auto variances = noise_variances(test, comparison.noise());
+        sum += test.n_bins() * (variances.first + variances.second);
+        n += test.n_bins();
+      }
+    shrink.noise_floor     = std::sqrt(sum / n);
+    const auto above_floor = [&](const double value) {
+      return std::sqrt(
+        std::max(0., value * value - shrink.noise_floor * shrink.noise_floor));
+    };
+    shrink.systematic_before = above_floor(shrink.fitted_before);
+    shrink.systematic_after  = above_floor(shrink.fitted_after);
+
+    diagnosis.steps.push_back({"starting model as it is",
+                               prepared.start_rms,
+                               prepared.start_objective});
+    diagnosis.steps.push_back(
+      {"calibrated", shrink.fitted_before, prepared.base.objective});
+    Model so_far = prepared.base;
+    for (std::size_t part = 0; part < after.parts.size(); ++part)
+      {
+        if (part + 1 == after.parts.size())
+          so_far = after;
+        else
+          {
+            so_far =
+              make_model(workspace.start,
+                         {after.parts.begin(), after.parts.begin() + part + 1},
+                         after.values(),
+                         workspace.tests,
+                         &after);
+            comparison.fit(so_far, 0.1);
+          }
+        diagnosis.steps.push_back(
+          {"with " + after.parts[part].name, rms(so_far), so_far.objective});
+      }
+    diagnosis.steps.push_back({"noise alone",
+                               shrink.noise_floor,
+                               static_cast<double>(comparison.n_rows())});
+  }
+
+
+
+  void describe_doubts(const Workspace &workspace, Diagnosis &diagnosis)
+  {
+    std::vector<std::string> &doubts  = diagnosis.would_overturn;
+    const auto                percent = [](const double share) {
+      std::ostringstream out;
+      out << std::setprecision(2) << 100. * share << " %";
+      return out.str();
+    };
+    if (diagnosis.n_replicate_pairs == 0)
+      doubts.push_back(
+        "There are no replicates: the noise is what section Diagnosis states. "
+        "Were tests repeated and found farther apart than " +
+        percent(std::hypot(workspace.noise.noise.gain,
+                           workspace.noise.noise.offset)) +
+        " of friction, the verdict could fall.");
+    else if (diagnosis.n_replicate_pairs < 4)
+      doubts.push_back("The noise between tests is known from " +
+                       std::to_string(diagnosis.n_replicate_pairs) +
+                       " repetition(s) only; one that is farther off would "
+                       "make the gap less certain.");
+    switch (diagnosis.verdict)
+      {
+        case Verdict::named:
+        case Verdict::ambiguous:
+          doubts.push_back(
+            "An effect that is not in the catalogue but changes friction in "
+            "the same way under the conditions tested would be taken for " +
+            diagnosis.effects.front() +
+            "; conditions that were not tested could tell.");
+          if (!diagnosis.next_test.words.empty())
+            doubts.push_back("The next test (" + diagnosis.next_test.words +
+                             ") may speak for a rival.");
+          break;
+        case Verdict::unnamed:
+          doubts.push_back("A larger catalogue could have a name for it; so "
+                           "could tests that vary one condition at a time.");
+          break;
+        case Verdict::no_gap:
+        case Verdict::not_testable:
+          doubts.push_back(
+            "Effects that change friction by less than the smallest change "
+            "that would be seen (see the catalogue) may be there; tests under "
+            "other conditions, or more of them, could show them.");
+          break;
+      }
+    if (diagnosis.n_conditions == 1)
+      doubts.push_back("All tests are of one condition: nothing can be left "
+                       "out and predicted.");
+  }
+} // namespace SlipStep

@@ -1,0 +1,251 @@
+#include <slipstep/diagnosis/describe.h>
+#include <slipstep/diagnosis/diagnose.h>
+#include <slipstep/diagnosis/diagnosis_json.h>
+#include <slipstep/diagnosis/diagnosis_report.h>
+#include <slipstep/diagnosis/diagnosis_text.h>
+#include <slipstep/diagnosis/element_check.h>
+#include <slipstep/diagnosis/improved_case.h>
+#include <slipstep/diagnosis/where.h>
+#include <slipstep/experiment/run_recorder.h>
+#include <slipstep/utilities/command_line.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/progress.h>
+#include <slipstep/utilities/write_file.h>
+
+#include <algorithm>
+#include <iostream>
+#include <numeric>
+
+namespace SlipStep
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /// The stages of a diagnosis on the contact point.
+    class Diagnostician
+    {
+    public:
+      Diagnostician(const Parameters &parameters, const Stage &stage)
+        : parameters(parameters)
+        , stage(stage)
+      {}
+
+      void run();
+
+      Diagnosis                       result;
+      Parameters                      before, after; ///< cases
+      std::vector<DiagnosedParameter> found_parameters;
+
+    private:
+      void name();
+
+      void correct();
+
+      void prove();
+
+      void show();
+
+      const Parameters parameters;
+      const Stage      stage;
+      Prepared         prepared;
+      Judgement        judgement;
+      Model            final_model;
+    };
+
+
+
+    // The strongest first.
+    void Diagnostician::name()
+    {
+      judgement              = judge(*prepared.workspace, prepared.base);
+      result.has_gap         = judgement.gap.p <= prepared.workspace->level;
+      result.gap_p           = judgement.gap.p;
+      result.p_smooth        = judgement.gap.p_smooth;
+      result.p_waves         = judgement.gap.p_waves;
+      result.p_conditions    = judgement.gap.p_conditions;
+      result.excess          = judgement.gap.excess;
+      result.verdict         = judgement.verdict;
+      result.withdrawn       = judgement.withdrawn;
+      result.explained_share = judgement.explained_share;
+      result.remainder_p     = judgement.remainder.p;
+      final_model            = judgement.found.model;
+      const std::vector<double> &costs = judgement.found.costs;
+      std::vector<std::size_t>   order(final_model.parts.size());
+      std::iota(order.begin(), order.end(), 0);
+      if (costs.size() == order.size())
+        std::stable_sort(order.begin(),
+                         order.end(),
+                         [&](const std::size_t a, const std::size_t b) {
+                           return costs[a] > costs[b];
+                         });
+      for (const std::size_t part : order)
+        result.effects.push_back(final_model.parts[part].name);
+      for (const Rival &rival : judgement.found.rivals)
+        {
+          result.ambiguous_with.push_back(rival.name);
+          result.rival_of.push_back(rival.instead_of);
+        }
+    }
+
+
+
+    // What has no name may still be described along one covariate.
+    void Diagnostician::correct()
+    {
+      stage("describing what has no name");
+      const std::optional<Correction> correction = find_correction(
+        *prepared.workspace, prepared.base, judgement, result.where);
+      if (!correction.has_value())
+        return;
+      result.correction_covariate = correction->covariate;
+      result.correction_formula   = correction->formula;
+      result.correction_share     = correction->share;
+      final_model                 = correction->model;
+    }
+
+
+
+    void Diagnostician::prove()
+    {
+      const Workspace &workspace = *prepared.workspace;
+      stage("intervals");
+      found_parameters =
+        find_intervals(workspace, final_model, result.confidence);
+      stage("what these tests can tell");
+      result.candidates = candidate_results(workspace,
+                                            judgement,
+                                            found_parameters,
+                                            prepared.base);
+      stage("the next test");
+      result.next_test =
+        propose_next_test(workspace, final_model, judgement.found.rivals);
+      result.n_candidates = result.candidates.size();
+      result.n_refits     = workspace.n_refits;
+    }
+
+
+
+    void Diagnostician::show()
+    {
+      const Workspace  &workspace  = *prepared.workspace;
+      const Comparison &comparison = workspace.comparison;
+      stage("before and after");
+      describe_tests(prepared, final_model, result);
+      describe_shrink(prepared, final_model, result);
+      describe_doubts(workspace, result);
+      const Eigen::VectorXd base_difference =
+        comparison.difference(*prepared.base.simulator, prepared.base.scaled);
+      std::vector<std::pair<std::string, Eigen::VectorXd>> changes;
+      const auto add = [&](const std::string &label, const Model &model) {
+        changes.emplace_back(label,
+                             comparison.difference(*model.simulator,
+                                                   model.scaled) -
+                               base_difference);
+      };
+      if (!result.effects.empty())
+        add(list_text(result.effects), final_model);
+      else if (!final_model.parts.empty())
+        add("correction", final_model);
+      for (const Rival &rival : judgement.found.rivals)
+        if (changes.size() < 4)
+          add(rival.name, rival.model);
+      result.panels =
+        covariate_panels(workspace, base_difference, changes, result.where);
+      before = case_of(parameters, prepared.base);
+      after  = case_of(parameters, final_model);
+    }
+
+
+
+    void Diagnostician::run()
+    {
+      const ResourceUsage begin = ResourceUsage::now();
+      result.seed               = parameters.integer("Diagnosis/Seed");
+      result.level              = parameters.number("Diagnosis/Level");
+      result.n_draws            = parameters.integer("Diagnosis/Draws");
+      prepared                  = prepare(parameters, stage);
+      describe_data(prepared, result);
+      describe_noise(*prepared.workspace, result);
+      name();
+      if (result.has_gap)
+        {
+          stage("where the gap is");
+          result.where =
+            localise(*prepared.workspace, prepared.base, judgement.gap);
+        }
+      if (result.verdict == Verdict::unnamed)
+        correct();
+      prove();
+      show();
+      const ResourceUsage end = ResourceUsage::now();
+      result.wall_time        = end.wall_time - begin.wall_time;
+      result.cpu_time         = end.cpu_time - begin.cpu_time;
+    }
+
+
+
+    void write_results(Diagnostician    &diagnostician,
+                       const Parameters &parameters,
+                       const RunOptions &options,
+                       const fs::path   &improved)
+    {
+      Diagnosis &diagnosis = diagnostician.result;
+      write_file(improved,
+                 case_text(diagnostician.after,
+                           options.output,
+                           options.inactive_sections,
+                           diagnostician.found_parameters,
+                           {headline(diagnosis)}));
+      write_diagnosis_json(options.output / "diagnosis.json",
+                           parameters,
+                           diagnosis);
+      print_warnings(
+        write_diagnosis_report(options.output, parameters, diagnosis));
+      print_warnings(diagnosis.warnings);
+    }
+  } // namespace
+
+
+
+  void run_diagnosis(const Parameters    &parameters,
+                     const RunOptions    &options,
+                     const ElementRunner &element_runner)
+  {
+    Progress progress(options.quiet, parameters.case_file().stem().string());
+    double   share = 0.;
+    Diagnostician diagnostician(with_parameters_listed(parameters),
+                                [&](const std::string &text) {
+                                  share += 0.3 * (1. - share);
+                                  progress.update(share, text);
+                                });
+    diagnostician.run();
+    Diagnosis                     &diagnosis = diagnostician.result;
+    const std::vector<std::size_t> tests = element_tests(parameters, diagnosis);
+
+    create_output_folder(options.output);
+    remove_earlier_results(options.output);
+    const fs::path improved = options.output / "improved.prm";
+    diagnosis.improved_case = improved.filename().string();
+    write_results(diagnostician, parameters, options, improved);
+    if (!tests.empty())
+      {
+        progress.update(0.9, "simulating the block");
+        diagnosis.element_checks =
+          check_with_elements(diagnostician.before,
+                              diagnostician.after,
+                              diagnosis,
+                              tests,
+                              options.output / "elements",
+                              options.inactive_sections,
+                              element_runner);
+        write_results(diagnostician, parameters, options, improved);
+      }
+    progress.finish();
+    if (!options.quiet)
+      std::cout << diagnosis_table(diagnosis)
+                << "\nImproved case: " << improved.string()
+                << "\nReport: " << (options.output / "report.html").string()
+                << std::endl;
+  }
+} // namespace SlipStep

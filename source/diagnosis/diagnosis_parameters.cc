@@ -1,0 +1,100 @@
+#include <slipstep/diagnosis/candidates.h>
+#include <slipstep/diagnosis/diagnosis_parameters.h>
+
+#include <algorithm>
+
+namespace SlipStep
+{
+  namespace
+  {
+    const std::string section = "Diagnosis/";
+
+    void declare_noise(Parameters        &parameters,
+                       const std::string &name,
+                       const std::string &value,
+                       const std::string &what)
+    {
+      parameters.declare(section + name,
+                         value,
+                         Quantity(Dimension::number, 0., 1., true),
+                         "Standard deviation of " + what +
+                           ", as a share of friction, as thought of before any "
+                           "replicates are seen; without replicates it is what "
+                           "the verdict rests on. Between 0 and 1, no unit.");
+    }
+  } // namespace
+
+
+
+  void declare_diagnosis_parameters(Parameters &parameters)
+  {
+    using namespace dealii::Patterns;
+    parameters.declare(
+      section + "Candidates",
+      "all",
+      List(Anything()),
+      "Effects of which 'slipstep diagnose' thinks when something is missing, "
+      "separated by commas, or 'all' of the catalogue.");
+    parameters.declare(section + "Level",
+                       "0.03",
+                       Quantity(Dimension::number, 1e-3, 0.3),
+                       "Chance of an alarm where nothing is missing. Between "
+                       "0.001 and 0.3, no unit.");
+    parameters.declare(section + "Most effects",
+                       "4",
+                       Integer(1, 4),
+                       "How many effects may be added, one after the other. 1 "
+                       "to 4.");
+    parameters.declare(section + "Draws",
+                       "999",
+                       Integer(99, 100000),
+                       "Samples of noise by which chance is judged. 99 or "
+                       "more.");
+    parameters.declare(section + "Seed",
+                       "1",
+                       Integer(0),
+                       "Seed of these samples: the same seed gives the same "
+                       "verdict, to the last digit. 0 or more.");
+    parameters.declare(
+      section + "Element tests",
+      "worst",
+      Anything(),
+      "Tests that are simulated with finite elements before and after: "
+      "'worst', the one that is met worst before, 'none', or names of tests or "
+      "of their files, separated by commas.");
+    declare_noise(parameters, "Gain", "0.005", "a test's gain");
+    declare_noise(parameters, "Offset", "0.003", "a test's offset");
+    declare_noise(parameters, "Slope", "0.002", "a straight drift of a test");
+    declare_noise(parameters, "Drift", "0.005", "a random drift within a test");
+    parameters.declare(section + "Drift time",
+                       "0.1",
+                       Quantity(Dimension::number, 0.001, 10.),
+                       "Over which the random drift forgets, as a share of a "
+                       "test's duration, as thought of before any replicates "
+                       "are seen. Between 0.001 and 10, no unit.");
+  }
+
+
+
+  void check_diagnosis_parameters(const Parameters &parameters)
+  {
+    const std::vector<std::string> known = candidate_names();
+    const std::vector<std::string> list =
+      parameters.list(section + "Candidates");
+    if (list.empty())
+      parameters.reject(section + "Candidates", "name effects, or 'all'");
+    for (const std::string &name : list)
+      if (std::find(known.begin(), known.end(), name) == known.end() &&
+          !(name == "all" && list.size() == 1))
+        {
+          const std::string near = nearest_name(name, known);
+          std::string       all;
+          for (const std::string &one : known)
+            all += (all.empty() ? "" : ", ") + one;
+          parameters.reject(section + "Candidates",
+                            "there is no candidate '" + name + "'; " +
+                              (near.empty() ? "known are: " + all :
+                                              "did you mean '" + near + "'?"));
+        }
+  }
+} // namespace SlipStep

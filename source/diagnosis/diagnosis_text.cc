@@ -1,0 +1,372 @@
+#include <slipstep/diagnosis/diagnosis_text.h>
+
+#include <slipstep/calibration/calibration_text.h>
+#include <slipstep/experiment/report_data.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace SlipStep
+{
+  namespace
+  {
+    bool contains(const std::vector<std::string> &names,
+                  const std::string              &name)
+    {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    }
+
+    /// The rivals that stand in the place of an effect; rivals of which that
+    /// is not said stand in the place of the first.
+    std::vector<std::string> rivals_of(const Diagnosis  &diagnosis,
+                                       const std::size_t effect)
+    {
+      std::vector<std::string> rivals;
+      for (std::size_t i = 0; i < diagnosis.ambiguous_with.size(); ++i)
+        {
+          const std::string place =
+            i < diagnosis.rival_of.size() ? diagnosis.rival_of[i] : "";
+          const bool is_known = contains(diagnosis.effects, place);
+          if (is_known ? place == diagnosis.effects[effect] : effect == 0)
+            rivals.push_back(diagnosis.ambiguous_with[i]);
+        }
+      return rivals;
+    }
+
+    std::string capitalised(std::string text)
+    {
+      if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+        text[0] += 'A' - 'a';
+      return text;
+    }
+
+    /// In brackets behind the names.
+    std::string all_plain_words(const Diagnosis &diagnosis)
+    {
+      std::vector<std::string> names = diagnosis.effects;
+      names.insert(names.end(),
+                   diagnosis.ambiguous_with.begin(),
+                   diagnosis.ambiguous_with.end());
+      std::string text;
+      for (const std::string &name : names)
+        text += (text.empty() ? "" : "; ") +
+                (names.size() > 1 ? name + ": " : std::string()) +
+                plain_words(name);
+      return text;
+    }
+
+    /// "the gap falls from 4.12 % to 1.05 % of friction ..."
+    std::string shrink_words(const Shrink &shrink)
+    {
+      std::string text = "the gap to the measurements falls from " +
+                         percent_text(shrink.fitted_before) + " to " +
+                         percent_text(shrink.fitted_after) + " of friction";
+      if (shrink.left_out_before > 0.)
+        text += ", under conditions left out of the fit from " +
+                percent_text(shrink.left_out_before) + " to " +
+                percent_text(shrink.left_out_after);
+      return text + " (noise alone: " + percent_text(shrink.noise_floor) + ")";
+    }
+
+    /// What is there before anything is added.
+    std::string gap_words(const Shrink &shrink)
+    {
+      return "simulation and measurements differ by " +
+             percent_text(shrink.fitted_before) +
+             " of friction, of which noise alone makes " +
+             percent_text(shrink.noise_floor);
+    }
+
+    std::string named_words(const Diagnosis &diagnosis)
+    {
+      return list_text(diagnosis.effects) +
+             (diagnosis.effects.size() > 1 ? " are" : " is") + " missing (" +
+             all_plain_words(diagnosis) + "): with " +
+             (diagnosis.effects.size() > 1 ? "them " : "it ") +
+             shrink_words(diagnosis.shrink);
+    }
+
+    std::string ambiguous_words(const Diagnosis &diagnosis)
+    {
+      std::string text = "these tests do not tell what is missing, " +
+                         names_text(diagnosis) + " (" +
+                         all_plain_words(diagnosis) + "): with the first of " +
+                         "these names " + shrink_words(diagnosis.shrink);
+      if (!diagnosis.next_test.words.empty())
+        text += "; " + diagnosis.next_test.words + " would tell";
+      return text;
+    }
+
+    std::string unnamed_words(const Diagnosis &diagnosis)
+    {
+      std::string text =
+        "something is missing that no effect of the catalogue explains: " +
+        gap_words(diagnosis.shrink) + " (p = " + chance_text(diagnosis.gap_p) +
+        ")";
+      if (!diagnosis.where.empty())
+        text += ", most at " + range_text(diagnosis.where[0]);
+      if (!diagnosis.correction_covariate.empty())
+        text += "; a correction by " + diagnosis.correction_covariate +
+                ", cause unknown, brings it to " +
+                percent_text(diagnosis.shrink.fitted_after);
+      return text;
+    }
+
+    std::string verdict_words(const Diagnosis &diagnosis)
+    {
+      const std::string chance = " (p = " + chance_text(diagnosis.gap_p) + ")";
+      switch (diagnosis.verdict)
+        {
+          case Verdict::named:
+            return named_words(diagnosis);
+          case Verdict::ambiguous:
+            return ambiguous_words(diagnosis);
+          case Verdict::unnamed:
+            return unnamed_words(diagnosis);
+          case Verdict::no_gap:
+            return "nothing is missing as far as these tests can tell: " +
+                   gap_words(diagnosis.shrink) + chance;
+          case Verdict::not_testable:
+            return "these tests cannot tell whether anything is missing: " +
+                   gap_words(diagnosis.shrink) + chance +
+                   ", and no effect of the catalogue would have been seen";
+        }
+      return "";
+    }
+
+    std::string outlier_words(const std::vector<Outlier> &outliers)
+    {
+      if (outliers.empty())
+        return "";
+      std::vector<std::string> names;
+      for (const Outlier &outlier : outliers)
+        if (!contains(names, "'" + outlier.test + "'"))
+          names.push_back("'" + outlier.test + "'");
+      if (names.size() > 3)
+        {
+          const std::size_t n_more = names.size() - 2;
+          names.resize(2);
+          names.push_back(std::to_string(n_more) + " more");
+        }
+      return "; look at " + list_text(names) + " first, which " +
+             (names.size() > 1 ? "do" : "does") +
+             " not behave like the other tests";
+    }
+
+    /// Digits by the width of the interval.
+    FittedParameter as_fitted(const DiagnosedParameter &parameter)
+    {
+      FittedParameter fitted;
+      fitted.value         = parameter.value;
+      fitted.lower         = parameter.lower;
+      fitted.upper         = parameter.upper;
+      fitted.is_lower_open = parameter.is_lower_open;
+      fitted.is_upper_open = parameter.is_upper_open;
+      fitted.is_at_bound   = parameter.is_at_bound;
+      const double above   = parameter.upper - parameter.value;
+      const double below   = parameter.value - parameter.lower;
+      fitted.deviation =
+        0.5 * (parameter.is_lower_open ? above :
+               parameter.is_upper_open ? below :
+                                         0.5 * (above + below));
+      return fitted;
+    }
+  } // namespace
+
+
+
+  std::string headline(const Diagnosis &diagnosis)
+  {
+    const bool        is_stated = diagnosis.n_replicate_pairs == 0;
+    const std::string words     = verdict_words(diagnosis);
+    return (is_stated ?
+              "If the stated noise is right (there are no replicates), " +
+                words :
+              capitalised(words)) +
+           (has_after(diagnosis) && !diagnosis.effects.empty() &&
+                diagnosis.remainder_p <= diagnosis.level ?
+              "; not all of it is explained" :
+              "") +
+           outlier_words(diagnosis.outliers) + ".";
+  }
+
+
+
+  std::string plain_words(const std::string &effect)
+  {
+    static const std::map<std::string, std::string> words = {
+      {"overstress", "friction that rises with sliding speed"},
+      {"softening", "friction that falls after the first slip and stays low"},
+      {"healing", "contacts that strengthen at rest: a peak after every hold"},
+      {"pressure", "a friction coefficient that changes with pressure"},
+      {"shear_cap", "a limit of the shear stress at high pressure"},
+      {"adhesion", "surfaces that stick even without pressure"},
+      {"heating", "friction that falls as fast sliding heats the contact"},
+      {"run_in", "surfaces that run in: a slow drift with the distance slid"},
+      {"anisotropy", "friction that depends on the direction in the plane"},
+      {"direction", "friction that differs between forward and back strokes"},
+      {"stribeck", "higher friction at slow speeds, as with a lubricant"},
+      {"viscous", "a drag in proportion to speed, as of a fluid film"},
+      {"compliance", "another elastic stiffness of contact or machine"},
+      {"subloading", "slip that begins little by little before full friction"},
+      {"expression", "a correction by a formula, cause unknown"}};
+    const auto found = words.find(effect);
+    return found == words.end() ? effect : found->second;
+  }
+
+
+
+  std::string short_verdict(const Verdict verdict)
+  {
+    switch (verdict)
+      {
+        case Verdict::named:
+          return "missing effect named";
+        case Verdict::ambiguous:
+          return "several explanations";
+        case Verdict::unnamed:
+          return "something unknown is missing";
+        case Verdict::no_gap:
+          return "nothing is missing";
+        case Verdict::not_testable:
+          return "these tests cannot tell";
+      }
+    return "";
+  }
+
+
+
+  std::string list_text(const std::vector<std::string> &names,
+                        const std::string              &before_last)
+  {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      text += (i == 0                ? "" :
+               i + 1 == names.size() ? " " + before_last + " " :
+                                       ", ") +
+              names[i];
+    return text;
+  }
+
+
+
+  std::string names_text(const Diagnosis &diagnosis)
+  {
+    std::string text;
+    for (std::size_t i = 0; i < diagnosis.effects.size(); ++i)
+      {
+        std::vector<std::string> names = rivals_of(diagnosis, i);
+        names.insert(names.begin(), diagnosis.effects[i]);
+        text += (text.empty() ? "" : ", and ") + list_text(names, "or");
+      }
+    return text;
+  }
+
+
+
+  std::string percent_text(const double share)
+  {
+    const double percent = 100. * share;
+    const double size    = std::abs(percent);
+    if (!std::isfinite(percent))
+      return "–";
+    return (size >= 99.95                ? fixed_text(percent, 0) :
+            size >= 9.995                ? fixed_text(percent, 1) :
+            size >= 0.0995 || size == 0. ? fixed_text(percent, 2) :
+                                           plain_text(percent, 2)) +
+           " %";
+  }
+
+
+
+  std::string chance_text(const double p)
+  {
+    return p < 1e-3 ? "< 0.001" : short_text(p, 2);
+  }
+
+
+
+  std::string range_text(const Localisation &where)
+  {
+    const std::string unit = where.unit.empty() ? "" : " " + where.unit;
+    if (where.from == 0. && where.to == 0.)
+      return where.covariate;
+    const std::string from = plain_text(where.from, 3);
+    const std::string to   = plain_text(where.to, 3);
+    return where.covariate + " " + (from == to ? from : from + " … " + to) +
+           unit;
+  }
+
+
+
+  std::string sign_text(const Localisation &where)
+  {
+    return where.sign > 0 ? "higher" : where.sign < 0 ? "lower" : "different";
+  }
+
+
+
+  std::string value_text(const DiagnosedParameter &parameter,
+                         const double              value)
+  {
+    return std::isfinite(value) ? digits_text(as_fitted(parameter), value) :
+                                  "–";
+  }
+
+
+
+  std::string label_text(const DiagnosedParameter &parameter)
+  {
+    const std::string all = "Friction/";
+    return parameter.path.compare(0, all.size(), all) == 0 ?
+             parameter.path.substr(all.size()) :
+             parameter.path;
+  }
+
+
+
+  std::string interval_text(const DiagnosedParameter &parameter)
+  {
+    return interval_text(as_fitted(parameter));
+  }
+
+
+
+  std::string interval_name(const Diagnosis &diagnosis)
+  {
+    return short_text(100. * diagnosis.confidence) + " % interval";
+  }
+
+
+
+  std::string noise_text(const NoiseComponent &component)
+  {
+    std::string text = short_text(component.value, 2);
+    if (component.upper > component.lower)
+      text += " (" + short_text(component.lower, 2) + " … " +
+              short_text(component.upper, 2) + ")";
+    return text + (component.unit.empty() ? "" : " " + component.unit);
+  }
+
+
+
+  std::vector<DiagnosedParameter> named_parameters(const Diagnosis &diagnosis)
+  {
+    std::vector<DiagnosedParameter> result;
+    for (const CandidateResult &candidate : diagnosis.candidates)
+      if (contains(diagnosis.effects, candidate.name))
+        result.insert(result.end(),
+                      candidate.parameters.begin(),
+                      candidate.parameters.end());
+    return result;
+  }
+
+
+
+  bool has_after(const Diagnosis &diagnosis)
+  {
+    return !diagnosis.effects.empty() ||
+           !diagnosis.correction_covariate.empty();
+  }
+} // namespace SlipStep

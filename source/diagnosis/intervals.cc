@@ -1,0 +1,171 @@
+#include <slipstep/calibration/uncertainty.h>
+#include <slipstep/diagnosis/prove.h>
+
+#include <Eigen/Dense>
+
+#include <boost/math/distributions/chi_squared.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// Follows one parameter away from the optimum.
+    class Follower
+    {
+    public:
+      Follower(const Workspace  &workspace,
+               const Model      &optimum,
+               const std::size_t parameter,
+               const double      threshold)
+        : workspace(workspace)
+        , optimum(optimum)
+        , parameter(parameter)
+        , threshold(threshold)
+        , held(optimum.scaled.size(), false)
+      {
+        held[parameter] = true;
+        // Where the others go to first order.
+        Eigen::MatrixXd others = optimum.derivatives;
+        others.col(parameter).setZero();
+        slopes = -others.completeOrthogonalDecomposition().solve(
+          optimum.derivatives.col(parameter));
+        slopes(parameter) = 1.;
+      }
+
+      RiseEnd follow(const int sign, const double deviation)
+      {
+        model             = optimum;
+        model.simulator   = std::make_shared<Simulator>(*optimum.simulator);
+        const double at   = optimum.scaled[parameter];
+        const double room = sign > 0 ? 1. - at : at;
+        return follow_rise(
+          [&](const double distance) { return rise(at + sign * distance); },
+          std::min(room, std::max(1e-4, deviation * std::sqrt(threshold))),
+          room);
+      }
+
+      std::vector<std::pair<double, double>> points; ///< scaled, objective
+
+    private:
+      double rise(const double scaled)
+      {
+        const double distance = scaled - optimum.scaled[parameter];
+        for (std::size_t i = 0; i < model.scaled.size(); ++i)
+          model.scaled[i] =
+            std::clamp(optimum.scaled[i] + distance * slopes(i), 0., 1.);
+        if (!workspace.comparison.fit(model, 0.005, {}, held))
+          {
+            model.scaled = optimum.scaled;
+            return std::numeric_limits<double>::infinity();
+          }
+        const double increase = model.objective - optimum.objective;
+        points.emplace_back(scaled, increase);
+        return std::max(0., increase / threshold);
+      }
+
+      const Workspace  &workspace;
+      const Model      &optimum;
+      Model             model;
+      const std::size_t parameter;
+      const double      threshold;
+      std::vector<bool> held;
+      Eigen::VectorXd   slopes; ///< of all, per distance
+    };
+
+
+
+    Eigen::VectorXd deviations_of(const Model &model)
+    {
+      const Eigen::MatrixXd curvature =
+        model.derivatives.transpose() * model.derivatives;
+      return curvature.completeOrthogonalDecomposition()
+        .pseudoInverse()
+        .diagonal()
+        .cwiseMax(0.)
+        .cwiseSqrt();
+    }
+
+
+
+    const Part *owner_of(const Model &model, const std::string &path)
+    {
+      for (const Part &part : model.parts)
+        for (const CandidateParameter &parameter : part.formula.parameters)
+          if (parameter.path == path)
+            return &part;
+      return nullptr;
+    }
+
+
+
+    void follow_both_ways(const Workspace    &workspace,
+                          const Model        &model,
+                          const std::size_t   i,
+                          const double        deviation,
+                          const double        threshold,
+                          DiagnosedParameter &result)
+    {
+      const FitParameter &parameter = model.campaign->fitted[i];
+      Follower            follower(workspace, model, i, threshold);
+      const RiseEnd       below = follower.follow(-1, deviation);
+      const RiseEnd       above = follower.follow(1, deviation);
+      const auto          value = [&](const double scaled) {
+        return parameter.in_unit(parameter.from_scaled(scaled));
+      };
+      result.lower         = value(model.scaled[i] - below.distance);
+      result.upper         = value(model.scaled[i] + above.distance);
+      result.is_lower_open = below.is_open;
+      result.is_upper_open = above.is_open;
+      result.profile.emplace_back(result.value, 0.);
+      for (const auto &point : follower.points)
+        result.profile.emplace_back(value(point.first), point.second);
+      std::sort(result.profile.begin(), result.profile.end());
+    }
+  } // namespace
+
+
+
+  std::vector<DiagnosedParameter> find_intervals(const Workspace &workspace,
+                                                 const Model     &model,
+                                                 const double     confidence)
+  {
+    const double threshold =
+      boost::math::quantile(boost::math::chi_squared(1.), confidence);
+    const Eigen::VectorXd           deviations = deviations_of(model);
+    std::vector<DiagnosedParameter> result(model.scaled.size());
+    side_by_side(model.scaled.size(), [&](const std::size_t i) {
+      const FitParameter &parameter = model.campaign->fitted[i];
+      const Part         *part      = owner_of(model, parameter.path);
+      DiagnosedParameter &out       = result[i];
+      out.path                      = parameter.path;
+      out.name                      = parameter.name;
+      out.unit                      = parameter.unit();
+      const auto value              = [&](const double scaled) {
+        return parameter.in_unit(
+          parameter.from_scaled(std::clamp(scaled, 0., 1.)));
+      };
+      out.value       = value(model.scaled[i]);
+      out.before      = parameter.in_unit(parameter.start);
+      out.is_at_bound = model.scaled[i] < 1e-6 || model.scaled[i] > 1. - 1e-6;
+      if (part != nullptr)
+        {
+          out.effect = part->name;
+          follow_both_ways(workspace, model, i, deviations(i), threshold, out);
+          // Those of the starting model have a value before, too.
+          if (workspace.start.text("Calibration/Parameters")
+                .find(parameter.path) == std::string::npos)
+            out.before = std::numeric_limits<double>::quiet_NaN();
+          return;
+        }
+      const double half = std::sqrt(threshold) * deviations(i);
+      out.lower         = value(model.scaled[i] - half);
+      out.upper         = value(model.scaled[i] + half);
+      out.is_lower_open = model.scaled[i] - half < 0.;
+      out.is_upper_open = model.scaled[i] + half > 1.;
+    });
+    return result;
+  }
+} // namespace SlipStep

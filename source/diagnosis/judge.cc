@@ -1,0 +1,108 @@
+#include <slipstep/diagnosis/judge.h>
+#include <slipstep/diagnosis/prepare.h>
+
+#include <algorithm>
+
+namespace SlipStep
+{
+  std::vector<Direction> smooth_directions(const Workspace &workspace,
+                                           const View      &view)
+  {
+    std::vector<Direction> result = view.directions;
+    for (const BasisColumn &column :
+         smooth_basis(workspace.comparison, workspace.covariates))
+      {
+        Direction direction;
+        direction.friction = column.friction;
+        result.push_back(direction);
+      }
+    return result;
+  }
+
+
+
+  namespace
+  {
+    GapTest
+    gap_of(const Workspace &workspace, const Model &model, const View &view)
+    {
+      return test_gap(workspace.comparison,
+                      workspace.covariates,
+                      model,
+                      workspace.null_draws,
+                      smooth_directions(workspace, view));
+    }
+
+
+
+    // Names that leave most of what could be explained are no explanation.
+    void withdraw(Judgement &judgement, const Model &base)
+    {
+      for (const Part &part : judgement.found.model.parts)
+        judgement.withdrawn.push_back(part.name);
+      judgement.found.model = base;
+      judgement.found.rivals.clear();
+      judgement.found.costs.clear();
+      judgement.found.left_out_gains.clear();
+      judgement.remainder       = judgement.gap;
+      judgement.explained_share = 0.;
+      judgement.verdict         = Verdict::unnamed;
+    }
+  } // namespace
+
+
+
+  Judgement judge(Workspace &workspace, const Model &base)
+  {
+    const auto tell = [&](const std::string &text) {
+      if (workspace.progress)
+        workspace.progress(text);
+    };
+    Judgement result;
+    tell("looking for a gap");
+    result.view        = look(workspace, base);
+    result.gap         = gap_of(workspace, base, result.view);
+    result.remainder   = result.gap;
+    result.found.model = base;
+    if (result.gap.p > workspace.level)
+      {
+        const bool is_blind =
+          std::none_of(result.view.candidates.begin(),
+                       result.view.candidates.end(),
+                       [](const CandidateView &seen) {
+                         return seen.minimum_detectable < 1.;
+                       });
+        result.verdict = is_blind ? Verdict::not_testable : Verdict::no_gap;
+        return result;
+      }
+
+    tell("looking for its name");
+    result.found = search(workspace, base);
+    if (result.found.model.parts.empty())
+      {
+        result.verdict = Verdict::unnamed;
+        return result;
+      }
+    result.remainder = gap_of(workspace,
+                              result.found.model,
+                              look(workspace, result.found.model));
+    result.explained_share =
+      result.gap.excess > 0. ?
+        std::clamp(1. - result.remainder.excess / result.gap.excess, 0., 1.) :
+        1.;
+    result.verdict =
+      result.found.rivals.empty() ? Verdict::named : Verdict::ambiguous;
+    const auto rms = [&](const Model &model) {
+      return relative_rms(workspace.comparison,
+                          workspace.comparison.difference(*model.simulator,
+                                                          model.scaled));
+    };
+    const bool is_significant = result.remainder.p <= workspace.level;
+    if ((is_significant && result.explained_share < sufficient_share) ||
+        result.remainder.excess >
+          (1. - least_share) * result.gap.excess + sure_excess ||
+        rms(result.found.model) > rms(base))
+      withdraw(result, base);
+    return result;
+  }
+} // namespace SlipStep

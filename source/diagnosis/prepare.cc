@@ -1,0 +1,368 @@
+#include <slipstep/diagnosis/outlier.h>
+#include <slipstep/diagnosis/prepare.h>
+#include <slipstep/experiment/test_rows.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <numeric>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    const std::string section = "Diagnosis/";
+
+    const char *const list_key = "Calibration/Parameters";
+
+    // "path from a to b start c scale", within what the key allows; "" for what
+    // is no positive number.
+    std::string statement(const Parameters  &parameters,
+                          const std::string &path,
+                          const double       factor,
+                          const std::string &scale)
+    {
+      const auto *quantity =
+        dynamic_cast<const Quantity *>(parameters.entry(path).pattern.get());
+      if (quantity == nullptr || !(parameters.number(path) > 0.))
+        return "";
+      const double value = parameters.number(path);
+      // Next to a bound that is excluded.
+      const double lower =
+        std::max(value / factor, quantity->minimum * (1. + 1e-6));
+      const double upper = std::min(value * factor, quantity->maximum);
+      if (!(lower < value) || !(value < upper))
+        return "";
+      const auto text = [&](const double number) {
+        return quantity_text(parameters, path, number);
+      };
+      return path + " from " + text(lower) + " to " + text(upper) + " start " +
+             text(value) + " " + scale;
+    }
+
+
+
+    // Scales of which only a product with another parameter is felt.
+    bool is_reference(const std::string &path)
+    {
+      for (const std::string end : {"Maximum ratio",
+                                    "Reference pressure",
+                                    "Weakening",
+                                    "Angle",
+                                    "Forward angle",
+                                    "From",
+                                    "To"})
+        if (path.size() > end.size() &&
+            path.compare(path.size() - end.size(), end.size(), end) == 0)
+          return true;
+      return false;
+    }
+  } // namespace
+
+
+
+  Parameters with_parameters_listed(const Parameters &parameters)
+  {
+    Parameters  result = parameters;
+    std::string list;
+    const auto  add = [&](const std::string &text) {
+      if (!text.empty())
+        list += (list.empty() ? "" : "; ") + text;
+    };
+    if (parameters.text(list_key).empty())
+      {
+        add(statement(parameters, "Friction/Static coefficient", 3., "linear"));
+        for (const std::string &effect : parameters.list("Friction/Effects"))
+          for (const std::string &path :
+               parameters.paths("Friction/" + effect + "/"))
+            if (!is_reference(path))
+              add(path.find("coefficient") == std::string::npos ?
+                    statement(parameters, path, 30., "log") :
+                    statement(parameters, path, 3., "linear"));
+      }
+    else
+      // With the starts written out.
+      for (const FitParameter &parameter : read_fit_parameters(parameters))
+        add(parameter.path + " from " + parameter.text(parameter.lower) +
+            " to " + parameter.text(parameter.upper) + " start " +
+            parameter.text(parameter.start) +
+            (parameter.is_logarithmic ? " log" : " linear"));
+    result.set(list_key, list, "diagnosis");
+    return result;
+  }
+
+
+
+  double relative_rms(const Comparison      &comparison,
+                      const Eigen::VectorXd &difference)
+  {
+    double       sum = 0.;
+    Eigen::Index n   = 0;
+    for (const ComparedTest &test : comparison.tests)
+      {
+        sum += difference.segment(test.begin, test.size).squaredNorm() /
+               (test.level * test.level);
+        n += test.n_bins();
+      }
+    return std::sqrt(sum / n);
+  }
+
+
+
+  namespace
+  {
+    Noise stated_noise(const Parameters &parameters)
+    {
+      const auto number = [&](const std::string &name) {
+        return parameters.number(section + name);
+      };
+      Noise noise;
+      noise.white      = 1.;
+      noise.drift      = number("Drift");
+      noise.drift_time = number("Drift time");
+      noise.gain       = number("Gain");
+      noise.offset     = number("Offset");
+      noise.slope      = number("Slope");
+      return noise;
+    }
+
+
+
+    // By what was measured, not by what the tests are called: the samples of
+    // noise go to the same tests whatever their names, order and units.
+    void sort_by_content(std::vector<CampaignTest> &tests)
+    {
+      const auto key = [](const CampaignTest &test) {
+        const MeasuredTest &rows = test.rows;
+        std::ostringstream  out;
+        out << std::scientific << std::setprecision(6);
+        for (const double value :
+             {rows.time.back() - rows.time.front(),
+              range_of(rows.displacement),
+              rows.pressure.front(),
+              rows.friction.back(),
+              std::accumulate(rows.friction.begin(), rows.friction.end(), 0.)})
+          out << value << ' ';
+        return out.str();
+      };
+      std::sort(tests.begin(),
+                tests.end(),
+                [&](const CampaignTest &a, const CampaignTest &b) {
+                  return key(a) < key(b);
+                });
+    }
+
+
+
+    /// The stages before anything is judged.
+    class Preparer
+    {
+    public:
+      Preparer(const Parameters &parameters, const Stage &stage)
+        : stage(stage)
+        , start(with_parameters_listed(parameters))
+        , stated(stated_noise(parameters))
+      {}
+
+      Prepared run();
+
+    private:
+      void begin(const std::vector<CampaignTest> &tests);
+
+      void calibrate();
+
+      bool drop_outlier();
+
+      void judge_chance();
+
+      void warn();
+
+      const Stage      stage;
+      const Parameters start;
+      const Noise      stated;
+      Prepared         result;
+    };
+
+
+
+    void Preparer::begin(const std::vector<CampaignTest> &tests)
+    {
+      const unsigned int most_effects = start.integer(section + "Most effects");
+      result.workspace.reset(new Workspace{start,
+                                           tests,
+                                           Comparison(tests),
+                                           {},
+                                           {},
+                                           {},
+                                           {},
+                                           start.number(section + "Level"),
+                                           most_effects,
+                                           0,
+                                           stage});
+      Workspace &workspace = *result.workspace;
+      workspace.comparison.set_noise(stated, workspace.comparison.measured);
+      result.base = make_model(start, {}, {}, tests);
+      for (std::size_t i = 0; i < result.base.scaled.size(); ++i)
+        result.base.scaled[i] = result.base.campaign->scaled_start()[i];
+      result.base.simulator->plan(result.base.scaled);
+      const Eigen::VectorXd difference =
+        workspace.comparison.difference(*result.base.simulator,
+                                        result.base.scaled);
+      if (difference.size() == 0)
+        throw RunError("the starting model cannot be simulated");
+      result.start_rms = relative_rms(workspace.comparison, difference);
+    }
+
+
+
+    // Fit, noise, and again: what replicates differ by hardly depends on the
+    // model, unless the first fit is far off.
+    void Preparer::calibrate()
+    {
+      Workspace  &workspace  = *result.workspace;
+      Comparison &comparison = workspace.comparison;
+      Simulator  &simulator  = *result.base.simulator;
+      for (unsigned int pass = 0; pass < 3; ++pass)
+        {
+          if (!comparison.fit(result.base, pass < 2 ? 1. : 0.01))
+            throw RunError("the starting model cannot be simulated");
+          simulator.plan(result.base.scaled);
+          simulator.correct(result.base.scaled, correction_share);
+          if (pass == 2)
+            break;
+          const Eigen::VectorXd difference =
+            comparison.difference(simulator, result.base.scaled);
+          workspace.noise =
+            estimate_noise(comparison.contrasts(difference), stated);
+          comparison.set_noise(workspace.noise.noise,
+                               comparison.measured + difference);
+        }
+      comparison.fit(result.base, 0.01);
+    }
+
+
+
+    // A test that its own replicate contradicts. Of two the one farther from
+    // the model.
+    bool Preparer::drop_outlier()
+    {
+      Workspace            &workspace  = *result.workspace;
+      const Comparison     &comparison = workspace.comparison;
+      const Eigen::VectorXd difference =
+        comparison.difference(*result.base.simulator, result.base.scaled);
+      const std::optional<Contradiction> found =
+        find_contradiction(comparison.contrasts(difference),
+                           workspace.noise.noise,
+                           stated,
+                           start.integer(section + "Seed"));
+      if (!found.has_value())
+        return false;
+      const std::vector<double> squares =
+        comparison.squares_by_test(result.base.residual);
+      std::size_t outlier = found->tests[0];
+      for (const std::size_t test : found->tests)
+        if (squares[test] / comparison.tests[test].size >
+            squares[outlier] / comparison.tests[outlier].size)
+          outlier = test;
+      std::vector<CampaignTest> kept = workspace.tests;
+      std::string               twins;
+      for (const std::size_t test : found->tests)
+        if (test != outlier)
+          twins +=
+            (twins.empty() ? "" : ", ") + workspace.tests[test].rows.name;
+      std::ostringstream words;
+      words << std::setprecision(2) << "it contradicts its replicate " << twins
+            << " (chance by the noise of the others: " << found->chance
+            << ") and is farther from the model: it is left out";
+      result.outliers.push_back({kept[outlier].rows.name, words.str()});
+      result.outlier_tests.push_back(kept[outlier]);
+      kept.erase(kept.begin() + outlier);
+      begin(kept);
+      return true;
+    }
+
+
+
+    void Preparer::judge_chance()
+    {
+      Workspace            &workspace  = *result.workspace;
+      Comparison           &comparison = workspace.comparison;
+      const Eigen::VectorXd friction =
+        comparison.measured +
+        comparison.difference(*result.base.simulator, result.base.scaled);
+      const FrictionLaw law(result.base.simulator->with(result.base.scaled));
+      workspace.covariates =
+        find_covariates(comparison,
+                        workspace.tests,
+                        friction,
+                        law.static_coefficient() / law.tangential_stiffness());
+      workspace.range =
+        tested_range(comparison, workspace.tests, workspace.covariates);
+      workspace.null_draws = draw_null(comparison,
+                                       workspace.noise,
+                                       start.integer(section + "Draws"),
+                                       start.integer(section + "Seed"));
+      RowMatrix whitened =
+        comparison.difference(*result.base.simulator,
+                              result.base.campaign->scaled_start());
+      comparison.whiten(whitened);
+      result.start_objective = whitened.squaredNorm();
+    }
+
+
+
+    void Preparer::warn()
+    {
+      const Workspace &workspace = *result.workspace;
+      const double     rms =
+        relative_rms(workspace.comparison,
+                     workspace.comparison.difference(*result.base.simulator,
+                                                     result.base.scaled));
+      if (rms > 1.02 * result.start_rms)
+        result.warnings.push_back(
+          "Calibrated, the starting model is farther from the tests than "
+          "before: the stated noise lets whole tests be off, or its parameters "
+          "have to start elsewhere.");
+      const Noise &noise = workspace.noise.noise;
+      if (std::hypot(noise.gain, noise.offset, noise.drift) > rms)
+        result.warnings.push_back(
+          "Replicates differ by more than the model does from the tests: they "
+          "may not be repetitions, and little can be told.");
+    }
+
+
+
+    Prepared Preparer::run()
+    {
+      const auto tell = [&](const std::string &text) {
+        if (stage)
+          stage(text);
+      };
+      tell("reading the tests");
+      const Campaign campaign(start);
+      result.warnings                 = campaign.warnings();
+      std::vector<CampaignTest> tests = campaign.tests;
+      sort_by_content(tests);
+      begin(tests);
+      tell("calibrating the starting model");
+      calibrate();
+      for (unsigned int n = 0; n < 2 && drop_outlier(); ++n)
+        calibrate();
+      tell("noise");
+      judge_chance();
+      warn();
+      return std::move(result);
+    }
+  } // namespace
+
+
+
+  Prepared prepare(const Parameters &parameters, const Stage &stage)
+  {
+    return Preparer(parameters, stage).run();
+  }
+} // namespace SlipStep

@@ -1,0 +1,370 @@
+#include <slipstep/diagnosis/prove.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // A change of friction larger than this is not worth calling testable.
+    constexpr double largest_hidden_change = 0.25;
+
+    // Standard deviations at which two predictions count as told apart.
+    constexpr double told_apart = 5.;
+
+    // Strength (see Shape) of an effect that a test is to reveal: a change of
+    // some three per cent.
+    constexpr double worthwhile_strength = 3.;
+
+
+
+    /// A test that could be made, with what it takes to compare predictions.
+    class ImaginedTest
+    {
+    public:
+      ImaginedTest(const Workspace &workspace, const MeasuredTest &motion)
+        : workspace(workspace)
+        , motion(motion)
+        , replay(motion)
+      {}
+
+      // The friction along both axes; empty if it cannot be simulated.
+      Eigen::VectorXd predict(const Model               &model,
+                              const std::vector<double> &scaled,
+                              const bool                 plan)
+      {
+        constexpr std::size_t most_steps = 5000;
+        try
+          {
+            Simulator         simulator(*model.simulator);
+            const Parameters &parameters = simulator.with(scaled);
+            const FrictionLaw law(parameters);
+            const Machine     machine(parameters);
+            if (plan)
+              replay.plan(law,
+                          machine,
+                          model.campaign->search_tolerance,
+                          most_steps);
+            Replay::Curve curve;
+            replay.simulate(law, machine, curve);
+            const std::vector<double> x =
+              replay.at(curve.friction, motion.time);
+            const std::vector<double> y =
+              motion.displacement_y.empty() ?
+                std::vector<double>() :
+                replay.at(curve.friction_y, motion.time);
+            Eigen::VectorXd result(x.size() + y.size());
+            for (std::size_t i = 0; i < x.size(); ++i)
+              result(i) = x[i];
+            for (std::size_t i = 0; i < y.size(); ++i)
+              result(x.size() + i) = y[i];
+            return result;
+          }
+        catch (const InputError &)
+          {}
+        catch (const RunError &)
+          {
+            throw_if_stopped();
+          }
+        return {};
+      }
+
+      // What one standard deviation of each combination of the parameters
+      // changes.
+      Eigen::MatrixXd uncertainty(const Model &model, const Eigen::VectorXd &at)
+      {
+        const Eigen::MatrixXd curvature =
+          model.derivatives.transpose() * model.derivatives;
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(curvature);
+        const double    largest = eigen.eigenvalues().maxCoeff();
+        Eigen::MatrixXd columns(at.size(), model.scaled.size());
+        for (std::size_t i = 0; i < model.scaled.size(); ++i)
+          {
+            std::vector<double> scaled = model.scaled;
+            const double        step   = scaled[i] > 0.5 ? -1e-4 : 1e-4;
+            scaled[i] += step;
+            const Eigen::VectorXd there = predict(model, scaled, false);
+            if (there.size() == 0)
+              columns.col(i).setZero();
+            else
+              columns.col(i) = (there - at) / step;
+          }
+        return columns * eigen.eigenvectors() *
+               eigen.eigenvalues()
+                 .cwiseMax(1e-12 * largest)
+                 .cwiseSqrt()
+                 .cwiseInverse()
+                 .asDiagonal();
+      }
+
+      Whitener whitener(const Eigen::VectorXd &friction) const
+      {
+        const std::size_t   n = motion.time.size();
+        Series              series;
+        const double        duration = motion.time.back() - motion.time.front();
+        std::vector<double> noises;
+        for (const CampaignTest &test : workspace.tests)
+          noises.push_back(test.noise);
+        std::nth_element(noises.begin(),
+                         noises.begin() + noises.size() / 2,
+                         noises.end());
+        for (std::size_t i = 0; i < n; ++i)
+          series.time.push_back((motion.time[i] - motion.time.front()) /
+                                duration);
+        series.row_noise.assign(n, noises[noises.size() / 2]);
+        std::vector<Series> all(friction.size() / n, series);
+        for (std::size_t s = 0; s < all.size(); ++s)
+          all[s].friction.assign(friction.data() + s * n,
+                                 friction.data() + (s + 1) * n);
+        return Whitener(all,
+                        workspace.range.typical_friction,
+                        workspace.comparison.noise());
+      }
+
+    private:
+      const Workspace    &workspace;
+      const MeasuredTest &motion;
+      Replay              replay;
+    };
+  } // namespace
+
+
+
+  // d^2 = w (I + U U^T)^-1 w with what the parameters may do in U.
+  double separation(const Workspace    &workspace,
+                    const Model        &a,
+                    const Model        &b,
+                    const MeasuredTest &motion)
+  {
+    ImaginedTest          test(workspace, motion);
+    const Eigen::VectorXd at_b = test.predict(b, b.scaled, true);
+    const Eigen::VectorXd at_a = test.predict(a, a.scaled, false);
+    if (at_a.size() == 0 || at_b.size() == 0)
+      return 0.;
+    const Eigen::MatrixXd of_a = test.uncertainty(a, at_a);
+    const Eigen::MatrixXd of_b = b.derivatives.size() > 0 ?
+                                   test.uncertainty(b, at_b) :
+                                   Eigen::MatrixXd(at_a.size(), 0);
+    RowMatrix             columns(at_a.size(), 1 + of_a.cols() + of_b.cols());
+    columns << at_b - at_a, of_a, of_b;
+    test.whitener(at_a).apply(columns);
+    const Eigen::VectorXd w = columns.col(0);
+    const Eigen::MatrixXd U = columns.rightCols(columns.cols() - 1);
+    const Eigen::MatrixXd inner =
+      Eigen::MatrixXd::Identity(U.cols(), U.cols()) + U.transpose() * U;
+    const Eigen::VectorXd Uw = U.transpose() * w;
+    const double square      = w.squaredNorm() - Uw.dot(inner.ldlt().solve(Uw));
+    return std::sqrt(std::max(0., square));
+  }
+
+
+
+  namespace
+  {
+    double duration_of(const MeasuredTest &motion)
+    {
+      return motion.time.back() - motion.time.front();
+    }
+
+
+
+    // The cheapest of those that tell apart; else the best.
+    template <class Distance>
+    NextTest choose_test(const std::vector<ProposedTest> &proposed,
+                         const Distance                  &distance_of)
+    {
+      NextTest best;
+      double   best_duration = 0.;
+      for (const ProposedTest &test : proposed)
+        {
+          const double distance   = distance_of(test.motion);
+          const double duration   = duration_of(test.motion);
+          const bool   is_enough  = distance >= told_apart;
+          const bool   had_enough = best.distance >= told_apart;
+          if (!(is_enough && (!had_enough || duration < best_duration)) &&
+              !(!had_enough && distance > best.distance))
+            continue;
+          best.words     = test.words;
+          best.programme = test.programme;
+          best.distance  = distance;
+          best_duration  = duration;
+        }
+      return best;
+    }
+
+
+
+    // The base with a candidate that is worth finding at that strength, the
+    // rest fitted.
+    std::optional<Model> imagined(const Workspace &workspace,
+                                  const Model     &base,
+                                  const Candidate &candidate)
+    {
+      const Formula    &formula = candidate.formulas.front();
+      std::vector<Part> parts   = base.parts;
+      parts.push_back({candidate.name, formula});
+      Values values = base.values();
+      for (const auto &value : formula.shapes[formula.shapes.size() / 2].values(
+             worthwhile_strength))
+        values[value.first] = value.second;
+      try
+        {
+          Model model =
+            make_model(workspace.start, parts, values, workspace.tests, &base);
+          // The effect stays; what these tests show of it, the others take
+          // away again.
+          std::vector<bool> held;
+          for (const FitParameter &parameter : model.campaign->fitted)
+            held.push_back(std::any_of(formula.parameters.begin(),
+                                       formula.parameters.end(),
+                                       [&](const CandidateParameter &own) {
+                                         return own.path == parameter.path;
+                                       }));
+          if (workspace.comparison.fit(model, 1., {}, held))
+            return model;
+        }
+      catch (const InputError &)
+        {}
+      catch (const RunError &)
+        {
+          throw_if_stopped();
+        }
+      return {};
+    }
+
+
+
+    std::string cheapest_test(const Workspace &workspace,
+                              const Model     &base,
+                              const Candidate &candidate)
+    {
+      const std::optional<Model> with = imagined(workspace, base, candidate);
+      if (!with.has_value())
+        return "";
+      const NextTest best =
+        choose_test(propose_tests(*base.campaign),
+                    [&](const MeasuredTest &motion) {
+                      return separation(workspace, base, *with, motion);
+                    });
+      return best.distance >= told_apart / 2. ? best.words : "";
+    }
+
+
+
+    std::string why_not_testable(const CandidateView &seen)
+    {
+      if (!seen.best.has_value())
+        return "nothing changes in these tests";
+      if (seen.score.free_length <= 0.)
+        return "its effect cannot be told from that of the fitted parameters";
+      return "only a change of friction by more than a quarter would be seen";
+    }
+  } // namespace
+
+
+
+  std::vector<CandidateResult>
+  candidate_results(const Workspace                       &workspace,
+                    const Judgement                       &judgement,
+                    const std::vector<DiagnosedParameter> &parameters,
+                    const Model                           &base)
+  {
+    const SearchResult          &found = judgement.found;
+    std::vector<CandidateResult> results(judgement.view.candidates.size());
+    side_by_side(results.size(), [&](const std::size_t c) {
+      const CandidateView &seen   = judgement.view.candidates[c];
+      CandidateResult     &result = results[c];
+      result.name                 = seen.candidate.name;
+      result.signature            = seen.candidate.signature;
+      result.score                = seen.score.value;
+      result.p                    = seen.p;
+      result.minimum_detectable   = seen.minimum_detectable;
+      result.is_testable          = seen.candidate.why_not.empty() &&
+                           seen.minimum_detectable <= largest_hidden_change;
+      result.why = seen.candidate.why_not;
+      for (const auto &gain : found.gains)
+        if (gain.first == result.name)
+          result.gain = gain.second;
+      result.status = result.p <= workspace.level ? "possible" : "rejected";
+      if (!result.why.empty())
+        result.status =
+          result.why.find("already") != std::string::npos ||
+              result.why.find("has a flow rule") != std::string::npos ?
+            "in the model" :
+            "not testable";
+      else if (!result.is_testable)
+        {
+          result.status = "not testable";
+          result.why    = why_not_testable(seen);
+        }
+      for (const Rival &rival : found.rivals)
+        if (rival.name == result.name)
+          result.status = "rival";
+      for (std::size_t part = 0; part < found.model.parts.size(); ++part)
+        if (found.model.parts[part].name == result.name)
+          {
+            result.status      = "named";
+            result.is_testable = true;
+            if (part < found.costs.size())
+              {
+                result.gain          = found.costs[part];
+                result.left_out_gain = found.left_out_gains[part];
+              }
+            for (const DiagnosedParameter &parameter : parameters)
+              if (parameter.effect == result.name)
+                result.parameters.push_back(parameter);
+          }
+      if (result.status == "not testable" && !seen.candidate.formulas.empty())
+        {
+          Model own            = base;
+          own.simulator        = std::make_shared<Simulator>(*base.simulator);
+          result.cheapest_test = cheapest_test(workspace, own, seen.candidate);
+        }
+    });
+    const auto rank = [](const CandidateResult &result) {
+      return result.status == "named"    ? 0 :
+             result.status == "rival"    ? 1 :
+             result.status == "possible" ? 2 :
+             result.status == "rejected" ? 3 :
+                                           4;
+    };
+    std::stable_sort(results.begin(),
+                     results.end(),
+                     [&](const CandidateResult &a, const CandidateResult &b) {
+                       return rank(a) != rank(b) ? rank(a) < rank(b) :
+                                                   a.score > b.score;
+                     });
+    return results;
+  }
+
+
+
+  NextTest propose_next_test(const Workspace          &workspace,
+                             const Model              &winner,
+                             const std::vector<Rival> &rivals)
+  {
+    if (rivals.empty())
+      return {};
+    const std::vector<ProposedTest> proposed = propose_tests(*winner.campaign);
+    NextTest best = choose_test(proposed, [&](const MeasuredTest &motion) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Rival &rival : rivals)
+        least =
+          std::min(least, separation(workspace, winner, rival.model, motion));
+      return least;
+    });
+    for (const Part &part : winner.parts)
+      best.separates.push_back(part.name);
+    for (const Rival &rival : rivals)
+      best.separates.push_back(rival.name);
+    std::sort(best.separates.begin(), best.separates.end());
+    best.separates.erase(std::unique(best.separates.begin(),
+                                     best.separates.end()),
+                         best.separates.end());
+    return best;
+  }
+} // namespace SlipStep

@@ -1,0 +1,399 @@
+#include <slipstep/diagnosis/where.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // Below this share of a test's friction, shares of it are noise.
+    constexpr double least_friction = 0.3;
+
+    // Covariates that explain less of the excess are not told.
+    constexpr double least_share_told = 0.05;
+
+    /// A covariate along which rows are sorted.
+    struct Axis
+    {
+      std::string name, unit;
+      bool        is_logarithmic = false;
+    };
+
+    const std::vector<Axis> &axes()
+    {
+      static const std::vector<Axis> list = {{"speed", "mm/s", true},
+                                             {"pressure", "MPa", true},
+                                             {"path", "mm", false},
+                                             {"slip since start", "mm", true},
+                                             {"rest", "s", true},
+                                             {"heat", "MPa mm", false},
+                                             {"angle", "deg", false},
+                                             {"direction", "", false},
+                                             {"order of the tests", "", false},
+                                             {"flank", "", false}};
+      return list;
+    }
+
+    Axis axis_of(const std::string &name)
+    {
+      for (const Axis &axis : axes())
+        if (axis.name == name)
+          return axis;
+      return {name, "", false};
+    }
+
+    double shown(const std::string &name, const double value)
+    {
+      return name == "angle" ? value * 180. / 3.141592653589793 : value;
+    }
+
+
+
+    std::vector<Direction>
+    directions_of(const std::vector<BasisColumn> &columns,
+                  const std::string              &covariate)
+    {
+      std::vector<Direction> result;
+      for (const BasisColumn &column : columns)
+        if (column.covariate == covariate)
+          {
+            Direction direction;
+            direction.friction = column.friction;
+            result.push_back(direction);
+          }
+      return result;
+    }
+
+
+
+    // Where the correction is more than half of its largest.
+    void find_range(const Workspace       &workspace,
+                    const Eigen::VectorXd &correction,
+                    Localisation          &place)
+    {
+      const Covariates      &covariates = workspace.covariates;
+      const Eigen::VectorXd &x     = values_of(covariates, place.covariate);
+      Eigen::VectorXd        share = Eigen::VectorXd::Zero(x.size());
+      double                 mean  = 0.;
+      Eigen::Index           n = 0, top = 0;
+      for (Eigen::Index i = 0; i < x.size(); ++i)
+        if (std::abs(covariates.friction(i)) >
+              least_friction * workspace.range.typical_friction &&
+            (place.covariate != "speed" || x(i) > 0.))
+          {
+            share(i) = correction(i) / covariates.friction(i);
+            mean += share(i);
+            ++n;
+            top = i;
+          }
+      if (n == 0)
+        return;
+      mean /= n;
+      // What is the same everywhere is in the coefficients.
+      for (Eigen::Index i = 0; i < x.size(); ++i)
+        if (share(i) != 0. &&
+            std::abs(share(i) - mean) > std::abs(share(top) - mean))
+          top = i;
+      place.sign = share(top) > mean ? 1 : -1;
+      place.from = std::numeric_limits<double>::infinity();
+      place.to   = -place.from;
+      for (Eigen::Index i = 0; i < x.size(); ++i)
+        if (share(i) != 0. &&
+            (share(i) - mean) * place.sign > 0.5 * std::abs(share(top) - mean))
+          {
+            const double value = shown(place.covariate, x(i));
+            place.from         = std::min(place.from, value);
+            place.to           = std::max(place.to, value);
+          }
+    }
+
+
+
+    // The members that hold most of a sum of squares.
+    std::vector<std::string>
+    largest_members(const std::map<std::string, double> &squares)
+    {
+      std::vector<std::pair<double, std::string>> sorted;
+      double                                      sum = 0.;
+      for (const auto &member : squares)
+        {
+          sorted.emplace_back(-member.second, member.first);
+          sum += member.second;
+        }
+      std::sort(sorted.begin(), sorted.end());
+      std::vector<std::string> result;
+      double                   so_far = 0.;
+      for (const auto &member : sorted)
+        {
+          if (so_far > 0.7 * sum || result.size() == 4)
+            break;
+          so_far -= member.first;
+          result.push_back(member.second);
+        }
+      return result;
+    }
+
+
+
+    void find_members(const Workspace       &workspace,
+                      const Eigen::VectorXd &explained,
+                      Localisation          &place)
+    {
+      std::map<std::string, double> by_phase, by_test;
+      for (std::size_t t = 0; t < workspace.tests.size(); ++t)
+        {
+          const ComparedTest &test = workspace.comparison.tests[t];
+          for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
+            {
+              const double square = explained(i) * explained(i);
+              by_phase[name_of(workspace.covariates.phase[i])] += square;
+              by_test[workspace.tests[t].rows.name] += square;
+            }
+        }
+      place.phases = largest_members(by_phase);
+      place.tests  = largest_members(by_test);
+    }
+  } // namespace
+
+
+
+  std::vector<Localisation>
+  localise(const Workspace &workspace, const Model &base, const GapTest &gap)
+  {
+    const std::vector<BasisColumn> columns =
+      smooth_basis(workspace.comparison, workspace.covariates);
+    std::vector<Localisation> result;
+    for (const Axis &axis : axes())
+      {
+        const std::vector<Direction> directions =
+          directions_of(columns, axis.name);
+        if (directions.empty())
+          continue;
+        const ScoreTest           test(workspace.comparison,
+                             base,
+                             workspace.null_draws,
+                             directions);
+        const ScoreTest::Together together = test.together();
+        if (together.p > workspace.level ||
+            !(together.excess > least_share_told * gap.excess))
+          continue;
+        Localisation place;
+        place.covariate = axis.name;
+        place.unit      = axis.unit;
+        place.share =
+          gap.excess > 0. ? std::min(1., together.excess / gap.excess) : 0.;
+        const Eigen::VectorXd strengths = test.mixture();
+        Eigen::VectorXd       correction =
+          Eigen::VectorXd::Zero(workspace.comparison.n_rows());
+        for (std::size_t i = 0; i < directions.size(); ++i)
+          correction += strengths(i) * directions[i].friction;
+        find_range(workspace, correction, place);
+        find_members(workspace, together.explained, place);
+        result.push_back(place);
+      }
+    std::stable_sort(result.begin(),
+                     result.end(),
+                     [](const Localisation &a, const Localisation &b) {
+                       return a.share > b.share;
+                     });
+    return result;
+  }
+
+
+
+  namespace
+  {
+    // Borders of bins with about as many rows each.
+    std::vector<double> bin_borders(std::vector<double> values)
+    {
+      constexpr std::size_t most_bins = 14;
+      std::sort(values.begin(), values.end());
+      std::vector<double> borders;
+      for (std::size_t i = 0; i < most_bins; ++i)
+        {
+          const double border = values[i * (values.size() - 1) / most_bins];
+          if (borders.empty() || border > borders.back() * (1. + 1e-3) + 1e-12)
+            borders.push_back(border);
+        }
+      return borders;
+    }
+
+
+
+    /// Means of the tests, bin by bin.
+    struct Bin
+    {
+      std::map<std::size_t, std::pair<double, double>> by_test; // sum, number
+      double                                           x = 0., n = 0.;
+
+      void add(const std::size_t test, const double value)
+      {
+        by_test[test].first += value;
+        by_test[test].second += 1.;
+      }
+
+      double mean() const
+      {
+        double sum = 0., number = 0.;
+        for (const auto &entry : by_test)
+          {
+            sum += entry.second.first;
+            number += entry.second.second;
+          }
+        return sum / number;
+      }
+
+      // Of the mean, from how far the tests are apart.
+      double deviation(const double of_one_test) const
+      {
+        const double center = mean();
+        double       sum    = 0.;
+        for (const auto &entry : by_test)
+          sum += std::pow(entry.second.first / entry.second.second - center, 2);
+        const double n_tests = by_test.size();
+        return std::max(of_one_test / std::sqrt(n_tests),
+                        n_tests > 1. ?
+                          std::sqrt(sum / (n_tests - 1.) / n_tests) :
+                          0.);
+      }
+    };
+
+
+
+    using Changes = std::vector<std::pair<std::string, Eigen::VectorXd>>;
+
+    /// Sorts the rows of a campaign into bins along one covariate.
+    class PanelMaker
+    {
+    public:
+      PanelMaker(const Workspace       &workspace,
+                 const Eigen::VectorXd &difference,
+                 const Changes         &changes,
+                 const std::string     &name)
+        : workspace(workspace)
+        , covariates(workspace.covariates)
+        , difference(difference)
+        , changes(changes)
+        , axis(axis_of(name))
+        , x(values_of(covariates, name))
+      {}
+
+      // Nothing if the covariate hardly varies.
+      CovariatePanel make();
+
+    private:
+      bool is_used(const Eigen::Index i) const
+      {
+        return std::abs(covariates.friction(i)) >
+                 least_friction * workspace.range.typical_friction &&
+               covariates.speed(i) > 0. && (!axis.is_logarithmic || x(i) > 0.);
+      }
+
+      void sort_rows(const std::vector<double> &borders);
+
+      const Workspace              &workspace;
+      const Covariates             &covariates;
+      const Eigen::VectorXd        &difference;
+      const Changes                &changes;
+      const Axis                    axis;
+      const Eigen::VectorXd        &x;
+      std::vector<Bin>              bins;
+      std::vector<std::vector<Bin>> change_bins;
+    };
+
+
+
+    void PanelMaker::sort_rows(const std::vector<double> &borders)
+    {
+      bins.assign(borders.size(), Bin());
+      change_bins.assign(changes.size(), std::vector<Bin>(borders.size()));
+      for (std::size_t t = 0; t < workspace.comparison.tests.size(); ++t)
+        {
+          const ComparedTest &test = workspace.comparison.tests[t];
+          for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
+            {
+              if (!is_used(i))
+                continue;
+              const double      value = shown(axis.name, x(i));
+              const std::size_t b =
+                std::upper_bound(borders.begin(), borders.end(), value) -
+                borders.begin() - 1;
+              bins[b].add(t, -difference(i) / covariates.friction(i));
+              bins[b].x += axis.is_logarithmic ? std::log(value) : value;
+              bins[b].n += 1.;
+              for (std::size_t c = 0; c < changes.size(); ++c)
+                change_bins[c][b].add(t,
+                                      changes[c].second(i) /
+                                        covariates.friction(i));
+            }
+        }
+    }
+
+
+
+    CovariatePanel PanelMaker::make()
+    {
+      CovariatePanel panel;
+      panel.covariate      = axis.name;
+      panel.unit           = axis.unit;
+      panel.is_logarithmic = axis.is_logarithmic;
+      std::vector<double> values;
+      for (Eigen::Index i = 0; i < x.size(); ++i)
+        if (is_used(i))
+          values.push_back(shown(axis.name, x(i)));
+      if (values.empty())
+        return panel;
+      sort_rows(bin_borders(values));
+      for (const auto &change : changes)
+        panel.signatures.emplace_back(change.first, std::vector<double>());
+      const Noise &noise = workspace.comparison.noise();
+      for (std::size_t b = 0; b < bins.size(); ++b)
+        {
+          if (bins[b].by_test.empty())
+            continue;
+          const double mean_x = bins[b].x / bins[b].n;
+          panel.x.push_back(axis.is_logarithmic ? std::exp(mean_x) : mean_x);
+          panel.residual.push_back(bins[b].mean());
+          panel.error.push_back(
+            bins[b].deviation(std::hypot(noise.gain, noise.offset)));
+          for (std::size_t c = 0; c < changes.size(); ++c)
+            panel.signatures[c].second.push_back(change_bins[c][b].mean());
+        }
+      return panel;
+    }
+  } // namespace
+
+
+
+  std::vector<CovariatePanel> covariate_panels(
+    const Workspace                                            &workspace,
+    const Eigen::VectorXd                                      &difference,
+    const std::vector<std::pair<std::string, Eigen::VectorXd>> &changes,
+    const std::vector<Localisation>                            &where)
+  {
+    std::vector<CovariatePanel> result;
+    for (const std::string name :
+         {"speed", "pressure", "path", "slip since start", "rest", "angle"})
+      {
+        CovariatePanel panel =
+          PanelMaker(workspace, difference, changes, name).make();
+        if (panel.x.size() > 1)
+          result.push_back(std::move(panel));
+      }
+    const auto share = [&](const CovariatePanel &panel) {
+      for (const Localisation &place : where)
+        if (place.covariate == panel.covariate)
+          return place.share;
+      return 0.;
+    };
+    std::stable_sort(result.begin(),
+                     result.end(),
+                     [&](const CovariatePanel &a, const CovariatePanel &b) {
+                       return share(a) > share(b);
+                     });
+    return result;
+  }
+} // namespace SlipStep

@@ -1,0 +1,74 @@
+// How often a diagnosis is right: many planted campaigns of a class.
+//
+//   diagnosis_benchmark CLASS FIRST_SEED LAST_SEED [NOISE [FACTOR [TESTS
+//   [REPLICATES]]]]
+//
+// prints a line for each campaign; rates.awk makes the table of them.
+
+#include <tests/diagnosis/hidden/trial.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+namespace
+{
+  std::string joined(const std::vector<std::string> &names)
+  {
+    std::string result;
+    for (const std::string &name : names)
+      result += (result.empty() ? "" : "+") + name;
+    return result.empty() ? "-" : result;
+  }
+} // namespace
+
+
+
+int main(int argc, char **argv)
+{
+  using namespace SlipStep;
+  if (argc < 4)
+    {
+      std::cerr << "usage: " << argv[0]
+                << " CLASS FIRST_SEED LAST_SEED [NOISE [FACTOR [TESTS "
+                   "[REPLICATES]]]]"
+                << std::endl;
+      return 2;
+    }
+  Planting::CampaignOptions options;
+  options.campaign_class = Planting::campaign_class(argv[1]);
+  if (argc > 4)
+    options.noise = Planting::noise_kind(argv[4]);
+  if (argc > 5)
+    options.noise_factor = std::atof(argv[5]);
+  if (argc > 6)
+    options.n_tests = std::atoi(argv[6]);
+  if (argc > 7)
+    options.with_replicates = std::atoi(argv[7]) != 0;
+  for (int seed = std::atoi(argv[2]); seed <= std::atoi(argv[3]); ++seed)
+    {
+      options.seed = seed;
+      try
+        {
+          const Testing::Trial trial = Testing::run_trial(options, true);
+          std::cout << argv[1] << ' ' << seed << ' ' << joined(trial.truth)
+                    << ' ' << name_of(trial.verdict) << ' '
+                    << joined(trial.named) << ' ' << joined(trial.rivals) << ' '
+                    << trial.is_alarm() << ' ' << trial.is_exact() << ' '
+                    << trial.is_false() << ' ' << trial.holds_truth() << ' '
+                    << trial.detectability << ' ' << trial.error_before << ' '
+                    << trial.error_after << ' ' << trial.gap_p << ' '
+                    << trial.explained_share << ' ' << trial.remainder_p << ' '
+                    << trial.cpu_time << ' ' << trial.excess << ' '
+                    << trial.remainder << ' ' << trial.n_intervals << ' '
+                    << trial.n_inside << ' ' << trial.left_out_ratio << ' '
+                    << trial.has_next_test << ' ' << trial.is_resolved << ' '
+                    << trial.is_misled << std::endl;
+        }
+      catch (const std::exception &error)
+        {
+          std::cout << argv[1] << ' ' << seed << " FAILED " << error.what()
+                    << std::endl;
+        }
+    }
+}

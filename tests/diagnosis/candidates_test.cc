@@ -1,0 +1,118 @@
+#include <tests/diagnosis/hidden/trial.h>
+
+#include <gtest/gtest.h>
+
+using namespace SlipStep;
+
+namespace
+{
+  Parameters coulomb_case()
+  {
+    Parameters parameters;
+    declare_loading_parameters(parameters);
+    FrictionLaw::declare_parameters(parameters);
+    declare_calibration_parameters(parameters);
+    declare_diagnosis_parameters(parameters);
+    parameters.set("Friction/Effects", "", "test");
+    parameters.set("Friction/Static coefficient", "0.1", "test");
+    parameters.set("Calibration/Parameters",
+                   "Friction/Static coefficient from 0.01 to 1",
+                   "test");
+    return parameters;
+  }
+
+  TestedRange usual_range()
+  {
+    TestedRange range;
+    range.slowest          = 0.01;
+    range.fastest          = 5.;
+    range.lowest           = 1.;
+    range.highest          = 20.;
+    range.longest_path     = 40.;
+    range.longest_rest     = 1000.;
+    range.longest_test     = 2000.;
+    range.longest_slide    = 2000.;
+    range.typical_friction = 0.1;
+    return range;
+  }
+} // namespace
+
+
+
+// Every shape of every formula makes a case that the law takes, at any
+// strength, with all its parameters listed between their bounds.
+TEST(Candidates, MakeCasesThatTheLawTakes)
+{
+  const Parameters start = coulomb_case();
+  for (const Candidate &candidate : make_candidates(start, usual_range()))
+    for (const Formula &formula : candidate.formulas)
+      for (const Shape &shape : formula.shapes)
+        for (const double strength : {0.01, 1., 30., 1000.})
+          {
+            SCOPED_TRACE(candidate.name + " " + std::to_string(strength));
+            const Parameters with = assemble(start,
+                                             {{candidate.name, formula}},
+                                             shape.values(strength));
+            EXPECT_NO_THROW(FrictionLaw{with});
+            const std::vector<FitParameter> fitted = read_fit_parameters(with);
+            for (const CandidateParameter &parameter : formula.parameters)
+              EXPECT_TRUE(std::any_of(fitted.begin(),
+                                      fitted.end(),
+                                      [&](const FitParameter &one) {
+                                        return one.path == parameter.path;
+                                      }));
+          }
+}
+
+
+
+TEST(Candidates, AreAllOfTheCatalogueUnlessSomeAreAskedFor)
+{
+  Parameters start = coulomb_case();
+  EXPECT_EQ(make_candidates(start, usual_range()).size(),
+            candidate_names().size());
+  start.set("Diagnosis/Candidates", "healing, pressure", "test");
+  const std::vector<Candidate> some = make_candidates(start, usual_range());
+  ASSERT_EQ(some.size(), 2u);
+  // Nothing can heal that does not soften.
+  EXPECT_EQ(some[0].name, "healing");
+  EXPECT_NE(some[0].why_not.find("softening"), std::string::npos);
+  EXPECT_TRUE(some[0].formulas.empty());
+  EXPECT_FALSE(some[1].formulas.empty());
+}
+
+
+
+TEST(Candidates, LeaveOutWhatTheModelHas)
+{
+  Parameters start = coulomb_case();
+  start.set("Friction/Effects", "overstress, pressure", "test");
+  for (const Candidate &candidate : make_candidates(start, usual_range()))
+    {
+      const bool is_out = candidate.name == "overstress" ||
+                          candidate.name == "pressure" ||
+                          candidate.name == "healing";
+      EXPECT_EQ(candidate.formulas.empty(), is_out) << candidate.name;
+      EXPECT_EQ(candidate.why_not.empty(), !is_out) << candidate.name;
+    }
+}
+
+
+
+TEST(DiagnosisParameters, ListWhatActiveEffectsHave)
+{
+  Parameters start = coulomb_case();
+  start.set("Calibration/Parameters", "", "test");
+  start.set("Friction/Effects", "softening, overstress", "test");
+  std::set<std::string> paths;
+  for (const FitParameter &parameter :
+       read_fit_parameters(with_parameters_listed(start)))
+    paths.insert(parameter.path);
+  EXPECT_EQ(paths,
+            (std::set<std::string>{"Friction/Static coefficient",
+                                   "Friction/softening/Rate",
+                                   "Friction/softening/Steepness",
+                                   "Friction/softening/Kinetic coefficient",
+                                   "Friction/overstress/Viscosity",
+                                   "Friction/overstress/Exponent"}));
+}

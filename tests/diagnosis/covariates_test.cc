@@ -1,0 +1,141 @@
+#include <slipstep/diagnosis/covariates.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+using namespace SlipStep;
+
+namespace
+{
+  /// Slide 1 mm at 0.1 mm/s, rest 20 s, slide 1 mm, slide back 1 mm.
+  MeasuredTest slide_rest_return()
+  {
+    MeasuredTest test;
+    test.name    = "slide, rest, return";
+    double     u = 0., t = 0.;
+    const auto add = [&](const double velocity, const int n) {
+      for (int i = 0; i < n; ++i)
+        {
+          test.time.push_back(t);
+          test.displacement.push_back(u);
+          test.pressure.push_back(5.);
+          t += 0.1;
+          u += 0.1 * velocity;
+        }
+    };
+    add(0.1, 100);
+    add(0., 200);
+    add(0.1, 100);
+    add(-0.1, 100);
+    // A peak at the beginning of every stroke, then a fall.
+    double since = 0., sign = 1., before = 0.;
+    for (std::size_t i = 0; i < test.time.size(); ++i)
+      {
+        const double moved =
+          i == 0 ? 0. : test.displacement[i] - test.displacement[i - 1];
+        if (moved != 0. && (before == 0. || moved * before < 0.))
+          since = 0.;
+        since += std::abs(moved);
+        if (moved != 0.)
+          sign = moved > 0. ? 1. : -1.;
+        test.friction.push_back(sign * (1. - std::exp(-since / 0.01)) *
+                                (0.1 + 0.03 * std::exp(-since / 0.2)));
+        before = moved;
+      }
+    return test;
+  }
+
+  Covariates covariates_of(const MeasuredTest &test, Comparison &comparison)
+  {
+    Eigen::VectorXd friction(test.friction.size());
+    for (std::size_t i = 0; i < test.friction.size(); ++i)
+      friction(i) = test.friction[i];
+    return find_covariates(comparison,
+                           {{test, 0.001, true, Replay(test)}},
+                           friction,
+                           1e-3);
+  }
+} // namespace
+
+
+
+TEST(Covariates, KnowTheHistoryOfEveryRow)
+{
+  const MeasuredTest test = slide_rest_return();
+  Comparison         comparison({{test, 0.001, true, Replay(test)}}, 1000);
+  const Covariates   found = covariates_of(test, comparison);
+  const auto         row   = [](const double time) {
+    return static_cast<Eigen::Index>(std::lround(10. * time));
+  };
+  EXPECT_NEAR(found.speed(row(5.)), 0.1, 1e-9);
+  EXPECT_EQ(found.speed(row(15.)), 0.);
+  EXPECT_NEAR(found.path(row(35.)), 1.5, 0.02);
+  EXPECT_NEAR(found.path(row(45.)), 2.5, 0.02);
+  EXPECT_EQ(found.rest(row(5.)), 0.);
+  EXPECT_NEAR(found.rest(row(35.)), 20., 0.2);
+  EXPECT_NEAR(found.since_start(row(35.)), 0.5, 0.02);
+  EXPECT_NEAR(found.since_start(row(45.)), 0.5, 0.02);
+  EXPECT_EQ(found.is_reverse(row(35.)), 0.);
+  EXPECT_EQ(found.is_reverse(row(45.)), 1.);
+}
+
+
+
+TEST(Covariates, TellPhasesApart)
+{
+  const MeasuredTest test = slide_rest_return();
+  Comparison         comparison({{test, 0.001, true, Replay(test)}}, 1000);
+  const Covariates   found = covariates_of(test, comparison);
+  const auto         phase = [&](const double time) {
+    return name_of(found.phase[std::lround(10. * time)]);
+  };
+  EXPECT_EQ(phase(0.1), "presliding");
+  EXPECT_EQ(phase(0.5), "peak");
+  EXPECT_EQ(phase(3.), "softening");
+  EXPECT_EQ(phase(9.8), "steady");
+  EXPECT_EQ(phase(20.), "hold");
+  EXPECT_EQ(phase(30.1), "restart");
+  EXPECT_EQ(phase(40.2), "reversal");
+  EXPECT_EQ(phase(49.), "steady");
+}
+
+
+
+// Rows beyond the most are averaged in equal parts.
+TEST(Comparison, AveragesNeighbours)
+{
+  const MeasuredTest test = slide_rest_return();
+  const Comparison   all({{test, 0.001, true, Replay(test)}}, 1000);
+  const Comparison   few({{test, 0.001, true, Replay(test)}}, 100);
+  ASSERT_EQ(all.n_rows(), 500);
+  ASSERT_EQ(few.n_rows(), 100);
+  for (Eigen::Index i = 0; i < 100; ++i)
+    EXPECT_NEAR(few.measured(i), all.measured.segment(5 * i, 5).mean(), 1e-15);
+  EXPECT_NEAR(few.tests[0].series[0].row_noise[0],
+              0.001 / std::sqrt(5.),
+              1e-15);
+}
+
+
+
+// Only what varies is in the basis.
+TEST(SmoothBasis, HasWhatVaries)
+{
+  const MeasuredTest    test = slide_rest_return();
+  Comparison            comparison({{test, 0.001, true, Replay(test)}}, 1000);
+  std::set<std::string> names;
+  for (const BasisColumn &column :
+       smooth_basis(comparison, covariates_of(test, comparison)))
+    {
+      names.insert(column.covariate);
+      EXPECT_TRUE(column.friction.allFinite());
+    }
+  EXPECT_EQ(names.count("pressure"), 0u);
+  EXPECT_EQ(names.count("angle"), 0u);
+  EXPECT_EQ(names.count("order of the tests"), 0u);
+  for (const std::string name :
+       {"path", "rest", "direction", "slip since start", "heat"})
+    EXPECT_EQ(names.count(name), 1u) << name;
+}

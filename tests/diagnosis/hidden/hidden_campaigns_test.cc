@@ -1,0 +1,271 @@
+#include <tests/diagnosis/hidden/trial.h>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+using namespace SlipStep;
+using Planting::CampaignClass;
+using Testing::Trial;
+
+namespace
+{
+  /// A planted campaign and what a diagnosis of it comes to.
+  struct Expected
+  {
+    CampaignClass            campaign_class;
+    unsigned int             seed;
+    Verdict                  verdict;
+    std::vector<std::string> named; ///< sorted
+    Planting::NoiseKind      noise = Planting::NoiseKind::normal;
+  };
+
+  std::ostream &operator<<(std::ostream &out, const Expected &expected)
+  {
+    return out << Planting::to_string(expected.campaign_class) << " "
+               << expected.seed;
+  }
+
+  class HiddenCampaign : public testing::TestWithParam<Expected>
+  {};
+} // namespace
+
+
+
+// The seeds are the first ones of each class that are detectable, and some
+// that are not; how often it is right in general is measured by the benchmark.
+TEST_P(HiddenCampaign, IsDiagnosed)
+{
+  const Expected           &expected = GetParam();
+  Planting::CampaignOptions options;
+  options.campaign_class = expected.campaign_class;
+  options.seed           = expected.seed;
+  options.noise          = expected.noise;
+  const Trial trial      = Testing::run_trial(options);
+  EXPECT_EQ(name_of(trial.verdict), name_of(expected.verdict));
+  EXPECT_EQ(trial.named, expected.named);
+  if (expected.verdict == Verdict::named)
+    {
+      EXPECT_EQ(trial.named, trial.truth);
+      EXPECT_LT(trial.error_after, 0.7 * trial.error_before);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  ,
+  HiddenCampaign,
+  testing::Values(
+    Expected{CampaignClass::none, 1, Verdict::no_gap, {}},
+    Expected{CampaignClass::none, 2, Verdict::no_gap, {}},
+    Expected{CampaignClass::none, 3, Verdict::no_gap, {}},
+    Expected{CampaignClass::none, 4, Verdict::no_gap, {}},
+    Expected{CampaignClass::none,
+             5,
+             Verdict::no_gap,
+             {},
+             Planting::NoiseKind::heavy_tails},
+    Expected{CampaignClass::none,
+             6,
+             Verdict::no_gap,
+             {},
+             Planting::NoiseKind::two_drifts},
+    // Below five standard deviations.
+    Expected{CampaignClass::one, 4, Verdict::no_gap, {}},
+    Expected{CampaignClass::one, 5, Verdict::no_gap, {}},
+    Expected{CampaignClass::one, 2, Verdict::named, {"softening"}},
+    Expected{CampaignClass::one, 3, Verdict::named, {"compliance"}},
+    Expected{CampaignClass::one, 7, Verdict::named, {"overstress"}},
+    Expected{CampaignClass::one, 9, Verdict::named, {"healing"}},
+    Expected{CampaignClass::one,
+             10,
+             Verdict::named,
+             {"healing"},
+             Planting::NoiseKind::heavy_tails},
+    Expected{CampaignClass::ablated, 1, Verdict::named, {"softening"}},
+    Expected{CampaignClass::ablated, 5, Verdict::named, {"softening"}},
+    Expected{CampaignClass::two, 14, Verdict::named, {"direction", "heating"}},
+    Expected{CampaignClass::two, 19, Verdict::named, {"anisotropy", "heating"}},
+    Expected{CampaignClass::two, 29, Verdict::named, {"healing", "overstress"}},
+    Expected{CampaignClass::other_formula, 3, Verdict::named, {"viscous"}},
+    Expected{CampaignClass::other_formula, 7, Verdict::named, {"heating"}},
+    Expected{CampaignClass::outside, 1, Verdict::unnamed, {}},
+    Expected{CampaignClass::outside, 6, Verdict::unnamed, {}},
+    Expected{CampaignClass::outside, 9, Verdict::unnamed, {}},
+    Expected{CampaignClass::outside, 10, Verdict::unnamed, {}}),
+  [](const testing::TestParamInfo<Expected> &info) {
+    return Planting::to_string(info.param.campaign_class) + "_" +
+           std::to_string(info.param.seed);
+  });
+
+
+
+namespace
+{
+  /// The files of a campaign in a folder, to be spoilt.
+  class CampaignFolder : public testing::Test
+  {
+  protected:
+    void plant(const CampaignClass campaign_class, const unsigned int seed)
+    {
+      Planting::CampaignOptions options;
+      options.campaign_class = campaign_class;
+      options.seed           = seed;
+      campaign               = Planting::plant_campaign(options);
+      parameters = Testing::planted_case(campaign, folder.path() / "campaign");
+    }
+
+    // Calls change(text of the file) for every test and stores the result
+    // under another name.
+    template <class Change>
+    void rewrite(const std::function<std::string(unsigned int)> &name,
+                 const Change                                   &change)
+    {
+      const auto measured = folder.path() / "campaign" / "measured";
+      std::vector<std::filesystem::path> files;
+      for (const auto &entry : std::filesystem::directory_iterator(measured))
+        files.push_back(entry.path());
+      std::sort(files.begin(), files.end());
+      std::vector<std::string> texts;
+      for (const auto &file : files)
+        {
+          std::ifstream     in(file);
+          std::stringstream text;
+          text << in.rdbuf();
+          texts.push_back(change(text.str()));
+          std::filesystem::remove(file);
+        }
+      for (unsigned int i = 0; i < texts.size(); ++i)
+        std::ofstream(measured / name(i)) << texts[i];
+    }
+
+    Judgement judged()
+    {
+      prepared = prepare(parameters, {});
+      return judge(*prepared.workspace, prepared.base);
+    }
+
+    TemporaryFolder           folder;
+    Planting::PlantedCampaign campaign;
+    Parameters                parameters;
+    Prepared                  prepared;
+  };
+
+  // Displacement in um, time in ms, pressure in kPa.
+  std::string in_other_units(const std::string &text)
+  {
+    std::istringstream in(text);
+    std::ostringstream out;
+    std::string        line;
+    bool               is_head = true;
+    out.precision(17);
+    while (std::getline(in, line))
+      {
+        if (line[0] == '#')
+          {
+            out << line << '\n';
+            continue;
+          }
+        if (is_head)
+          {
+            is_head = false;
+            line    = std::regex_replace(line, std::regex("time_s"), "time_ms");
+            line    = std::regex_replace(line, std::regex("_mm"), "_um");
+            line    = std::regex_replace(line, std::regex("_MPa"), "_kPa");
+            out << line << '\n';
+            continue;
+          }
+        std::istringstream row(line);
+        std::string        cell;
+        for (unsigned int column = 0; std::getline(row, cell, ','); ++column)
+          out << (column > 0 ? "," : "")
+              << std::stod(cell) * (column == 3 || column == 5 ? 1. : 1000.);
+        out << '\n';
+      }
+    return out.str();
+  }
+} // namespace
+
+
+
+TEST_F(CampaignFolder, HasTheSameVerdictRenamedShuffledAndInOtherUnits)
+{
+  plant(CampaignClass::one, 7);
+  const Judgement before = judged();
+  ASSERT_EQ(before.verdict, Verdict::named);
+  rewrite(
+    [](const unsigned int i) {
+      return "record_" + std::to_string((7 * i + 3) % 20 + 100) + ".csv";
+    },
+    [](const std::string &text) {
+      return in_other_units(
+        std::regex_replace(text, std::regex("# name: [^\n]*\n"), ""));
+    });
+  const Judgement after = judged();
+  EXPECT_EQ(name_of(after.verdict), name_of(before.verdict));
+  ASSERT_EQ(after.found.model.parts.size(), 1u);
+  EXPECT_EQ(after.found.model.parts[0].name, before.found.model.parts[0].name);
+  EXPECT_NEAR(after.gap.p, before.gap.p, 1e-12);
+  EXPECT_NEAR(after.found.model.objective, before.found.model.objective, 0.2);
+}
+
+
+
+// A replicate that is off by itself is no missing effect.
+TEST_F(CampaignFolder, NamesAnOutlierAndNoEffect)
+{
+  plant(CampaignClass::none, 4);
+  // The one with a twin whose name comes last.
+  std::map<std::string, unsigned int> n_of;
+  for (const Planting::PlantedTest &test : campaign.tests)
+    ++n_of[test.measured.condition];
+  std::string spoilt;
+  for (const Planting::PlantedTest &test : campaign.tests)
+    if (n_of[test.measured.condition] == 2 && test.measured.friction_y.empty())
+      spoilt = test.measured.name;
+  ASSERT_FALSE(spoilt.empty());
+  rewrite(
+    [](const unsigned int i) { return "t" + std::to_string(i + 10) + ".csv"; },
+    [&](const std::string &text) {
+      if (text.find("# name: " + spoilt + "\n") == std::string::npos)
+        return text;
+      std::istringstream in(text);
+      std::ostringstream out;
+      std::string        line;
+      out.precision(10);
+      while (std::getline(in, line))
+        {
+          const std::size_t comma = line.rfind(',');
+          if (line[0] == '#' || line.find("time") != std::string::npos)
+            out << line << '\n';
+          else
+            out << line.substr(0, comma + 1)
+                << 1.12 * std::stod(line.substr(comma + 1)) << '\n';
+        }
+      return out.str();
+    });
+  const Judgement judgement = judged();
+  ASSERT_EQ(prepared.outliers.size(), 1u);
+  EXPECT_EQ(prepared.outliers[0].test, spoilt);
+  EXPECT_EQ(name_of(judgement.verdict), "no_gap");
+}
+
+
+
+// What a verdict rests on is stated where it is not measured.
+TEST_F(CampaignFolder, StatesTheNoiseWithoutReplicates)
+{
+  Planting::CampaignOptions options;
+  options.campaign_class  = CampaignClass::none;
+  options.seed            = 2;
+  options.with_replicates = false;
+  campaign                = Planting::plant_campaign(options);
+  parameters = Testing::planted_case(campaign, folder.path() / "campaign");
+  const Judgement judgement = judged();
+  EXPECT_EQ(name_of(judgement.verdict), "no_gap");
+  EXPECT_EQ(prepared.workspace->noise.n_contrasts, 0u);
+  EXPECT_NEAR(prepared.workspace->noise.noise.gain,
+              parameters.number("Diagnosis/Gain"),
+              1e-12);
+}

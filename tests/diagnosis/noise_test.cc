@@ -1,0 +1,159 @@
+#include <slipstep/diagnosis/noise.h>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace SlipStep;
+
+namespace
+{
+  Series series_of(const std::size_t n, const double row_noise)
+  {
+    Series series;
+    for (std::size_t i = 0; i < n; ++i)
+      {
+        // Closer at the beginning.
+        const double share = static_cast<double>(i) / (n - 1);
+        series.time.push_back(share * share);
+        series.row_noise.push_back(row_noise * (1. + 0.5 * share));
+        series.friction.push_back(0.1 + 0.02 * std::exp(-5. * share));
+      }
+    return series;
+  }
+
+  Noise usual_noise()
+  {
+    return {1.1, 0.006, 0.15, 0.007, 0.003, 0.002};
+  }
+
+  // From the definitions, element by element.
+  Eigen::MatrixXd covariance(const std::vector<Series> &series,
+                             const double               level,
+                             const Noise               &noise)
+  {
+    Eigen::Index n = 0;
+    for (const Series &one : series)
+      n += one.time.size();
+    Eigen::MatrixXd result(n, n);
+    Eigen::Index    row = 0;
+    for (std::size_t s = 0; s < series.size(); ++s)
+      for (std::size_t i = 0; i < series[s].time.size(); ++i, ++row)
+        {
+          Eigen::Index column = 0;
+          for (std::size_t t = 0; t < series.size(); ++t)
+            for (std::size_t j = 0; j < series[t].time.size(); ++j, ++column)
+              {
+                double value = std::pow(noise.gain, 2) * series[s].friction[i] *
+                               series[t].friction[j];
+                if (s == t)
+                  value +=
+                    std::pow(level * noise.drift, 2) *
+                      std::exp(
+                        -std::abs(series[s].time[i] - series[t].time[j]) /
+                        noise.drift_time) +
+                    std::pow(level * noise.offset, 2) +
+                    std::pow(level * noise.slope, 2) *
+                      (series[s].time[i] - 0.5) * (series[t].time[j] - 0.5);
+                if (row == column)
+                  value += std::pow(noise.white * series[s].row_noise[i], 2);
+                result(row, column) = value;
+              }
+        }
+    return result;
+  }
+} // namespace
+
+
+
+// Whitened covariance is the unit matrix, for one axis and for two.
+TEST(Whitener, MakesNoiseIndependent)
+{
+  for (const std::size_t n_axes : {1, 2})
+    {
+      const std::vector<Series> series(n_axes, series_of(40, 0.001));
+      const Noise               noise = usual_noise();
+      const Whitener            whitener(series, 0.11, noise);
+      const Eigen::MatrixXd     C        = covariance(series, 0.11, noise);
+      const Eigen::MatrixXd     L        = C.llt().matrixL();
+      RowMatrix                 whitened = L;
+      whitener.apply(whitened);
+      const Eigen::MatrixXd unit = whitened * whitened.transpose();
+      EXPECT_LT((unit - Eigen::MatrixXd::Identity(unit.rows(), unit.cols()))
+                  .cwiseAbs()
+                  .maxCoeff(),
+                1e-9);
+      EXPECT_NEAR(whitener.log_determinant(),
+                  2. * L.diagonal().array().log().sum(),
+                  1e-8);
+    }
+}
+
+
+
+TEST(SampleNoise, HasTheCovarianceThatIsWhitened)
+{
+  const std::vector<Series> series(1, series_of(30, 0.001));
+  const Noise               noise = usual_noise();
+  const Whitener            whitener(series, 0.11, noise);
+  std::mt19937_64           random(3);
+  constexpr unsigned int    n_samples = 4000;
+  Eigen::MatrixXd           sum       = Eigen::MatrixXd::Zero(30, 30);
+  for (unsigned int i = 0; i < n_samples; ++i)
+    {
+      RowMatrix sample = sample_noise(series, 0.11, noise, random);
+      whitener.apply(sample);
+      sum += sample * sample.transpose();
+    }
+  sum /= n_samples;
+  // Standard deviation of an element: 1/sqrt(4000), of a diagonal one sqrt(2)
+  // times that; 900 of them.
+  EXPECT_LT((sum - Eigen::MatrixXd::Identity(30, 30)).cwiseAbs().maxCoeff(),
+            5. * std::sqrt(2. / n_samples));
+}
+
+
+
+TEST(EstimateNoise, FindsWhatReplicatesDifferBy)
+{
+  const Noise           truth = usual_noise();
+  const Noise           prior{1., 0.003, 0.1, 0.004, 0.003, 0.002};
+  std::mt19937_64       random(5);
+  std::vector<Contrast> contrasts;
+  for (unsigned int i = 0; i < 30; ++i)
+    {
+      Contrast contrast;
+      contrast.series = {series_of(120, 0.001)};
+      contrast.level  = 0.11;
+      contrast.values =
+        sample_noise(contrast.series, contrast.level, truth, random);
+      contrasts.push_back(contrast);
+    }
+  const NoiseEstimate     found = estimate_noise(contrasts, prior);
+  const Noise::Logarithms error = found.noise.logarithms() - truth.logarithms();
+  EXPECT_EQ(found.n_contrasts, 30u);
+  EXPECT_LT(std::abs(error(0)), 0.05);
+  EXPECT_LT(std::abs(error(1)), 0.3);
+  EXPECT_LT(std::abs(error(2)), 3.5 * std::sqrt(found.covariance(2, 2)));
+  // Friction of 0.1 to 0.12 does not tell a gain from an offset: together.
+  const auto together = [](const Noise &noise) {
+    return std::hypot(noise.gain, noise.offset);
+  };
+  EXPECT_LT(std::abs(std::log(together(found.noise) / together(truth))), 0.4);
+  // Thirty contrasts tell more than the prior.
+  EXPECT_LT(found.covariance(1, 1), 0.3 * std::pow(prior_deviations()(1), 2));
+}
+
+
+
+TEST(EstimateNoise, IsThePriorWithoutReplicates)
+{
+  const Noise         prior = usual_noise();
+  const NoiseEstimate found = estimate_noise({}, prior);
+  EXPECT_EQ(found.n_contrasts, 0u);
+  EXPECT_EQ((found.noise.logarithms() - prior.logarithms()).norm(), 0.);
+  for (Eigen::Index i = 0; i < 6; ++i)
+    EXPECT_DOUBLE_EQ(found.covariance(i, i),
+                     std::pow(prior_deviations()(i), 2));
+}
