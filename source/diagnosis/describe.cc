@@ -172,7 +172,6 @@ namespace SlipStep
         const auto variances = noise_variances(compared, comparison.noise());
         test.noise =
           compared.level * std::sqrt(variances.first + variances.second);
-        test.shared_noise    = compared.level * std::sqrt(variances.second);
         test.rms_before      = root_mean_square(before_difference, compared);
         test.rms_after       = root_mean_square(after_difference, compared);
         test.left_out_before = root_mean_square(left_out_before, compared);

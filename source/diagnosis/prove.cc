@@ -1,4 +1,5 @@
 #include <slipstep/diagnosis/prove.h>
+#include <slipstep/experiment/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <Eigen/Dense>
@@ -109,13 +110,10 @@ namespace SlipStep
         std::vector<double> noises;
         for (const CampaignTest &test : workspace.tests)
           noises.push_back(test.noise);
-        std::nth_element(noises.begin(),
-                         noises.begin() + noises.size() / 2,
-                         noises.end());
         for (std::size_t i = 0; i < n; ++i)
           series.time.push_back((motion.time[i] - motion.time.front()) /
                                 duration);
-        series.row_noise.assign(n, noises[noises.size() / 2]);
+        series.row_noise.assign(n, median(noises));
         std::vector<Series> all(friction.size() / n, series);
         for (std::size_t s = 0; s < all.size(); ++s)
           all[s].friction.assign(friction.data() + s * n,

@@ -230,15 +230,14 @@ namespace SlipStep
 
   namespace
   {
-    // Waves of every test by itself; the first is its mean.
-    std::vector<Direction> test_waves(const Comparison &comparison,
-                                      const Covariates &covariates,
-                                      const bool        is_by_condition)
+    // Waves of every condition; the first is its mean.
+    std::vector<Direction> condition_waves(const Comparison  &comparison,
+                                           const Covariates  &covariates,
+                                           const unsigned int n_waves)
     {
       std::vector<Direction> result;
       for (const Eigen::VectorXd &column :
-           is_by_condition ? condition_basis(comparison, covariates, 0) :
-                             condition_basis(comparison, covariates, 6))
+           condition_basis(comparison, covariates, n_waves))
         {
           Direction direction;
           direction.friction = column;
@@ -263,12 +262,12 @@ namespace SlipStep
       largest = std::max(largest, score.value);
     result.p_smooth = scores.family_p(largest);
 
-    std::vector<Direction> all = test_waves(comparison, covariates, false);
+    std::vector<Direction> all = condition_waves(comparison, covariates, 6);
     result.p_waves = ScoreTest(comparison, model, null_draws, all).together().p;
     result.p_conditions = ScoreTest(comparison,
                                     model,
                                     null_draws,
-                                    test_waves(comparison, covariates, true))
+                                    condition_waves(comparison, covariates, 0))
                             .together()
                             .p;
     all.insert(all.end(), smooth.begin(), smooth.end());

@@ -1,3 +1,5 @@
+#include <deal.II/base/numbers.h>
+
 #include <slipstep/diagnosis/where.h>
 
 #include <algorithm>
@@ -47,7 +49,7 @@ namespace SlipStep
 
     double shown(const std::string &name, const double value)
     {
-      return name == "angle" ? value * 180. / 3.141592653589793 : value;
+      return name == "angle" ? value * 180. / dealii::numbers::PI : value;
     }
 
 

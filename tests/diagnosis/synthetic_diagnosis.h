@@ -105,12 +105,11 @@ namespace SyntheticDiagnosis
     std::mt19937                     generator(name.size() * 77 + name.back());
     std::normal_distribution<double> white(0., 0.0025);
     DiagnosedTest                    test;
-    test.name         = name;
-    test.condition    = condition;
-    test.file         = "measured/" + name + ".csv";
-    test.level        = 0.3;
-    test.noise        = 0.003;
-    test.shared_noise = 0.0015;
+    test.name      = name;
+    test.condition = condition;
+    test.file      = "measured/" + name + ".csv";
+    test.level     = 0.3;
+    test.noise     = 0.003;
     for (std::size_t i = 0; i < n_rows; ++i)
       {
         const Row    at       = row(kind, (i + 1.) / n_rows);

@@ -110,8 +110,6 @@ namespace SlipStep
     std::vector<double>      measured_y, before_y, after_y;
     std::vector<std::string> phase;
     double noise = 0.; ///< standard deviation of a row from all noise
-    /// Standard deviation of the noise that rows share.
-    double shared_noise = 0.;
     /// Root mean square of measured minus simulated, as shares of level.
     double rms_before = 0., rms_after = 0.;
     double left_out_before = 0., left_out_after = 0.;
