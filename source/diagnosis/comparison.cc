@@ -210,8 +210,10 @@ namespace SlipStep
           {
             const FitParameter &parameter = model.campaign->fitted[i];
             start.push_back(parameter.to_scaled(parameter.start));
-            belief.push_back(natural_slope(parameter, start.back()) /
-                             believed_deviation);
+            belief.push_back(is_of_a_part(parameter.path) ?
+                               1. / believed_share :
+                               natural_slope(parameter, start.back()) /
+                                 believed_deviation);
           }
       }
 
@@ -267,8 +269,22 @@ namespace SlipStep
       }
 
     private:
-      // Standard deviation of a parameter's logarithm around its start.
+      // Standard deviation of the logarithm of a parameter of the starting
+      // model around its start.
       static constexpr double believed_deviation = 2.;
+
+      // Of a parameter of what was added, as a share of its bounds: it starts
+      // at a first guess, of which nothing is believed.
+      static constexpr double believed_share = 0.5;
+
+      bool is_of_a_part(const std::string &path) const
+      {
+        for (const Part &part : model.parts)
+          for (const CandidateParameter &parameter : part.formula.parameters)
+            if (parameter.path == path)
+              return true;
+        return false;
+      }
 
       void leave_out(RowMatrix &columns) const
       {
@@ -330,26 +346,25 @@ namespace SlipStep
 
 
 
+  std::vector<std::size_t> partners(const std::vector<double> &time,
+                                    const std::vector<double> &other)
+  {
+    std::vector<std::size_t> result;
+    std::size_t              j = 0;
+    for (const double t : time)
+      {
+        while (j + 1 < other.size() &&
+               std::abs(other[j + 1] - t) <= std::abs(other[j] - t))
+          ++j;
+        result.push_back(j);
+      }
+    return result;
+  }
+
+
+
   namespace
   {
-    // For each row of one test that of another one at the same time.
-    std::vector<std::size_t> partners(const std::vector<double> &time,
-                                      const std::vector<double> &other)
-    {
-      std::vector<std::size_t> result;
-      std::size_t              j = 0;
-      for (const double t : time)
-        {
-          while (j + 1 < other.size() &&
-                 std::abs(other[j + 1] - t) <= std::abs(other[j] - t))
-            ++j;
-          result.push_back(j);
-        }
-      return result;
-    }
-
-
-
     // The n-th of the contrasts by Helmert: one test against the mean of those
     // before it, of length one.
     Contrast helmert(const std::vector<ComparedTest> &tests,

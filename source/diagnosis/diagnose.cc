@@ -64,6 +64,7 @@ namespace SlipStep
       result.p_smooth        = judgement.gap.p_smooth;
       result.p_waves         = judgement.gap.p_waves;
       result.p_conditions    = judgement.gap.p_conditions;
+      result.p_replicates    = judgement.gap.p_replicates;
       result.excess          = judgement.gap.excess;
       result.verdict         = judgement.verdict;
       result.withdrawn       = judgement.withdrawn;

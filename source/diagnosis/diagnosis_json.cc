@@ -140,6 +140,7 @@ namespace SlipStep
               {"p_smooth", diagnosis.p_smooth},
               {"p_waves", diagnosis.p_waves},
               {"p_conditions", diagnosis.p_conditions},
+              {"p_replicates", diagnosis.p_replicates},
               {"excess", diagnosis.excess},
               {"rms_percent", percent(diagnosis.shrink.fitted_before)},
               {"noise_floor_percent", percent(diagnosis.shrink.noise_floor)}};

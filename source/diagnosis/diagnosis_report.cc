@@ -297,6 +297,7 @@ namespace SlipStep
         {"… as a smooth difference", chance_text(diagnosis.p_smooth)},
         {"… as waves within tests", chance_text(diagnosis.p_waves)},
         {"… between conditions", chance_text(diagnosis.p_conditions)},
+        {"… as what replicates share", chance_text(diagnosis.p_replicates)},
         {"chance of what remains", chance_text(diagnosis.remainder_p)},
         {"seed", std::to_string(diagnosis.seed)},
         {"hash of the data",

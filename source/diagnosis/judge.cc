@@ -5,36 +5,8 @@
 
 namespace SlipStep
 {
-  std::vector<Direction> smooth_directions(const Workspace &workspace,
-                                           const View      &view)
-  {
-    std::vector<Direction> result = view.directions;
-    for (const BasisColumn &column :
-         smooth_basis(workspace.comparison, workspace.covariates))
-      {
-        Direction direction;
-        direction.friction = column.friction;
-        result.push_back(direction);
-      }
-    return result;
-  }
-
-
-
   namespace
   {
-    GapTest
-    gap_of(const Workspace &workspace, const Model &model, const View &view)
-    {
-      return test_gap(workspace.comparison,
-                      workspace.covariates,
-                      model,
-                      workspace.null_draws,
-                      smooth_directions(workspace, view));
-    }
-
-
-
     // Names that leave most of what could be explained are no explanation.
     void withdraw(Judgement &judgement, const Model &base)
     {
@@ -61,7 +33,7 @@ namespace SlipStep
     Judgement result;
     tell("looking for a gap");
     result.view        = look(workspace, base);
-    result.gap         = gap_of(workspace, base, result.view);
+    result.gap         = test_gap(workspace, base, result.view);
     result.remainder   = result.gap;
     result.found.model = base;
     if (result.gap.p > workspace.level)
@@ -83,9 +55,9 @@ namespace SlipStep
         result.verdict = Verdict::unnamed;
         return result;
       }
-    result.remainder = gap_of(workspace,
-                              result.found.model,
-                              look(workspace, result.found.model));
+    result.remainder = test_gap(workspace,
+                                result.found.model,
+                                look(workspace, result.found.model));
     result.explained_share =
       result.gap.excess > 0. ?
         std::clamp(1. - result.remainder.excess / result.gap.excess, 0., 1.) :

@@ -70,6 +70,10 @@ namespace SlipStep
     best.found     = true;
     best.sum       = best.residuals.squaredNorm();
     double damping = 1e-4;
+    // One per residual is noise; of sums far above that, tenths decide nothing.
+    const auto enough = [&]() {
+      return precision * std::max(1., best.sum / best.residuals.size());
+    };
     for (unsigned int n = 0; n < most_iterations; ++n)
       {
         const Eigen::MatrixXd curvature =
@@ -88,7 +92,7 @@ namespace SlipStep
               -2. * slope.dot(step) - step.dot(curvature * step);
             const Eigen::VectorXd x = (best.x + step).cwiseMax(0.).cwiseMin(1.);
             Eigen::VectorXd       residuals;
-            if (promised > 0.1 * precision && problem.residuals(x, residuals) &&
+            if (promised > 0.1 * enough() && problem.residuals(x, residuals) &&
                 residuals.squaredNorm() < best.sum)
               {
                 is_better      = true;
@@ -104,7 +108,7 @@ namespace SlipStep
           }
         if (!is_better ||
             !problem.derivatives(best.x, best.residuals, best.derivatives) ||
-            gain < precision)
+            gain < enough())
           return best;
       }
     return best;

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -249,6 +250,78 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // Rows that are added up before replicates are multiplied: sharp patterns
+    // are seen with few, weak slow ones with many.
+    constexpr std::array<std::size_t, 4> stretches = {1, 4, 16, 64};
+
+    // Sums over the stretches of the products of two replicates, added to one
+    // row of the result per length of a stretch.
+    void add_products(const ComparedTest &first,
+                      const ComparedTest &second,
+                      const RowMatrix    &columns,
+                      RowMatrix          &result)
+    {
+      const std::vector<std::size_t> rows =
+        partners(first.series[0].time, second.series[0].time);
+      const std::size_t n_series =
+        std::min(first.series.size(), second.series.size());
+      for (std::size_t l = 0; l < stretches.size(); ++l)
+        for (std::size_t s = 0; s < n_series; ++s)
+          for (std::size_t i = 0; i < rows.size(); i += stretches[l])
+            {
+              Eigen::RowVectorXd a = Eigen::RowVectorXd::Zero(columns.cols());
+              Eigen::RowVectorXd b = a;
+              for (std::size_t j = i;
+                   j < std::min(i + stretches[l], rows.size());
+                   ++j)
+                {
+                  a += columns.row(first.begin + s * first.n_bins() + j);
+                  b +=
+                    columns.row(second.begin + s * second.n_bins() + rows[j]);
+                }
+              result.row(l) += a.cwiseProduct(b);
+            }
+    }
+
+
+
+    RowMatrix agreement(const Comparison &comparison, const RowMatrix &columns)
+    {
+      RowMatrix result = RowMatrix::Zero(stretches.size(), columns.cols());
+      const std::vector<ComparedTest> &tests = comparison.tests;
+      for (std::size_t i = 0; i < tests.size(); ++i)
+        for (std::size_t j = i + 1; j < tests.size(); ++j)
+          if (tests[i].condition == tests[j].condition)
+            add_products(tests[i], tests[j], columns, result);
+      return result;
+    }
+  } // namespace
+
+
+
+  double chance_of_agreement(const Comparison      &comparison,
+                             const Eigen::VectorXd &residual,
+                             const RowMatrix       &null_draws)
+  {
+    const RowMatrix observed =
+      agreement(comparison, residual.head(comparison.n_rows()));
+    const RowMatrix       null = agreement(comparison, null_draws);
+    const Eigen::VectorXd deviations =
+      (null.rowwise().squaredNorm() / null.cols()).cwiseSqrt();
+    if (!(deviations.minCoeff() > 0.))
+      return 1.;
+    std::vector<double> largest;
+    for (Eigen::Index draw = 0; draw < null.cols(); ++draw)
+      largest.push_back(null.col(draw).cwiseQuotient(deviations).maxCoeff());
+    std::sort(largest.begin(), largest.end());
+    return share_above(largest,
+                       observed.col(0).cwiseQuotient(deviations).maxCoeff());
+  }
+
+
+
   GapTest test_gap(const Comparison             &comparison,
                    const Covariates             &covariates,
                    const Model                  &model,
@@ -276,12 +349,15 @@ namespace SlipStep
     result.excess     = saturated.excess;
     result.explained  = saturated.explained;
     result.p_together = saturated.p;
+    result.p_replicates =
+      chance_of_agreement(comparison, model.residual, null_draws);
     // Bonferroni, with most of the chance given to what has a name.
     result.p = std::min({1.,
                          1.5 * result.p_smooth,
-                         9. * result.p_waves,
-                         9. * result.p_conditions,
-                         9. * result.p_together});
+                         12. * result.p_waves,
+                         12. * result.p_conditions,
+                         12. * result.p_together,
+                         12. * result.p_replicates});
     return result;
   }
 } // namespace SlipStep

@@ -154,6 +154,34 @@ namespace SlipStep
 
 
 
+  std::vector<Direction> smooth_directions(const Workspace &workspace,
+                                           const View      &view)
+  {
+    std::vector<Direction> result = view.directions;
+    for (const BasisColumn &column :
+         smooth_basis(workspace.comparison, workspace.covariates))
+      {
+        Direction direction;
+        direction.friction = column.friction;
+        result.push_back(direction);
+      }
+    return result;
+  }
+
+
+
+  GapTest
+  test_gap(const Workspace &workspace, const Model &model, const View &view)
+  {
+    return test_gap(workspace.comparison,
+                    workspace.covariates,
+                    model,
+                    workspace.null_draws,
+                    smooth_directions(workspace, view));
+  }
+
+
+
   namespace
   {
     // With the effect at a strength, less if that cannot be simulated.
@@ -322,6 +350,12 @@ namespace SlipStep
 
       bool exchange_and_prune();
 
+      bool is_soaking_up(const unsigned int n_allowed);
+
+      void prove();
+
+      void drop_weakest();
+
       bool examine(const std::size_t part);
 
       void tell(const std::string &text) const
@@ -448,19 +482,69 @@ namespace SlipStep
 
 
 
+    // Each name gains less than the one before it. If those that are still
+    // allowed could not explain what remains, the formula of a stronger name is
+    // not the right one, and the weakest takes up what that leaves.
+    bool Searcher::is_soaking_up(const unsigned int n_allowed)
+    {
+      if (result.model.parts.size() < 2 ||
+          result.costs.size() < result.model.parts.size())
+        return false;
+      const GapTest remainder =
+        test_gap(workspace, result.model, look(workspace, result.model));
+      const double least =
+        *std::min_element(result.costs.begin(), result.costs.end());
+      return remainder.p <= workspace.level &&
+             remainder.excess > (n_allowed + 1) * least + sure_excess;
+    }
+
+
+
+    void Searcher::prove()
+    {
+      tell("proving");
+      for (unsigned int n = 0; n < 6; ++n)
+        if (!exchange_and_prune())
+          break;
+    }
+
+
+
+    void Searcher::drop_weakest()
+    {
+      const auto weakest =
+        std::min_element(result.costs.begin(), result.costs.end());
+      const std::optional<Model> less =
+        refit_without(workspace, result.model, weakest - result.costs.begin());
+      if (less.has_value())
+        {
+          result.model = *less;
+          settle(workspace, result.model);
+        }
+    }
+
+
+
     SearchResult Searcher::run()
     {
       for (unsigned int round = 0; round < workspace.most_effects; ++round)
         {
           if (!add())
             break;
-          tell("proving");
-          for (unsigned int n = 0; n < 6; ++n)
-            if (!exchange_and_prune())
-              break;
+          prove();
           // What was added and taken away again would come back.
           if (result.model.parts.size() <= round)
             break;
+          if (is_soaking_up(workspace.most_effects - round - 1))
+            break;
+        }
+      while (is_soaking_up(0))
+        {
+          const std::size_t n = result.model.parts.size();
+          drop_weakest();
+          if (result.model.parts.size() == n)
+            break;
+          prove();
         }
       return result;
     }

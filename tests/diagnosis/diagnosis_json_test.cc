@@ -75,6 +75,7 @@ TEST(DiagnosisJson, TheBlocksAreTheDocumentedOnes)
                "p_smooth",
                "p_waves",
                "p_conditions",
+               "p_replicates",
                "excess",
                "rms_percent",
                "noise_floor_percent"});

@@ -210,6 +210,7 @@ namespace SyntheticDiagnosis
     result.p_smooth       = 0.41;
     result.p_waves        = 0.6;
     result.p_conditions   = 0.37;
+    result.p_replicates   = 0.52;
     const double infinity = std::numeric_limits<double>::infinity();
     const double none     = std::nan("");
     result.candidates     = {
@@ -260,6 +261,7 @@ namespace SyntheticDiagnosis
     result.has_gap   = true;
     result.gap_p = result.p_smooth = 0.001;
     result.p_conditions            = 0.004;
+    result.p_replicates            = 0.001;
     result.excess                  = 2210.;
     result.where                   = {
                         {"speed",

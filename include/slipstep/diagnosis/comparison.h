@@ -31,6 +31,10 @@ namespace SlipStep
     }
   };
 
+  /// For each time that of another test that is nearest to it; both rise.
+  std::vector<std::size_t> partners(const std::vector<double> &time,
+                                    const std::vector<double> &other);
+
   /// A case with parameters fitted to the campaign.
   struct Model
   {
@@ -83,7 +87,7 @@ namespace SlipStep
     void whiten(RowMatrix &columns) const;
 
     /// Fit all parameters of a model, starting from those that it has.
-    /// @param precision of the objective
+    /// @param precision of the objective, as in least_squares()
     /// @param left_out tests that do not count
     /// @param held parameters that stay
     /// @return whether there is anything that can be simulated

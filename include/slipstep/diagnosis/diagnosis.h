@@ -188,11 +188,11 @@ namespace SlipStep
     std::vector<NoiseComponent>     noise;
 
     // ---- gap
-    bool                      has_gap  = false;
-    double                    gap_p    = 1.;
-    double                    p_smooth = 1., p_waves = 1., p_conditions = 1.;
-    double                    excess = 0.; ///< of the objective
-    std::vector<Localisation> where;       ///< most first
+    bool   has_gap  = false;
+    double gap_p    = 1.;
+    double p_smooth = 1., p_waves = 1., p_conditions = 1., p_replicates = 1.;
+    double excess = 0.;              ///< of the objective
+    std::vector<Localisation> where; ///< most first
 
     // ---- verdict
     Verdict                  verdict = Verdict::no_gap;

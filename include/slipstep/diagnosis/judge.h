@@ -21,10 +21,6 @@ namespace SlipStep
   };
 
   Judgement judge(Workspace &workspace, const Model &base);
-
-  /// Directions of the covariates, and of the candidates seen from a model.
-  std::vector<Direction> smooth_directions(const Workspace &workspace,
-                                           const View      &view);
 } // namespace SlipStep
 
 #endif

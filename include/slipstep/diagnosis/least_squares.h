@@ -32,7 +32,8 @@ namespace SlipStep
   };
 
   /// The least sum of squares by the method of Levenberg and Marquardt with
-  /// active bounds, until a step gains less than @p precision.
+  /// active bounds, until a step gains less than @p precision
+  /// times the larger of one and the mean of the squares.
   ///
   /// Beside fit(), which asks Ceres: a diagnosis makes hundreds of short fits
   /// from good starts, for which the trial steps that Ceres spends on bounds

@@ -88,15 +88,24 @@ namespace SlipStep
   /// Whether anything is missing.
   struct GapTest
   {
-    double p            = 1.; ///< of all four, Bonferroni
+    double p            = 1.; ///< of all five, Bonferroni
     double p_smooth     = 1.; ///< largest score of covariates and candidates
     double p_waves      = 1.; ///< slow waves within tests
     double p_conditions = 1.; ///< between conditions
     double p_together   = 1.; ///< all of these at once
+    double p_replicates = 1.; ///< what replicates have in common
     /// What a model with anything at all could explain, beyond chance.
     double          excess = 0.;
     Eigen::VectorXd explained; ///< that part of the residual, whitened
   };
+
+  /// The chance that replicates agree as much in what a model leaves: their
+  /// noise is independent, so that what they have in common is not noise,
+  /// whatever its shape and whatever kind of noise it is. 1 without replicates.
+  /// @param residual whitened
+  double chance_of_agreement(const Comparison      &comparison,
+                             const Eigen::VectorXd &residual,
+                             const RowMatrix       &null_draws);
 
   /// @param smooth directions of covariates and candidates
   GapTest test_gap(const Comparison             &comparison,

@@ -71,6 +71,14 @@ namespace SlipStep
 
   View look(Workspace &workspace, const Model &model);
 
+  /// Directions of the covariates, and of the candidates seen from a model.
+  std::vector<Direction> smooth_directions(const Workspace &workspace,
+                                           const View      &view);
+
+  /// Whether a model leaves more than noise, with what is seen from it.
+  GapTest
+  test_gap(const Workspace &workspace, const Model &model, const View &view);
+
   /// A model with one more effect, fitted; none if it cannot be simulated.
   std::optional<Model> refit_with(Workspace           &workspace,
                                   const Model         &model,
