@@ -63,7 +63,13 @@ namespace SlipStep
           }
         run_side_by_side(jobs,
                          the_case.parameters.case_file().stem().string(),
-                         line.quiet);
+                         line.quiet,
+                         0,
+                         false);
+        if (SignalGuard::caught() != 0)
+          throw RunError(SignalGuard::in_words() +
+                         "; what was found on the contact point is kept, "
+                         "without the simulation of the block");
       };
     run_diagnosis(the_case.parameters, fit_options(the_case, line), runner);
   }

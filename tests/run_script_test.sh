@@ -107,6 +107,13 @@ expect 'a case with a space in its name' 0 'slipstep run two\\ words.prm$' \
        dry 0 'two words.prm'
 expect 'other commands pass' 0 '/build/slipstep point case.prm$' \
        dry 0 point case.prm
+# Those that the program itself lists.
+for command in $(grep -oE '^        \{"[a-z]+",$' \
+                      "$(dirname "$run")/source/utilities/command_line.cc" |
+                   grep -oE '[a-z]+'); do
+  expect "./run knows the command $command" 0 "/build/slipstep $command" \
+         dry 0 "$command"
+done
 expect 'values of --set are no cases' 0 'slipstep run case.prm' \
        dry 0 case.prm --set Include=other.prm
 expect 'only the program is built for a case' 0 '--target slipstep -j 2' \

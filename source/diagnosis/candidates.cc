@@ -41,7 +41,7 @@ namespace SlipStep
 
       bool is_fitted(const std::string &path) const
       {
-        return parameters.text("Calibration/Parameters").find(path) !=
+        return parameters.text("Calibration/Parameters").find(path + " ") !=
                std::string::npos;
       }
 
@@ -68,6 +68,16 @@ namespace SlipStep
       }
     };
 
+    // It cannot be tried, since the model has it or the like.
+    void leave_to_model(Candidate &candidate, const std::string &why)
+    {
+      candidate.formulas.clear();
+      candidate.why_not     = why;
+      candidate.is_in_model = true;
+    }
+
+
+
     using Maker = std::function<Candidate(const Circumstances &)>;
 
 
@@ -81,6 +91,27 @@ namespace SlipStep
         values.push_back(n == 1 ? std::sqrt(a * b) :
                                   a * std::pow(b / a, i / (n - 1.)));
       return values;
+    }
+
+
+
+    // One parameter in proportion to the strength, @p unit of it changing
+    // friction by its own size.
+    void set_proportional(Formula           &formula,
+                          const std::string &path,
+                          const double       unit,
+                          const double       lower,
+                          const double       upper)
+    {
+      // A start within the bounds.
+      const double margin = 0.03 * (upper - lower);
+      const double least  = lower < 0. ? lower + margin : 0.;
+      formula.parameters  = {{path, lower, upper, false}};
+      formula.shapes      = {{[=](const double strength) {
+        return std::map<std::string, double>{
+          {path,
+           std::clamp(just_noticed * strength * unit, least, upper - margin)}};
+      }}};
     }
 
 
@@ -150,7 +181,7 @@ namespace SlipStep
         {},
         ""};
       if (now.has_flow_rule())
-        candidate.why_not = "the model has a flow rule already";
+        leave_to_model(candidate, "the model has a flow rule already");
       else
         candidate.formulas = {overstress_formula(now), perzyna_formula(now)};
       return candidate;
@@ -195,16 +226,11 @@ namespace SlipStep
                           {},
                           ""};
       Formula   formula;
-      formula.effect         = "viscous";
-      formula.is_one_sided   = true;
-      const std::string drag = "Friction/viscous/Drag";
-      const double      unit =
+      formula.effect       = "viscous";
+      formula.is_one_sided = true;
+      const double unit =
         now.friction() * now.range.highest / now.range.fastest;
-      formula.parameters = {{drag, 0., 3. * unit, false}};
-      formula.shapes     = {{[=](const double strength) {
-        return std::map<std::string, double>{
-          {drag, std::clamp(just_noticed * strength * unit, 0., 2.9 * unit)}};
-      }}};
+      set_proportional(formula, "Friction/viscous/Drag", unit, 0., 3. * unit);
       candidate.formulas = {formula};
       return candidate;
     }
@@ -220,12 +246,7 @@ namespace SlipStep
                           "exponential in slip, never comes back",
                           {},
                           ""};
-      if (now.has("softening"))
-        {
-          candidate.why_not = "it is in the model already";
-          return candidate;
-        }
-      Formula formula;
+      Formula   formula;
       formula.effect         = "softening";
       formula.is_one_sided   = true;
       const std::string rate = "Friction/softening/Rate";
@@ -273,7 +294,7 @@ namespace SlipStep
         {},
         ""};
       if (now.has("healing") && now.number("Friction/healing/Rate") > 0.)
-        candidate.why_not = "it is in the model already";
+        leave_to_model(candidate, "it is in the model already");
       else if (!now.has("softening"))
         candidate.why_not = "without softening nothing can heal";
       if (!candidate.why_not.empty())
@@ -389,16 +410,11 @@ namespace SlipStep
     {
       Candidate candidate{"pressure", "straight in ln p only", {}, ""};
       Formula   formula;
-      formula.effect             = "pressure";
-      const std::string exponent = "Friction/pressure/Exponent";
+      formula.effect = "pressure";
       now.set(formula,
               "Friction/pressure/Reference pressure",
               std::sqrt(now.range.lowest * now.range.highest));
-      formula.parameters = {{exponent, -0.8, 0.8, false}};
-      formula.shapes     = {{[=](const double strength) {
-        return std::map<std::string, double>{
-          {exponent, std::clamp(just_noticed * strength, -0.79, 0.79)}};
-      }}};
+      set_proportional(formula, "Friction/pressure/Exponent", 1., -0.8, 0.8);
       candidate.formulas = {formula};
       return candidate;
     }
@@ -436,17 +452,12 @@ namespace SlipStep
                           {},
                           ""};
       Formula   formula;
-      formula.effect                 = "adhesion";
-      formula.is_one_sided           = true;
-      const std::string strength_key = "Friction/adhesion/Strength";
-      const double      unit         = now.friction() * now.range.lowest;
-      formula.parameters             = {{strength_key, 0., 2. * unit, false}};
-      formula.shapes                 = {{[=](const double strength) {
-        return std::map<std::string, double>{
-          {strength_key,
-           std::clamp(just_noticed * strength * unit, 0., 1.9 * unit)}};
-      }}};
-      candidate.formulas             = {formula};
+      formula.effect       = "adhesion";
+      formula.is_one_sided = true;
+      const double unit    = now.friction() * now.range.lowest;
+      set_proportional(
+        formula, "Friction/adhesion/Strength", unit, 0., 2. * unit);
+      candidate.formulas = {formula};
       return candidate;
     }
 
@@ -454,15 +465,10 @@ namespace SlipStep
 
     // ------------------------------------------------------ direction
 
-    Candidate anisotropy(const Circumstances &now)
+    Candidate anisotropy(const Circumstances &)
     {
       Candidate candidate{"anisotropy", "a ratio in off-axis tests", {}, ""};
-      if (now.has("anisotropy"))
-        {
-          candidate.why_not = "it is in the model already";
-          return candidate;
-        }
-      Formula formula;
+      Formula   formula;
       formula.effect          = "anisotropy";
       const std::string ratio = "Friction/anisotropy/Ratio";
       const std::string angle = "Friction/anisotropy/Angle";
@@ -484,14 +490,9 @@ namespace SlipStep
     {
       Candidate candidate{"direction", "an offset on reverse strokes", {}, ""};
       Formula   formula;
-      formula.effect           = "direction";
-      const std::string change = "Friction/direction/Change";
-      formula.parameters       = {{change, -0.8, 3., false}};
-      formula.shapes           = {{[=](const double strength) {
-        return std::map<std::string, double>{
-          {change, std::clamp(just_noticed * strength, -0.7, 2.9)}};
-      }}};
-      candidate.formulas       = {formula};
+      formula.effect = "direction";
+      set_proportional(formula, "Friction/direction/Change", 1., -0.8, 3.);
+      candidate.formulas = {formula};
       return candidate;
     }
 
@@ -508,7 +509,7 @@ namespace SlipStep
       if (now.is_fitted(stiffness) ||
           now.is_fitted("Loading/Machine stiffness"))
         {
-          candidate.why_not = "the stiffness is fitted already";
+          leave_to_model(candidate, "the stiffness is fitted already");
           return candidate;
         }
       Formula formula;
@@ -540,12 +541,7 @@ namespace SlipStep
                           "rounded flanks before every peak",
                           {},
                           ""};
-      if (now.has("subloading"))
-        {
-          candidate.why_not = "it is in the model already";
-          return candidate;
-        }
-      Formula formula;
+      Formula   formula;
       formula.effect         = "subloading";
       formula.is_one_sided   = true;
       const std::string rate = "Friction/subloading/Rate";
@@ -615,8 +611,7 @@ namespace SlipStep
           if (is_known && maker.first != "healing" &&
               maker.first != "overstress")
             {
-              result.back().formulas.clear();
-              result.back().why_not = "it is in the model already";
+              leave_to_model(result.back(), "it is in the model already");
             }
         }
     return result;

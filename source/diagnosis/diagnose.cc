@@ -22,6 +22,36 @@ namespace SlipStep
 
   namespace
   {
+    std::vector<NamedTest> named_tests(const Prepared &prepared)
+    {
+      std::vector<NamedTest> result;
+      for (const CampaignTest &test : prepared.workspace->tests)
+        result.emplace_back(test.rows.name, test.rows.file);
+      for (const CampaignTest &test : prepared.outlier_tests)
+        result.emplace_back(test.rows.name, test.rows.file);
+      return result;
+    }
+
+
+
+    // Of those that the case asks for, one at least has to be missing.
+    void check_candidates(const Workspace &workspace)
+    {
+      std::string why;
+      for (const Candidate &candidate :
+           make_candidates(workspace.start, workspace.range))
+        {
+          if (candidate.why_not.empty())
+            return;
+          why += (why.empty() ? "" : "; ") + candidate.name + ": " +
+                 candidate.why_not;
+        }
+      workspace.start.reject("Diagnosis/Candidates",
+                             "none of these can be tried (" + why + ")");
+    }
+
+
+
     /// The stages of a diagnosis on the contact point.
     class Diagnostician
     {
@@ -31,6 +61,9 @@ namespace SlipStep
         , stage(stage)
       {}
 
+      /// @throws InputError for what is wrong with the case and its tests
+      void begin();
+
       void run();
 
       Diagnosis                       result;
@@ -39,6 +72,8 @@ namespace SlipStep
 
     private:
       void name();
+
+      void suspect_condition();
 
       void correct();
 
@@ -65,6 +100,7 @@ namespace SlipStep
       result.p_waves         = judgement.gap.p_waves;
       result.p_conditions    = judgement.gap.p_conditions;
       result.p_replicates    = judgement.gap.p_replicates;
+      result.p_together      = judgement.gap.p_together;
       result.excess          = judgement.gap.excess;
       result.verdict         = judgement.verdict;
       result.withdrawn       = judgement.withdrawn;
@@ -87,6 +123,50 @@ namespace SlipStep
           result.ambiguous_with.push_back(rival.name);
           result.rival_of.push_back(rival.instead_of);
         }
+    }
+
+
+
+    // What has no name may be one condition that went wrong: the verdict
+    // without it, if it makes most of the gap.
+    void Diagnostician::suspect_condition()
+    {
+      constexpr double      most             = 0.5;
+      constexpr std::size_t least_conditions = 4;
+
+      const Comparison         &comparison = prepared.workspace->comparison;
+      const std::vector<double> squares =
+        comparison.squares_by_test(judgement.gap.explained);
+      std::vector<double> of_condition(comparison.conditions.size(), 0.);
+      for (std::size_t t = 0; t < squares.size(); ++t)
+        of_condition[comparison.tests[t].condition] += squares[t];
+      const auto worst =
+        std::max_element(of_condition.begin(), of_condition.end());
+      const double share =
+        *worst / std::accumulate(squares.begin(), squares.end(), 0.);
+      if (!(share > most) || of_condition.size() < least_conditions)
+        return;
+      stage("without the condition that makes most of it");
+      std::vector<std::string> left_out;
+      for (std::size_t t = 0; t < squares.size(); ++t)
+        if (comparison.tests[t].condition ==
+            static_cast<std::size_t>(worst - of_condition.begin()))
+          left_out.push_back(prepared.workspace->tests[t].rows.name);
+      const Prepared  others  = prepare(parameters, {}, left_out);
+      const Judgement without = judge(*others.workspace, others.base);
+      if (without.verdict == Verdict::unnamed)
+        return;
+      std::vector<std::string> names;
+      for (const Part &part : without.found.model.parts)
+        names.push_back(part.name);
+      for (const std::string &test : left_out)
+        result.outliers.push_back(
+          {test,
+           "its condition alone makes " + percent_text(share) +
+             " of what noise does not explain; without it " +
+             (names.empty() ? "nothing is found to be missing" :
+                              list_text(names) + " would be named") +
+             ". It counts in everything that is shown here"});
     }
 
 
@@ -121,8 +201,13 @@ namespace SlipStep
       stage("the next test");
       result.next_test =
         propose_next_test(workspace, final_model, judgement.found.rivals);
-      result.n_candidates = result.candidates.size();
-      result.n_refits     = workspace.n_refits;
+      result.n_candidates =
+        std::count_if(result.candidates.begin(),
+                      result.candidates.end(),
+                      [](const CandidateResult &candidate) {
+                        return candidate.status != "in the model";
+                      });
+      result.n_refits = workspace.n_refits;
     }
 
 
@@ -159,13 +244,23 @@ namespace SlipStep
 
 
 
+    void Diagnostician::begin()
+    {
+      result.seed          = parameters.integer("Diagnosis/Seed");
+      result.level         = parameters.number("Diagnosis/Level");
+      result.n_draws       = parameters.integer("Diagnosis/Draws");
+      result.is_restricted = parameters.text("Diagnosis/Candidates") != "all";
+      prepared             = prepare(parameters, stage);
+      check_element_tests(parameters, named_tests(prepared));
+      if (result.is_restricted)
+        check_candidates(*prepared.workspace);
+    }
+
+
+
     void Diagnostician::run()
     {
       const ResourceUsage begin = ResourceUsage::now();
-      result.seed               = parameters.integer("Diagnosis/Seed");
-      result.level              = parameters.number("Diagnosis/Level");
-      result.n_draws            = parameters.integer("Diagnosis/Draws");
-      prepared                  = prepare(parameters, stage);
       describe_data(prepared, result);
       describe_noise(*prepared.workspace, result);
       name();
@@ -176,7 +271,10 @@ namespace SlipStep
             localise(*prepared.workspace, prepared.base, judgement.gap);
         }
       if (result.verdict == Verdict::unnamed)
-        correct();
+        {
+          suspect_condition();
+          correct();
+        }
       prove();
       show();
       const ResourceUsage end = ResourceUsage::now();
@@ -203,7 +301,6 @@ namespace SlipStep
                            diagnosis);
       print_warnings(
         write_diagnosis_report(options.output, parameters, diagnosis));
-      print_warnings(diagnosis.warnings);
     }
   } // namespace
 
@@ -220,15 +317,17 @@ namespace SlipStep
                                   share += 0.3 * (1. - share);
                                   progress.update(share, text);
                                 });
+    diagnostician.begin();
+    create_output_folder(options.output);
     diagnostician.run();
     Diagnosis                     &diagnosis = diagnostician.result;
     const std::vector<std::size_t> tests = element_tests(parameters, diagnosis);
 
-    create_output_folder(options.output);
     remove_earlier_results(options.output);
     const fs::path improved = options.output / "improved.prm";
     diagnosis.improved_case = improved.filename().string();
     write_results(diagnostician, parameters, options, improved);
+    print_warnings(diagnosis.warnings);
     if (!tests.empty())
       {
         progress.update(0.9, "simulating the block");
@@ -245,7 +344,9 @@ namespace SlipStep
     progress.finish();
     if (!options.quiet)
       std::cout << diagnosis_table(diagnosis)
-                << "\nImproved case: " << improved.string()
+                << (has_after(diagnosis) ? "\nImproved case: " :
+                                           "\nCalibrated case: ")
+                << improved.string()
                 << "\nReport: " << (options.output / "report.html").string()
                 << std::endl;
   }

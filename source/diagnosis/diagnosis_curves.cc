@@ -44,17 +44,24 @@ namespace SlipStep
       }
     };
 
-    /// Over displacement, what rests or comes back lies on top of itself.
-    bool rests_or_comes_back(const DiagnosedTest &test)
+    /// Over displacement, what comes back lies on top of itself. What rests is
+    /// a vertical line, whereas over time a rest hides everything else.
+    bool comes_back(const DiagnosedTest &test)
     {
       const auto ends =
         std::minmax_element(test.displacement.begin(), test.displacement.end());
       return std::any_of(test.phase.begin(),
                          test.phase.end(),
                          [](const std::string &phase) {
-                           return phase == "hold" || phase == "reversal";
+                           return phase == "reversal";
                          }) ||
              !(*ends.second > *ends.first);
+    }
+
+    /// Of a test with two axes each has its share.
+    double noise_of_axis(const DiagnosedTest &test)
+    {
+      return test.measured_y.empty() ? test.noise : test.noise / std::sqrt(2.);
     }
 
     /// As the tests come; of too many those that were met worst before.
@@ -73,7 +80,7 @@ namespace SlipStep
         if (frame == frames.end())
           frame = frames.insert(frame, Frame{title, {}, is_second});
         frame->tests.push_back(&test);
-        frame->is_over_time = frame->is_over_time || rests_or_comes_back(test);
+        frame->is_over_time = frame->is_over_time || comes_back(test);
         frame->worst        = std::max(frame->worst, test.rms_before);
       };
       for (const DiagnosedTest &test : diagnosis.tests)
@@ -159,8 +166,8 @@ namespace SlipStep
                 {
                   range->add(measured);
                   range->add(before);
-                  range->add(simulated - 2. * test->noise);
-                  range->add(simulated + 2. * test->noise);
+                  range->add(simulated - 2. * noise_of_axis(*test));
+                  range->add(simulated + 2. * noise_of_axis(*test));
                 }
           }
       if (!(on_flanks < elsewhere) || !(sliding.width() > 0.))
@@ -202,7 +209,7 @@ namespace SlipStep
                      rows_of(frame.abscissa(first),
                              is_after ? frame.after(first) :
                                         frame.before(first),
-                             2. * first.noise),
+                             2. * noise_of_axis(first)),
                      "using 1:2:3 with filledcurves fillcolor rgb '" +
                        band_line.colour + "'");
       for (std::size_t i = frame.tests.size(); i-- > 0;)

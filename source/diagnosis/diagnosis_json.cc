@@ -83,6 +83,12 @@ namespace SlipStep
 
     json to_json(const ElementCheck &check)
     {
+      if (check.block_after.empty())
+        return {{"test", check.test},
+                {"block_percent", nullptr},
+                {"point_percent", nullptr},
+                {"difference_percent", nullptr},
+                {"remark", check.remark}};
       return {{"test", check.test},
               {"block_percent",
                percents(check.block_gap_before, check.block_gap_after)},
@@ -141,6 +147,7 @@ namespace SlipStep
               {"p_waves", diagnosis.p_waves},
               {"p_conditions", diagnosis.p_conditions},
               {"p_replicates", diagnosis.p_replicates},
+              {"p_together", diagnosis.p_together},
               {"excess", diagnosis.excess},
               {"rms_percent", percent(diagnosis.shrink.fitted_before)},
               {"noise_floor_percent", percent(diagnosis.shrink.noise_floor)}};

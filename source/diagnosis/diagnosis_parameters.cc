@@ -2,6 +2,7 @@
 #include <slipstep/diagnosis/diagnosis_parameters.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace SlipStep
 {
@@ -78,6 +79,15 @@ namespace SlipStep
 
   void check_diagnosis_parameters(const Parameters &parameters)
   {
+    // p = 1.5 p_smooth, and no chance is below 1/(N + 1).
+    const double least_draws =
+      std::ceil(1.5 / parameters.number(section + "Level") - 1. - 1e-9);
+    if (parameters.integer(section + "Draws") < least_draws)
+      parameters.reject(section + "Draws",
+                        "for an alarm at Diagnosis/Level = " +
+                          parameters.text(section + "Level") + " at least " +
+                          std::to_string(static_cast<long>(least_draws)) +
+                          " are needed");
     const std::vector<std::string> known = candidate_names();
     const std::vector<std::string> list =
       parameters.list(section + "Candidates");
@@ -93,8 +103,9 @@ namespace SlipStep
             all += (all.empty() ? "" : ", ") + one;
           parameters.reject(section + "Candidates",
                             "there is no candidate '" + name + "'; " +
-                              (near.empty() ? "known are: " + all :
-                                              "did you mean '" + near + "'?"));
+                              (name == "all" ? "'all' stands alone" :
+                               near.empty()  ? "known are: " + all :
+                                               "did you mean '" + near + "'?"));
         }
   }
 } // namespace SlipStep

@@ -33,10 +33,10 @@ namespace SlipStep
       return what + (names.size() > 1 ? "s " : " ") + list_text(names);
     }
 
-    std::vector<std::string> quoted(std::vector<std::string> names)
+    std::vector<std::string> all_in_quotes(std::vector<std::string> names)
     {
       for (std::string &name : names)
-        name = "'" + name + "'";
+        name = in_quotes(name);
       return names;
     }
 
@@ -64,7 +64,7 @@ namespace SlipStep
       if (!where.phases.empty())
         text += ", most in " + plural("phase", where.phases);
       if (!where.tests.empty())
-        text += ", in " + plural("test", quoted(where.tests));
+        text += ", in " + plural("test", all_in_quotes(where.tests));
       return card(title,
                   paragraph(range_text(where), "big") + paragraph(text + ".") +
                     note("Explains " + fixed_text(100. * where.share, 0) +
@@ -133,14 +133,14 @@ namespace SlipStep
           case Verdict::ambiguous:
             return card("What was missing", named_card(diagnosis));
           case Verdict::unnamed:
-            return card(
-              "What was missing",
-              paragraph("Something that no effect of the catalogue explains",
-                        "big") +
-                (diagnosis.withdrawn.empty() ?
-                   "" :
-                   paragraph("Taken back, since too much remained: " +
-                             list_text(diagnosis.withdrawn) + ".")));
+            return card("What was missing",
+                        paragraph("Something that " +
+                                    nothing_explains(diagnosis),
+                                  "big") +
+                          (diagnosis.withdrawn.empty() ?
+                             "" :
+                             paragraph("Taken back, since too much remained: " +
+                                       list_text(diagnosis.withdrawn) + ".")));
           case Verdict::no_gap:
             return card("What was missing",
                         paragraph("Nothing, as far as these tests can tell",
@@ -206,9 +206,11 @@ namespace SlipStep
                                diagnosis.verdict == Verdict::unnamed   ? "?" :
                                diagnosis.verdict == Verdict::no_gap    ? "=" :
                                                                          "○";
-      std::string       text = short_verdict(diagnosis.verdict);
+      std::string       text = short_verdict(diagnosis);
       if (!diagnosis.effects.empty())
         text += ": " + names_text(diagnosis);
+      if (!reservation(diagnosis).empty())
+        text += ", " + reservation(diagnosis);
       return "<p class='badge " + name_of(diagnosis.verdict) + "'>" + mark +
              " " + html_text(text) + "</p>\n";
     }
@@ -283,26 +285,37 @@ namespace SlipStep
       std::vector<std::string> outliers;
       for (const Outlier &outlier : diagnosis.outliers)
         outliers.push_back(outlier.test + ": " + outlier.words);
+      const auto chance = [&](const double p) {
+        return chance_text(p, diagnosis.n_draws);
+      };
+      const std::size_t n_in_model =
+        diagnosis.candidates.size() - diagnosis.n_candidates;
       const std::vector<TableLine> lines = {
         {"what the verdict rests on", ""},
         {"tests", std::to_string(diagnosis.tests.size())},
         {"conditions", std::to_string(diagnosis.n_conditions)},
         {"pairs of replicates", std::to_string(diagnosis.n_replicate_pairs)},
-        {"samples measured", std::to_string(diagnosis.n_samples)},
-        {"effects considered", std::to_string(diagnosis.n_candidates)},
+        {"numbers compared, averages of rows",
+         std::to_string(diagnosis.n_samples)},
+        {"effects considered",
+         std::to_string(diagnosis.n_candidates) +
+           (n_in_model > 0 ?
+              " (" + std::to_string(n_in_model) + " more are in the model)" :
+              "")},
         {"fits of the whole campaign", std::to_string(diagnosis.n_refits)},
         {"samples of noise drawn", std::to_string(diagnosis.n_draws)},
         {"chance of a false alarm accepted", percent_text(diagnosis.level)},
-        {"chance of this gap by noise alone", chance_text(diagnosis.gap_p)},
-        {"… as a smooth difference", chance_text(diagnosis.p_smooth)},
-        {"… as waves within tests", chance_text(diagnosis.p_waves)},
-        {"… between conditions", chance_text(diagnosis.p_conditions)},
-        {"… as what replicates share", chance_text(diagnosis.p_replicates)},
-        {"chance of what remains", chance_text(diagnosis.remainder_p)},
+        {"chance of this gap by noise alone", chance(diagnosis.gap_p)},
+        {"… as a smooth difference", chance(diagnosis.p_smooth)},
+        {"… as waves within tests", chance(diagnosis.p_waves)},
+        {"… between conditions", chance(diagnosis.p_conditions)},
+        {"… as what replicates share", chance(diagnosis.p_replicates)},
+        {"… as all of these at once", chance(diagnosis.p_together)},
+        {"chance of what remains", chance(diagnosis.remainder_p)},
         {"seed", std::to_string(diagnosis.seed)},
         {"hash of the data",
          diagnosis.data_hash.empty() ? "–" : diagnosis.data_hash},
-        {"wall time, CPU time",
+        {"wall time, CPU time, without the block",
          fixed_text(diagnosis.wall_time, 1) + " s, " +
            fixed_text(diagnosis.cpu_time, 1) + " s"}};
       std::string html =

@@ -55,7 +55,8 @@ namespace SlipStep
              html + "</td>";
     }
 
-    std::string candidate_line(const CandidateResult &candidate)
+    std::string candidate_line(const CandidateResult &candidate,
+                               const unsigned int     n_draws)
     {
       const bool        is_tried = candidate.is_testable;
       const std::string style    = candidate.status == "named" ? "named" :
@@ -75,7 +76,7 @@ namespace SlipStep
                   html_text(plain_words(candidate.name)) + "</span>") +
              cell("<span class='status'>" + html_text(candidate.status) +
                   "</span>") +
-             cell(is_tried ? html_text(chance_text(candidate.p)) : "–",
+             cell(is_tried ? html_text(chance_text(candidate.p, n_draws)) : "–",
                   "number") +
              cell(gain_text(candidate.gain), "number") +
              cell(gain_text(candidate.left_out_gain), "number") +
@@ -157,6 +158,8 @@ namespace SlipStep
 .track { position: relative; height: 1.3em; background: #f2f2f2; }
 .track i { position: absolute; top: 0; bottom: 0; left: 0; }
 .track i.was { background: #dcdcdc; }
+.track i.cut::after { content: '»'; position: absolute; right: .2em;
+  color: #fff; font-style: normal; line-height: 1.3; }
 .track i.floor { border-left: 2px dashed #222; }
 .maps { display: flex; flex-wrap: wrap; gap: 0 2em; }
 .maps > div { min-width: 0; max-width: 100%; }
@@ -171,7 +174,7 @@ namespace SlipStep
 .gradient { display: inline-block; width: 7em; height: .9em;
   vertical-align: middle; border: 1px solid #ccc; }
 .places td:first-child { white-space: nowrap; }
-.tests th:nth-child(2), .tests td:nth-child(2) { text-align: left;
+.tests th:last-child, .tests td:last-child { text-align: left;
   white-space: nowrap; }
 .candidates th.number { text-align: right; } .candidates .remark {
   min-width: 12em; }
@@ -226,11 +229,13 @@ figure svg { max-width: 100%; }
   {
     std::string html = "<div class='bar'><span class='label'>" +
                        html_text(label) + "</span><span class='track'>";
+    const auto width = [&](const double end) {
+      return css("width", std::min(1., end / largest));
+    };
     if (before > value)
-      html +=
-        "<i class='was' style='" + css("width", before / largest) + "'></i>";
-    html += "<i style='" + css("width", value / largest) +
-            ";background:" + colour + "'></i>";
+      html += "<i class='was' style='" + width(before) + "'></i>";
+    html += "<i" + std::string(value > largest ? " class='cut'" : "") +
+            " style='" + width(value) + ";background:" + colour + "'></i>";
     if (noise > 0.)
       html +=
         "<i class='floor' style='" + css("left", noise / largest) + "'></i>";
@@ -260,9 +265,8 @@ figure svg { max-width: 100%; }
                                          [](const DiagnosedTest &test) {
                                            return test.left_out_before > 0.;
                                          });
-    std::vector<TableLine> lines       = {
-            {"test", "condition", is_after ? "rms before" : "rms"}};
-    TableLine &head = lines[0];
+    std::vector<TableLine> lines = {{"test", is_after ? "rms before" : "rms"}};
+    TableLine             &head  = lines[0];
     if (is_after)
       head.push_back("after");
     if (is_left_out)
@@ -270,10 +274,10 @@ figure svg { max-width: 100%; }
     if (is_left_out && is_after)
       head.push_back("left out, after");
     head.push_back("noise");
+    head.push_back("condition");
     for (const DiagnosedTest &test : diagnosis.tests)
       {
         TableLine line = {test.name + (test.is_outlier ? " (outlier)" : ""),
-                          test.condition,
                           percent_text(test.rms_before)};
         if (is_after)
           line.push_back(percent_text(test.rms_after));
@@ -283,6 +287,7 @@ figure svg { max-width: 100%; }
           line.push_back(percent_text(test.left_out_after));
         line.push_back(
           percent_text(test.level > 0. ? test.noise / test.level : 0.));
+        line.push_back(test.condition);
         lines.push_back(line);
       }
     return heading("Every test in numbers") +
@@ -327,7 +332,7 @@ figure svg { max-width: 100%; }
       "<th class='number'>smallest detectable</th><th>remark</th></tr></thead>"
       "\n<tbody>\n";
     for (const CandidateResult &candidate : diagnosis.candidates)
-      html += candidate_line(candidate);
+      html += candidate_line(candidate, diagnosis.n_draws);
     return html + "</tbody></table></div>\n" +
            note("p: chance that noise alone would make any of these effects "
                 "look as needed as this one. Gain: what adding it alone takes "
@@ -344,12 +349,20 @@ figure svg { max-width: 100%; }
     if (diagnosis.steps.empty())
       return "";
     const double noise   = diagnosis.shrink.noise_floor;
-    double       largest = noise;
+    double       largest = noise, calibrated = noise;
     for (const GapStep &step : diagnosis.steps)
       if (std::isfinite(step.rms))
-        largest = std::max(largest, step.rms);
+        {
+          largest = std::max(largest, step.rms);
+          if (&step != &diagnosis.steps.front())
+            calibrated = std::max(calibrated, step.rms);
+        }
     if (!(largest > 0.))
       return "";
+    // A start that is far off would make dots of everything else.
+    const bool is_cut = largest > 4. * calibrated;
+    if (is_cut)
+      largest = 1.5 * calibrated;
     std::string html =
       heading("From the starting model down to the noise") +
       "<p class='legend'><span><i class='dashed' style='color:#222'></i>noise "
@@ -370,7 +383,8 @@ figure svg { max-width: 100%; }
         before = step.rms;
       }
     return html + note("Root mean square of measured minus simulated, in % of "
-                       "friction. Grey: what the step took away.");
+                       "friction. Grey: what the step took away." +
+                       std::string(is_cut ? " A bar with » goes on." : ""));
   }
 
 
@@ -396,6 +410,26 @@ figure svg { max-width: 100%; }
 
 
 
+  namespace
+  {
+    std::string block_words(const Diagnosis &diagnosis)
+    {
+      const bool is_far =
+        std::any_of(diagnosis.element_checks.begin(),
+                    diagnosis.element_checks.end(),
+                    [&](const ElementCheck &check) {
+                      return check.difference > diagnosis.shrink.noise_floor;
+                    });
+      return is_far ? " Here they differ by more than the noise: the block "
+                      "bends, and friction at its foot tilts it, so that its "
+                      "pressure is uneven; the parameters were fitted without "
+                      "that." :
+                      "";
+    }
+  } // namespace
+
+
+
   std::string elements_section(const Diagnosis &diagnosis,
                                const Gallery   &gallery)
   {
@@ -416,6 +450,7 @@ figure svg { max-width: 100%; }
                                  "column is the difference of block and "
                                  "contact point. The search runs on the "
                                  "contact point; this is the proof on the "
-                                 "block."));
+                                 "block." +
+                                 block_words(diagnosis)));
   }
 } // namespace SlipStep

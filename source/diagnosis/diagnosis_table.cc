@@ -40,10 +40,13 @@ namespace SlipStep
           shrink.systematic_before,
           shrink.systematic_after,
           "");
+      const std::string under = reservation(diagnosis);
       return "  verdict: " + name_of(diagnosis.verdict) +
              (diagnosis.effects.empty() ? "" : " – " + names_text(diagnosis)) +
+             (under.empty() ? "" : ", " + under) +
              "\n  chance of this gap by noise alone: " +
-             chance_text(diagnosis.gap_p) + "\n\n" + text_table(lines, widest);
+             chance_text(diagnosis.gap_p, diagnosis.n_draws) + "\n\n" +
+             text_table(lines, widest);
     }
 
     std::string places(const Diagnosis &diagnosis)
@@ -65,7 +68,9 @@ namespace SlipStep
         {"candidate", "p", "gain", "left-out gain", "smallest seen", "status"}};
       for (const CandidateResult &candidate : diagnosis.candidates)
         lines.push_back({candidate.name,
-                         candidate.is_testable ? chance_text(candidate.p) : "–",
+                         candidate.is_testable ?
+                           chance_text(candidate.p, diagnosis.n_draws) :
+                           "–",
                          fixed_text(candidate.gain, 1),
                          fixed_text(candidate.left_out_gain, 1),
                          percent_text(candidate.minimum_detectable),
@@ -96,6 +101,31 @@ namespace SlipStep
                 "");
     }
 
+    std::string blocks(const Diagnosis &diagnosis)
+    {
+      if (diagnosis.element_checks.empty())
+        return "";
+      std::string            remarks;
+      std::vector<TableLine> lines = {{"with finite elements",
+                                       "block before",
+                                       "after",
+                                       "point before",
+                                       "after",
+                                       "block - point"}};
+      for (const ElementCheck &check : diagnosis.element_checks)
+        if (check.block_after.empty())
+          remarks += wrapped_text(check.test + ": " + check.remark, 2, widest);
+        else
+          lines.push_back({check.test,
+                           percent_text(check.block_gap_before),
+                           percent_text(check.block_gap_after),
+                           percent_text(check.point_gap_before),
+                           percent_text(check.point_gap_after),
+                           percent_text(check.difference)});
+      return "\n" + (lines.size() > 1 ? text_table(lines, widest) : "") +
+             remarks;
+    }
+
     std::string next_test(const Diagnosis &diagnosis)
     {
       const NextTest &next = diagnosis.next_test;
@@ -119,6 +149,6 @@ namespace SlipStep
   {
     return wrapped_text(headline(diagnosis), 2, widest) + "\n" +
            summary(diagnosis) + places(diagnosis) + candidates(diagnosis) +
-           parameters(diagnosis) + next_test(diagnosis);
+           parameters(diagnosis) + blocks(diagnosis) + next_test(diagnosis);
   }
 } // namespace SlipStep

@@ -59,23 +59,42 @@ namespace SlipStep
     /// "the gap falls from 4.12 % to 1.05 % of friction ..."
     std::string shrink_words(const Shrink &shrink)
     {
-      std::string text = "the gap to the measurements falls from " +
-                         percent_text(shrink.fitted_before) + " to " +
-                         percent_text(shrink.fitted_after) + " of friction";
+      std::string text =
+        "the gap to the measurements falls from " +
+        percent_text(shrink.fitted_before) + " to " +
+        percent_text(shrink.fitted_after) +
+        " of friction (noise alone: " + percent_text(shrink.noise_floor) +
+        (shrink.systematic_before > 0. ?
+           "; beyond it " + percent_text(shrink.systematic_before) + " → " +
+             percent_text(shrink.systematic_after) :
+           "") +
+        ")";
       if (shrink.left_out_before > 0.)
         text += ", under conditions left out of the fit from " +
                 percent_text(shrink.left_out_before) + " to " +
                 percent_text(shrink.left_out_after);
-      return text + " (noise alone: " + percent_text(shrink.noise_floor) + ")";
+      return text;
     }
 
     /// What is there before anything is added.
     std::string gap_words(const Shrink &shrink)
     {
-      return "simulation and measurements differ by " +
-             percent_text(shrink.fitted_before) +
-             " of friction, of which noise alone makes " +
-             percent_text(shrink.noise_floor);
+      const std::string text = "simulation and measurements differ by " +
+                               percent_text(shrink.fitted_before) +
+                               " of friction, ";
+      return shrink.noise_floor < shrink.fitted_before ?
+               text + "of which noise alone makes " +
+                 percent_text(shrink.noise_floor) :
+               text + "no more than noise would (" +
+                 percent_text(shrink.noise_floor) + ")";
+    }
+
+    /// " (p = 0.2)"
+    std::string gap_chance(const Diagnosis &diagnosis)
+    {
+      const std::string text = chance_text(diagnosis.gap_p, diagnosis.n_draws);
+      return std::string(" (p ") + (text.rfind("≤", 0) == 0 ? "" : "= ") +
+             text + ")";
     }
 
     std::string named_words(const Diagnosis &diagnosis)
@@ -100,10 +119,9 @@ namespace SlipStep
 
     std::string unnamed_words(const Diagnosis &diagnosis)
     {
-      std::string text =
-        "something is missing that no effect of the catalogue explains: " +
-        gap_words(diagnosis.shrink) + " (p = " + chance_text(diagnosis.gap_p) +
-        ")";
+      std::string text = "something is missing that " +
+                         nothing_explains(diagnosis) + ": " +
+                         gap_words(diagnosis.shrink) + gap_chance(diagnosis);
       if (!diagnosis.where.empty())
         text += ", most at " + range_text(diagnosis.where[0]);
       if (!diagnosis.correction_covariate.empty())
@@ -115,7 +133,7 @@ namespace SlipStep
 
     std::string verdict_words(const Diagnosis &diagnosis)
     {
-      const std::string chance = " (p = " + chance_text(diagnosis.gap_p) + ")";
+      const std::string chance = gap_chance(diagnosis);
       switch (diagnosis.verdict)
         {
           case Verdict::named:
@@ -141,8 +159,8 @@ namespace SlipStep
         return "";
       std::vector<std::string> names;
       for (const Outlier &outlier : outliers)
-        if (!contains(names, "'" + outlier.test + "'"))
-          names.push_back("'" + outlier.test + "'");
+        if (!contains(names, in_quotes(outlier.test)))
+          names.push_back(in_quotes(outlier.test));
       if (names.size() > 3)
         {
           const std::size_t n_more = names.size() - 2;
@@ -185,7 +203,7 @@ namespace SlipStep
                 words :
               capitalised(words)) +
            (has_after(diagnosis) && !diagnosis.effects.empty() &&
-                diagnosis.remainder_p <= diagnosis.level ?
+                !is_all_explained(diagnosis) ?
               "; not all of it is explained" :
               "") +
            outlier_words(diagnosis.outliers) + ".";
@@ -217,22 +235,40 @@ namespace SlipStep
 
 
 
-  std::string short_verdict(const Verdict verdict)
+  bool is_all_explained(const Diagnosis &diagnosis)
   {
-    switch (verdict)
+    return diagnosis.remainder_p > diagnosis.level;
+  }
+
+
+
+  std::string short_verdict(const Diagnosis &diagnosis)
+  {
+    switch (diagnosis.verdict)
       {
         case Verdict::named:
-          return "missing effect named";
+          return is_all_explained(diagnosis) ? "missing effect named" :
+                                               "part of what is missing named";
         case Verdict::ambiguous:
           return "several explanations";
         case Verdict::unnamed:
           return "something unknown is missing";
         case Verdict::no_gap:
-          return "nothing is missing";
+          return "nothing found to be missing";
         case Verdict::not_testable:
           return "these tests cannot tell";
       }
     return "";
+  }
+
+
+
+  std::string reservation(const Diagnosis &diagnosis)
+  {
+    return diagnosis.n_replicate_pairs == 0 ? "if the stated noise is right" :
+           diagnosis.n_conditions == 1 && diagnosis.has_gap ?
+                                              "under the one condition tested" :
+                                              "";
   }
 
 
@@ -280,9 +316,31 @@ namespace SlipStep
 
 
 
-  std::string chance_text(const double p)
+  std::string chance_text(const double p, const unsigned int n_draws)
   {
-    return p < 1e-3 ? "< 0.001" : short_text(p, 2);
+    // Two thirds of the chance belong to one statistic, see test_gap().
+    const bool is_floor = n_draws > 0 && p < 1.51 / (n_draws + 1.);
+    return (is_floor ? "≤ " : "") + short_text(p, 2);
+  }
+
+
+
+  std::string nothing_explains(const Diagnosis &diagnosis)
+  {
+    if (!diagnosis.is_restricted)
+      return "no effect of the catalogue explains";
+    std::vector<std::string> tried;
+    for (const CandidateResult &candidate : diagnosis.candidates)
+      if (candidate.status != "in the model")
+        tried.push_back(candidate.name);
+    return "none of the effects asked for (" + list_text(tried) + ") explains";
+  }
+
+
+
+  std::string in_quotes(const std::string &test)
+  {
+    return "'" + test + "'";
   }
 
 

@@ -2,10 +2,12 @@
 #include <slipstep/diagnosis/improved_case.h>
 #include <slipstep/experiment/measured_test.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace SlipStep
 {
@@ -15,55 +17,67 @@ namespace SlipStep
   {
     const char *const tests_key = "Diagnosis/Element tests";
 
-    // Whether a test goes by this name.
-    bool is_called(const DiagnosedTest &test, const std::string &name)
+    // Whether a test of this name and file is meant.
+    bool is_called(const std::string &name,
+                   const fs::path    &file,
+                   const std::string &wanted)
     {
-      const fs::path file = test.file;
-      return test.name == name || file.filename() == name ||
-             file.stem() == name;
+      return name == wanted || file.filename() == wanted ||
+             file.stem() == wanted;
     }
   } // namespace
+
+
+
+  void check_element_tests(const Parameters             &parameters,
+                           const std::vector<NamedTest> &tests)
+  {
+    const std::vector<std::string> list = parameters.list(tests_key);
+    if (list.empty())
+      parameters.reject(tests_key, "name tests, or write 'worst' or 'none'");
+    for (const std::string &name : list)
+      {
+        if (list.size() == 1 && (name == "worst" || name == "none"))
+          return;
+        std::vector<std::string> known = {"worst", "none"};
+        bool                     found = false;
+        for (const NamedTest &test : tests)
+          {
+            found = found || is_called(test.first, test.second, name);
+            known.push_back(test.first);
+            known.push_back(test.second.filename().string());
+          }
+        if (!found)
+          parameters.reject(tests_key,
+                            "there is no test '" + name + "'" +
+                              did_you_mean(name, known));
+      }
+  }
 
 
 
   std::vector<std::size_t> element_tests(const Parameters &parameters,
                                          const Diagnosis  &diagnosis)
   {
-    const std::string text = parameters.text(tests_key);
-    if (text == "none")
-      return {};
-    if (text == "worst")
+    const std::vector<DiagnosedTest> &tests = diagnosis.tests;
+    const std::vector<std::string>    list  = parameters.list(tests_key);
+    std::vector<std::size_t>          result;
+    if (list == std::vector<std::string>{"none"})
+      return result;
+    if (list == std::vector<std::string>{"worst"})
       {
-        std::size_t worst = 0;
-        for (std::size_t i = 0; i < diagnosis.tests.size(); ++i)
-          if (!diagnosis.tests[i].is_outlier &&
-              diagnosis.tests[i].rms_before > diagnosis.tests[worst].rms_before)
-            worst = i;
-        return {worst};
+        for (std::size_t i = 0; i < tests.size(); ++i)
+          if (!tests[i].is_outlier &&
+              (result.empty() ||
+               tests[i].rms_before > tests[result[0]].rms_before))
+            result = {i};
+        return result;
       }
-    std::vector<std::size_t> result;
-    for (const std::string &name : parameters.list(tests_key))
-      {
-        const auto found =
-          std::find_if(diagnosis.tests.begin(),
-                       diagnosis.tests.end(),
-                       [&](const DiagnosedTest &test) {
-                         return is_called(test, name) && !test.is_outlier;
-                       });
-        if (found == diagnosis.tests.end())
-          {
-            std::vector<std::string> known;
-            for (const DiagnosedTest &test : diagnosis.tests)
-              known.push_back(fs::path(test.file).filename().string());
-            const std::string near = nearest_name(name, known);
-            parameters.reject(tests_key,
-                              "there is no test '" + name + "'" +
-                                (near.empty() ?
-                                   "" :
-                                   "; did you mean '" + near + "'?"));
-          }
-        result.push_back(found - diagnosis.tests.begin());
-      }
+    for (std::size_t i = 0; i < tests.size(); ++i)
+      if (std::any_of(list.begin(), list.end(), [&](const std::string &name) {
+            return is_called(tests[i].name, tests[i].file, name);
+          }))
+        result.push_back(i);
     return result;
   }
 
@@ -81,12 +95,15 @@ namespace SlipStep
 
     ElementJob write_job(const Parameters            &the_case,
                          const DiagnosedTest         &test,
+                         const std::size_t            number,
                          const std::string           &label,
                          const fs::path              &folder,
                          const std::set<std::string> &inactive_sections)
     {
-      const std::string name =
-        fs::path(test.file).stem().string() + "_" + label;
+      // The number tells files of the same name in two folders apart.
+      const std::string name = std::to_string(number) + "_" +
+                               fs::path(test.file).stem().string() + "_" +
+                               label;
       ElementJob job{test.name + ", " + label,
                      folder / (name + ".prm"),
                      folder / name};
@@ -102,9 +119,35 @@ namespace SlipStep
 
 
 
-    // Friction of a simulation at the times of the test; empty without one.
-    std::vector<double> block_friction(const ElementJob    &job,
-                                       const DiagnosedTest &test)
+    /// Friction along both axes; the second one is empty where a test has one.
+    struct Curves
+    {
+      std::vector<double> x, y;
+
+      // Of a test with two axes the resultant.
+      std::vector<double> along_motion() const
+      {
+        std::vector<double> result = x;
+        for (std::size_t i = 0; i < y.size(); ++i)
+          result[i] = std::hypot(x[i], y[i]);
+        return result;
+      }
+
+      double squared_distance(const Curves &other) const
+      {
+        double sum = 0.;
+        for (std::size_t i = 0; i < x.size(); ++i)
+          sum += std::pow(x[i] - other.x[i], 2);
+        for (std::size_t i = 0; i < y.size(); ++i)
+          sum += std::pow(y[i] - other.y[i], 2);
+        return sum;
+      }
+    };
+
+
+
+    // Of a simulation, at the times of the test; empty without one.
+    Curves block_friction(const ElementJob &job, const DiagnosedTest &test)
     {
       const fs::path file = job.output / "history.csv";
       if (!fs::exists(file))
@@ -116,8 +159,8 @@ namespace SlipStep
       // perhaps later.
       const double begin =
         test.start_time - read_measured_test(test.file).time.front();
-      std::vector<double> result;
-      std::size_t         i = 1;
+      Curves      result;
+      std::size_t i = 1;
       for (const double since_begin : test.time)
         {
           const double time = begin + since_begin;
@@ -128,22 +171,15 @@ namespace SlipStep
                          (history.time[i] - history.time[i - 1]),
                        0.,
                        1.);
-          result.push_back((1. - share) * history.friction[i - 1] +
-                           share * history.friction[i]);
+          const auto between = [&](const std::vector<double> &values) {
+            return (1. - share) * values[i - 1] + share * values[i];
+          };
+          result.x.push_back(between(history.friction));
+          if (!test.measured_y.empty())
+            result.y.push_back(
+              history.friction_y.empty() ? 0. : between(history.friction_y));
         }
       return result;
-    }
-
-
-
-    double distance(const std::vector<double> &a,
-                    const std::vector<double> &b,
-                    const double               level)
-    {
-      double sum = 0.;
-      for (std::size_t i = 0; i < a.size(); ++i)
-        sum += std::pow(a[i] - b[i], 2);
-      return std::sqrt(sum / a.size()) / level;
     }
 
 
@@ -151,35 +187,51 @@ namespace SlipStep
     ElementCheck compare(const Jobs &jobs, const DiagnosedTest &test)
     {
       ElementCheck check;
+      const Curves measured{test.measured, test.measured_y};
+      const Curves point_before{test.before, test.before_y};
+      const Curves point_after{test.after, test.after_y};
       check.test         = test.name;
       check.displacement = test.displacement;
-      check.measured     = test.measured;
-      check.point_before = test.before;
-      check.point_after  = test.after;
+      check.measured     = measured.along_motion();
+      check.point_before = point_before.along_motion();
+      check.point_after  = point_after.along_motion();
+      Curves block_before, block_after;
       try
         {
-          check.block_before = block_friction(jobs.before, test);
-          check.block_after  = block_friction(jobs.after, test);
+          block_before = block_friction(jobs.before, test);
+          block_after  = block_friction(jobs.after, test);
         }
       catch (const InputError &error)
         {
           check.remark = error.what();
         }
-      if (check.block_before.empty() || check.block_after.empty())
+      if (block_before.x.empty() || block_after.x.empty())
         {
           check.remark = "the block could not be simulated to the end" +
                          (check.remark.empty() ? "" : ": " + check.remark);
-          check.block_before.clear();
-          check.block_after.clear();
           return check;
         }
-      check.block_gap_before =
-        distance(check.block_before, test.measured, test.level);
-      check.block_gap_after =
-        distance(check.block_after, test.measured, test.level);
-      check.point_gap_before = distance(test.before, test.measured, test.level);
-      check.point_gap_after  = distance(test.after, test.measured, test.level);
-      check.difference = distance(check.block_after, test.after, test.level);
+      check.block_before  = block_before.along_motion();
+      check.block_after   = block_after.along_motion();
+      const auto distance = [&](const Curves &a, const Curves &b) {
+        return std::sqrt(a.squared_distance(b) / a.x.size()) / test.level;
+      };
+      check.block_gap_before = distance(block_before, measured);
+      check.block_gap_after  = distance(block_after, measured);
+      check.point_gap_before = distance(point_before, measured);
+      check.point_gap_after  = distance(point_after, measured);
+      check.difference       = distance(block_after, point_after);
+      return check;
+    }
+
+
+
+    ElementCheck without_block(const std::string &test,
+                               const std::string &remark)
+    {
+      ElementCheck check;
+      check.test   = test;
+      check.remark = remark;
       return check;
     }
   } // namespace
@@ -201,33 +253,37 @@ namespace SlipStep
     const bool has_machine =
       before.text("Loading/Machine stiffness") != "rigid";
     if (has_machine || before.number("Calibration/Lead-in") > 0.)
-      {
-        ElementCheck check;
-        check.test = diagnosis.tests[tests.front()].name;
-        check.remark =
-          has_machine ?
-            "the case has a machine in series; the block is elastic "
-            "itself and takes none" :
-            "the records begin in the middle of a slide "
-            "(Calibration/Lead-in), which the block is not led to";
-        return {check};
-      }
+      return {without_block(
+        diagnosis.tests[tests.front()].name,
+        has_machine ?
+          "the case has a machine in series; the block is elastic itself and "
+          "takes none" :
+          "the records begin in the middle of a slide (Calibration/Lead-in), "
+          "which the block is not led to")};
     std::error_code error;
     fs::create_directories(folder, error);
-    std::vector<Jobs>       jobs;
-    std::vector<ElementJob> all;
+    std::map<std::size_t, Jobs> jobs; ///< by test
+    std::vector<ElementJob>     all;
     for (const std::size_t i : tests)
       {
         const DiagnosedTest &test = diagnosis.tests[i];
-        jobs.push_back(
-          {write_job(before, test, "before", folder, inactive_sections),
-           write_job(after, test, "after", folder, inactive_sections)});
-        all.push_back(jobs.back().before);
-        all.push_back(jobs.back().after);
+        if (test.is_outlier)
+          continue;
+        jobs[i] = {
+          write_job(before, test, i + 1, "before", folder, inactive_sections),
+          write_job(after, test, i + 1, "after", folder, inactive_sections)};
+        all.push_back(jobs[i].before);
+        all.push_back(jobs[i].after);
       }
     runner(all);
-    for (std::size_t i = 0; i < tests.size(); ++i)
-      checks.push_back(compare(jobs[i], diagnosis.tests[tests[i]]));
+    for (const std::size_t i : tests)
+      {
+        const DiagnosedTest &test = diagnosis.tests[i];
+        checks.push_back(
+          test.is_outlier ?
+            without_block(test.name, "the test is left out as an outlier") :
+            compare(jobs.at(i), test));
+      }
     return checks;
   }
 } // namespace SlipStep

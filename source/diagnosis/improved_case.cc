@@ -81,8 +81,10 @@ namespace SlipStep
     relocated_case(the_case, folder)
       .print(text, Parameters::Format::prm, inactive);
     std::string result;
-    for (const std::string &line : head)
-      result += "# " + line + '\n';
+    for (const std::string &paragraph : head)
+      for (const std::string &line :
+           dealii::Utilities::break_text_into_lines(paragraph, 76))
+        result += "# " + line + '\n';
     return result + (head.empty() ? "" : "\n") +
            with_intervals(text.str(), parameters);
   }

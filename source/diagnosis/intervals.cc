@@ -37,14 +37,18 @@ namespace SlipStep
 
       RiseEnd follow(const int sign, const double deviation)
       {
-        model             = optimum;
-        model.simulator   = std::make_shared<Simulator>(*optimum.simulator);
-        const double at   = optimum.scaled[parameter];
-        const double room = sign > 0 ? 1. - at : at;
-        return follow_rise(
+        model              = optimum;
+        model.simulator    = std::make_shared<Simulator>(*optimum.simulator);
+        const double  at   = optimum.scaled[parameter];
+        const double  room = sign > 0 ? 1. - at : at;
+        const RiseEnd end  = follow_rise(
           [&](const double distance) { return rise(at + sign * distance); },
           std::min(room, std::max(1e-4, deviation * std::sqrt(threshold))),
           room);
+        // So that the curve can be drawn.
+        for (const double share : {0.3, 0.6, 0.85})
+          rise(at + sign * share * end.distance);
+        return end;
       }
 
       std::vector<std::pair<double, double>> points; ///< scaled, objective
@@ -156,7 +160,7 @@ namespace SlipStep
           follow_both_ways(workspace, model, i, deviations(i), threshold, out);
           // Those of the starting model have a value before, too.
           if (workspace.start.text("Calibration/Parameters")
-                .find(parameter.path) == std::string::npos)
+                .find(parameter.path + " ") == std::string::npos)
             out.before = std::numeric_limits<double>::quiet_NaN();
           return;
         }

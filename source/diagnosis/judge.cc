@@ -38,12 +38,12 @@ namespace SlipStep
     result.found.model = base;
     if (result.gap.p > workspace.level)
       {
-        const bool is_blind =
-          std::none_of(result.view.candidates.begin(),
-                       result.view.candidates.end(),
-                       [](const CandidateView &seen) {
-                         return seen.minimum_detectable < 1.;
-                       });
+        const bool is_blind = std::none_of(result.view.candidates.begin(),
+                                           result.view.candidates.end(),
+                                           [](const CandidateView &seen) {
+                                             return seen.minimum_detectable <=
+                                                    largest_hidden_change;
+                                           });
         result.verdict = is_blind ? Verdict::not_testable : Verdict::no_gap;
         return result;
       }

@@ -189,6 +189,11 @@ namespace SlipStep
   {
     using Logarithms = Noise::Logarithms;
 
+    // Farther from what is thought of before noise is not believed to be.
+    constexpr double largest_deviation = 5.;
+
+
+
     /// Minus the logarithm of likelihood times prior.
     double implausibility(const std::vector<Contrast> &contrasts,
                           const Logarithms            &prior,
@@ -307,6 +312,10 @@ namespace SlipStep
     options.function_tolerance = 1e-7;
     ceres::Solve(options, problem, at.data(), &summary);
     descend(contrasts, prior.logarithms(), at);
+    // Records without any noise would be infinitely plausible.
+    const Logarithms reach = largest_deviation * prior_deviations();
+    at                     = at.cwiseMax(prior.logarithms() - reach)
+           .cwiseMin(prior.logarithms() + reach);
     result.noise = Noise::from_logarithms(at);
 
     // The curvature is at least that of the prior.

@@ -56,10 +56,10 @@ namespace SlipStep
 
 
     // By the noise of the others.
-    double chance_of(const std::vector<Contrast> &contrasts,
-                     const std::size_t            which,
-                     const Noise                 &prior,
-                     const std::uint64_t          seed)
+    Contradiction judge_contrast(const std::vector<Contrast> &contrasts,
+                                 const std::size_t            which,
+                                 const Noise                 &prior,
+                                 const std::uint64_t          seed)
     {
       constexpr unsigned int n_draws = 2000;
 
@@ -76,9 +76,16 @@ namespace SlipStep
                                               contrast.level,
                                               estimate.draw(random),
                                               random)) >= observed;
-      return (n_larger + 1.) / (n_draws + 1.);
+      return {contrast.tests, (n_larger + 1.) / (n_draws + 1.), estimate.noise};
     }
   } // namespace
+
+
+
+  double slow_squares(const Contrast &contrast, const Noise &noise)
+  {
+    return SlowPart(contrast, noise).squares(contrast.values);
+  }
 
 
 
@@ -97,7 +104,7 @@ namespace SlipStep
     // still is among the largest.
     std::vector<double> squares;
     for (const Contrast &contrast : contrasts)
-      squares.push_back(SlowPart(contrast, present).squares(contrast.values));
+      squares.push_back(slow_squares(contrast, present));
     std::vector<std::size_t> order(contrasts.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(),
@@ -108,9 +115,10 @@ namespace SlipStep
     Contradiction worst;
     for (std::size_t i = 0; i < n_examined; ++i)
       {
-        const double chance = chance_of(contrasts, order[i], prior, seed);
-        if (chance < worst.chance)
-          worst = {contrasts[order[i]].tests, chance};
+        const Contradiction found =
+          judge_contrast(contrasts, order[i], prior, seed);
+        if (found.chance < worst.chance)
+          worst = found;
       }
     if (worst.chance * contrasts.size() > level)
       return {};

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
+#include <map>
 #include <numeric>
 #include <sstream>
 
@@ -168,12 +170,17 @@ namespace SlipStep
         , stated(stated_noise(parameters))
       {}
 
-      Prepared run();
+      Prepared run(const std::vector<std::string> &left_out);
 
     private:
       void begin(const std::vector<CampaignTest> &tests);
 
       void calibrate();
+
+      void drop_copies(std::vector<CampaignTest> &tests);
+
+      std::vector<std::pair<double, std::size_t>>
+      distances(const Contradiction &found) const;
 
       bool drop_outlier();
 
@@ -186,6 +193,36 @@ namespace SlipStep
       const Noise      stated;
       Prepared         result;
     };
+
+
+
+    // A copy is no repetition: it would tell of less noise than there is.
+    void Preparer::drop_copies(std::vector<CampaignTest> &tests)
+    {
+      std::vector<CampaignTest> kept;
+      for (const CampaignTest &test : tests)
+        {
+          const auto original =
+            std::find_if(kept.begin(),
+                         kept.end(),
+                         [&](const CampaignTest &other) {
+                           return other.rows.friction == test.rows.friction &&
+                                  other.rows.time == test.rows.time &&
+                                  other.rows.friction_y == test.rows.friction_y;
+                         });
+          if (original == kept.end())
+            {
+              kept.push_back(test);
+              continue;
+            }
+          result.outliers.push_back({test.rows.name,
+                                     "it has the same rows as " +
+                                       original->rows.name +
+                                       ": it is left out as a copy"});
+          result.outlier_tests.push_back(test);
+        }
+      tests = kept;
+    }
 
 
 
@@ -246,11 +283,52 @@ namespace SlipStep
 
 
 
-    // A test that its own replicate contradicts. Of two the one farther from
-    // the model.
+    // How far the replicates of a contradiction are from what the other
+    // conditions tell of them, by the noise of the others; farthest first. The
+    // noise and the fit of all would know too much of the contradiction.
+    std::vector<std::pair<double, std::size_t>>
+    Preparer::distances(const Contradiction &found) const
+    {
+      Comparison        comparison = result.workspace->comparison;
+      const std::size_t condition  = comparison.tests[found.tests[0]].condition;
+      std::vector<bool> left_out;
+      for (const ComparedTest &test : comparison.tests)
+        left_out.push_back(test.condition == condition &&
+                           comparison.conditions.size() > 1);
+      Model model     = result.base;
+      model.simulator = std::make_shared<Simulator>(*result.base.simulator);
+      comparison.set_noise(found.noise,
+                           comparison.measured +
+                             comparison.difference(*model.simulator,
+                                                   model.scaled));
+      comparison.fit(model, 1., left_out);
+      const Eigen::VectorXd difference =
+        comparison.difference(*model.simulator, model.scaled);
+      std::vector<std::pair<double, std::size_t>> distances;
+      for (std::size_t i = 0; i < comparison.tests.size(); ++i)
+        {
+          const ComparedTest &test = comparison.tests[i];
+          if (test.condition != condition)
+            continue;
+          const Contrast own{test.series,
+                             test.level,
+                             -difference.segment(test.begin, test.size),
+                             {i}};
+          distances.emplace_back(slow_squares(own, found.noise), i);
+        }
+      std::sort(distances.rbegin(), distances.rend());
+      return distances;
+    }
+
+
+
+    // A test that its own replicate contradicts: the one farther from the
+    // model, or both if that does not tell.
     bool Preparer::drop_outlier()
     {
-      Workspace            &workspace  = *result.workspace;
+      constexpr double clearly = 4.;
+
+      const Workspace      &workspace  = *result.workspace;
       const Comparison     &comparison = workspace.comparison;
       const Eigen::VectorXd difference =
         comparison.difference(*result.base.simulator, result.base.scaled);
@@ -261,26 +339,30 @@ namespace SlipStep
                            start.integer(section + "Seed"));
       if (!found.has_value())
         return false;
-      const std::vector<double> squares =
-        comparison.squares_by_test(result.base.residual);
-      std::size_t outlier = found->tests[0];
-      for (const std::size_t test : found->tests)
-        if (squares[test] / comparison.tests[test].size >
-            squares[outlier] / comparison.tests[outlier].size)
-          outlier = test;
-      std::vector<CampaignTest> kept = workspace.tests;
-      std::string               twins;
-      for (const std::size_t test : found->tests)
-        if (test != outlier)
-          twins +=
-            (twins.empty() ? "" : ", ") + workspace.tests[test].rows.name;
-      std::ostringstream words;
-      words << std::setprecision(2) << "it contradicts its replicate " << twins
-            << " (chance by the noise of the others: " << found->chance
-            << ") and is farther from the model: it is left out";
-      result.outliers.push_back({kept[outlier].rows.name, words.str()});
-      result.outlier_tests.push_back(kept[outlier]);
-      kept.erase(kept.begin() + outlier);
+      const auto far     = distances(*found);
+      const bool is_told = far[0].first > clearly * far[1].first;
+      const auto leave   = [&](const std::size_t outlier,
+                             const std::size_t twin) {
+        std::ostringstream words;
+        words << std::setprecision(2) << "it and its replicate "
+              << workspace.tests[twin].rows.name
+              << " contradict each other (chance by the noise of the others: "
+              << found->chance << ")"
+              << (is_told ? ", and it is farther from the model: it is" :
+                              ", and the model does not tell which is "
+                              "wrong: both are")
+              << " left out";
+        result.outliers.push_back(
+          {workspace.tests[outlier].rows.name, words.str()});
+        result.outlier_tests.push_back(workspace.tests[outlier]);
+      };
+      leave(far[0].second, far[1].second);
+      if (!is_told)
+        leave(far[1].second, far[0].second);
+      std::vector<CampaignTest> kept;
+      for (std::size_t i = 0; i < workspace.tests.size(); ++i)
+        if (i != far[0].second && (is_told || i != far[1].second))
+          kept.push_back(workspace.tests[i]);
       begin(kept);
       return true;
     }
@@ -315,6 +397,38 @@ namespace SlipStep
 
 
 
+    // The step of a record that is rounded as coarsely as it scatters; 0 if it
+    // is finer.
+    double coarse_step(const CampaignTest &test)
+    {
+      std::vector<double> values = test.rows.friction;
+      std::sort(values.begin(), values.end());
+      double step = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 1; i < values.size(); ++i)
+        if (values[i] - values[i - 1] > 1e-9 * std::abs(values[i]))
+          step = std::min(step, values[i] - values[i - 1]);
+      return std::isfinite(step) && step > test.noise ? step : 0.;
+    }
+
+
+
+    // Results are told by names.
+    void make_names_unique(std::vector<CampaignTest> &tests)
+    {
+      std::map<std::string, unsigned int> n_called;
+      for (const CampaignTest &test : tests)
+        ++n_called[test.rows.name];
+      for (CampaignTest &test : tests)
+        if (n_called[test.rows.name] > 1)
+          test.rows.name += " (" +
+                            (test.rows.file.parent_path().filename() /
+                             test.rows.file.filename())
+                              .string() +
+                            ")";
+    }
+
+
+
     void Preparer::warn()
     {
       const Workspace &workspace = *result.workspace;
@@ -327,6 +441,23 @@ namespace SlipStep
           "Calibrated, the starting model is farther from the tests than "
           "before: the stated noise lets whole tests be off, or its parameters "
           "have to start elsewhere.");
+      std::size_t n_rounded = 0;
+      double      step      = 0.;
+      for (const CampaignTest &test : workspace.tests)
+        {
+          n_rounded += coarse_step(test) > 0.;
+          step = std::max(step, coarse_step(test));
+        }
+      if (n_rounded > 0)
+        {
+          std::ostringstream words;
+          words
+            << std::setprecision(2) << "The friction of " << n_rounded
+            << " test(s) is rounded to steps of " << step
+            << ", coarser than its scatter: rounding is no noise, and small "
+               "differences cannot be trusted. Export more digits.";
+          result.warnings.push_back(words.str());
+        }
       const Noise &noise = workspace.noise.noise;
       if (std::hypot(noise.gain, noise.offset, noise.drift) > rms)
         result.warnings.push_back(
@@ -336,7 +467,7 @@ namespace SlipStep
 
 
 
-    Prepared Preparer::run()
+    Prepared Preparer::run(const std::vector<std::string> &left_out)
     {
       const auto tell = [&](const std::string &text) {
         if (stage)
@@ -346,7 +477,17 @@ namespace SlipStep
       const Campaign campaign(start);
       result.warnings                 = campaign.warnings();
       std::vector<CampaignTest> tests = campaign.tests;
+      make_names_unique(tests);
+      tests.erase(std::remove_if(tests.begin(),
+                                 tests.end(),
+                                 [&](const CampaignTest &test) {
+                                   return std::count(left_out.begin(),
+                                                     left_out.end(),
+                                                     test.rows.name) > 0;
+                                 }),
+                  tests.end());
       sort_by_content(tests);
+      drop_copies(tests);
       begin(tests);
       tell("calibrating the starting model");
       calibrate();
@@ -361,8 +502,10 @@ namespace SlipStep
 
 
 
-  Prepared prepare(const Parameters &parameters, const Stage &stage)
+  Prepared prepare(const Parameters               &parameters,
+                   const Stage                    &stage,
+                   const std::vector<std::string> &left_out)
   {
-    return Preparer(parameters, stage).run();
+    return Preparer(parameters, stage).run(left_out);
   }
 } // namespace SlipStep

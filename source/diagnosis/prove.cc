@@ -11,9 +11,6 @@ namespace SlipStep
 {
   namespace
   {
-    // A change of friction larger than this is not worth calling testable.
-    constexpr double largest_hidden_change = 0.25;
-
     // Standard deviations at which two predictions count as told apart.
     constexpr double told_apart = 5.;
 
@@ -255,6 +252,8 @@ namespace SlipStep
 
     std::string why_not_testable(const CandidateView &seen)
     {
+      if (!seen.failure.empty())
+        return "it could not be simulated: " + seen.failure;
       if (!seen.best.has_value())
         return "nothing changes in these tests";
       if (seen.score.free_length <= 0.)
@@ -287,13 +286,10 @@ namespace SlipStep
       for (const auto &gain : found.gains)
         if (gain.first == result.name)
           result.gain = gain.second;
-      result.status = result.p <= workspace.level ? "possible" : "rejected";
+      result.status = result.p <= workspace.level ? "not needed" : "rejected";
       if (!result.why.empty())
         result.status =
-          result.why.find("already") != std::string::npos ||
-              result.why.find("has a flow rule") != std::string::npos ?
-            "in the model" :
-            "not testable";
+          seen.candidate.is_in_model ? "in the model" : "not testable";
       else if (!result.is_testable)
         {
           result.status = "not testable";
@@ -324,11 +320,11 @@ namespace SlipStep
         }
     });
     const auto rank = [](const CandidateResult &result) {
-      return result.status == "named"    ? 0 :
-             result.status == "rival"    ? 1 :
-             result.status == "possible" ? 2 :
-             result.status == "rejected" ? 3 :
-                                           4;
+      return result.status == "named"      ? 0 :
+             result.status == "rival"      ? 1 :
+             result.status == "not needed" ? 2 :
+             result.status == "rejected"   ? 3 :
+                                             4;
     };
     std::stable_sort(results.begin(),
                      results.end(),

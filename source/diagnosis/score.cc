@@ -162,7 +162,8 @@ namespace SlipStep
     };
     for (std::size_t i = 0; i < directions.size(); ++i)
       {
-        scores[i].value = standard(i, observed(i));
+        scores[i].value     = standard(i, observed(i));
+        scores[i].deviation = deviations(i);
         scores[i].strength =
           scores[i].free_length > 0. ? observed(i) / scores[i].free_length : 0.;
       }

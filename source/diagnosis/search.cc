@@ -40,12 +40,13 @@ namespace SlipStep
 
 
     // Changes of friction by one formula of a candidate at unit strength.
-    void add_directions(const Workspace        &workspace,
-                        const Model            &model,
-                        const Candidate        &candidate,
-                        const std::size_t       candidate_number,
-                        const std::size_t       formula_number,
-                        std::vector<Direction> &directions)
+    // Returns why there are none, if it cannot be simulated.
+    std::string add_directions(const Workspace        &workspace,
+                               const Model            &model,
+                               const Candidate        &candidate,
+                               const std::size_t       candidate_number,
+                               const std::size_t       formula_number,
+                               std::vector<Direction> &directions)
     {
       const Formula    &formula = candidate.formulas[formula_number];
       std::vector<Part> parts   = model.parts;
@@ -81,12 +82,16 @@ namespace SlipStep
               directions.push_back(direction);
             }
         }
-      catch (const InputError &)
-        {}
-      catch (const RunError &)
+      catch (const InputError &error)
+        {
+          return error.what();
+        }
+      catch (const RunError &error)
         {
           throw_if_stopped();
+          return error.what();
         }
+      return "";
     }
 
 
@@ -103,11 +108,13 @@ namespace SlipStep
     const std::vector<Candidate> candidates =
       make_candidates(model.simulator->with(model.scaled), workspace.range);
     std::vector<std::vector<Direction>> found(candidates.size());
+    std::vector<std::string>            failures(candidates.size());
     side_by_side(candidates.size(), [&](const std::size_t c) {
       Model own     = model;
       own.simulator = std::make_shared<Simulator>(*model.simulator);
       for (std::size_t f = 0; f < candidates[c].formulas.size(); ++f)
-        add_directions(workspace, own, candidates[c], c, f, found[c]);
+        failures[c] =
+          add_directions(workspace, own, candidates[c], c, f, found[c]);
     });
     View view;
     for (const auto &directions : found)
@@ -117,7 +124,11 @@ namespace SlipStep
           view.directions.push_back(direction);
     view.candidates.resize(candidates.size());
     for (std::size_t c = 0; c < candidates.size(); ++c)
-      view.candidates[c].candidate = candidates[c];
+      {
+        view.candidates[c].candidate = candidates[c];
+        if (found[c].empty())
+          view.candidates[c].failure = failures[c];
+      }
     if (view.directions.empty())
       return view;
 
@@ -138,7 +149,7 @@ namespace SlipStep
         if (score.free_length > 0.)
           seen.minimum_detectable =
             std::min(seen.minimum_detectable,
-                     seen_deviations / score.free_length *
+                     seen_deviations * score.deviation / score.free_length *
                        direction.friction.cwiseAbs().maxCoeff() /
                        workspace.range.typical_friction);
       }
@@ -446,7 +457,8 @@ namespace SlipStep
           const double promised =
             std::pow(seen.score.strength * seen.score.free_length, 2);
           if (!seen.best.has_value() || seen.candidate.name == name ||
-              !(seen.score.value > 0.) || promised < 0.6 * cost - 10. ||
+              !(seen.score.value > 0.) ||
+              promised < promising_share * cost - promising_slack ||
               n_tried == most_rivals)
             continue;
           ++n_tried;
@@ -454,7 +466,7 @@ namespace SlipStep
           if (!tried.has_value() || is_at_bound(*tried))
             continue;
           const double distance = penalised(*tried) - penalised(result.model);
-          if (distance < -1.)
+          if (distance < -sure_gain)
             {
               result.model = *tried;
               settle(workspace, result.model);

@@ -158,9 +158,7 @@ namespace SlipStep
 
     void HeaderReader::reject_missing(const Channel &channel) const
     {
-      std::string found;
-      for (const std::string &name : table.header())
-        found += (found.empty() ? "" : ", ") + name;
+      const std::string found = table.header_words();
       table.reject_header(0,
                           "column '" + channel.column() +
                             "' is missing (the header has: " + found + ")" +

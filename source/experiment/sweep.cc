@@ -382,7 +382,8 @@ namespace SlipStep
   std::vector<int> run_side_by_side(const std::vector<SweepJob> &jobs,
                                     const std::string           &label,
                                     const bool                   quiet,
-                                    const unsigned int           n_parallel)
+                                    const unsigned int           n_parallel,
+                                    const bool                   is_resumable)
   {
     std::vector<int> exit_codes;
     {
@@ -395,7 +396,7 @@ namespace SlipStep
       exit_codes = crew.run();
     }
     // The shell is to see the signal, not an exit code.
-    if (SignalGuard::caught() != 0)
+    if (is_resumable && SignalGuard::caught() != 0)
       {
         std::cerr << SignalGuard::in_words()
                   << "; what was computed so far is kept, and the "

@@ -34,7 +34,8 @@ namespace SlipStep
       if (text.find_first_not_of("0123456789") != std::string::npos ||
           text.size() > 18)
         throw InputError("--" + option + " " + text +
-                         ": must be a whole number, 0 or more");
+                         ": must be a whole number, 0 or more, of at "
+                         "most 18 digits");
       return std::stoull(text);
     }
 

@@ -187,7 +187,7 @@ namespace SlipStep
       if (wanted.count(name) == 0)
         fail(header_text.data(),
              "column '" + name + "' is missing (the header has: " +
-               joined(names) + ")" + did_you_mean(name, names));
+               header_words() + ")" + did_you_mean(name, names));
     read(wanted);
   }
 
@@ -474,6 +474,21 @@ namespace SlipStep
       for (std::size_t i = 0; i <= columns[found->second].position; ++i)
         cells.next(cell);
     fail(cell.data(), why);
+  }
+
+
+
+  std::string CsvTable::header_words() const
+  {
+    constexpr std::size_t longest = 200;
+
+    std::string words = joined(names);
+    // A binary file has anything.
+    for (char &letter : words)
+      if (std::iscntrl(static_cast<unsigned char>(letter)) != 0 ||
+          static_cast<unsigned char>(letter) > 0x7e)
+        letter = '?';
+    return words.size() > longest ? words.substr(0, longest) + " ..." : words;
   }
 
 

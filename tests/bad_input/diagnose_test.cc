@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <set>
@@ -150,7 +151,7 @@ TEST_F(Diagnose, WhatIsWrongWithTheCaseIsSaid)
   plant();
   expect_refusal({"Diagnosis/Candidates=heeling"},
                  {"Diagnosis/Candidates", "'heeling'", "'healing'"});
-  expect_refusal({"Diagnosis/Candidates=healing, all"}, {"'all'"});
+  expect_refusal({"Diagnosis/Candidates=healing, all"}, {"'all' stands alone"});
   expect_refusal({"Diagnosis/Candidates="}, {"name effects, or 'all'"});
   expect_refusal({"Diagnosis/Level=0.5"}, {"Diagnosis/Level", "0.3"});
   expect_refusal({"Diagnosis/Level=3 mm"}, {"Diagnosis/Level"});
@@ -158,6 +159,11 @@ TEST_F(Diagnose, WhatIsWrongWithTheCaseIsSaid)
                  {"Diagnosis/Levle", "did you mean Diagnosis/Level?"});
   expect_refusal({"Diagnosis/Most effects=5"}, {"1 to 4"});
   expect_refusal({"Diagnosis/Draws=10"}, {"Diagnosis/Draws", "99"});
+  expect_refusal({"Diagnosis/Level=0.001", "Diagnosis/Draws=999"},
+                 {"Diagnosis/Draws", "0.001", "1499"});
+  // The starting model has a flow rule.
+  expect_refusal({"Diagnosis/Candidates=overstress, softening"},
+                 {"none of these can be tried", "flow rule already"});
   expect_refusal({"Diagnosis/Gain=0"}, {"Diagnosis/Gain", "greater than 0"});
   expect_refusal({"Calibration/Tests=nowhere"}, {"there is no", "nowhere"});
   // What is wrong is found by slipstep check, too.
@@ -175,7 +181,9 @@ TEST_F(Diagnose, AnElementTestThatDoesNotExist)
   expect_refusal({"Diagnosis/Element tests=test_99.csv"},
                  {"Diagnosis/Element tests",
                   "there is no test 'test_99.csv'",
-                  "did you mean 'test_09.csv'?"});
+                  "did you mean test_09.csv?"});
+  expect_refusal({"Diagnosis/Element tests=Worst"}, {"did you mean worst?"});
+  expect_refusal({"Diagnosis/Element tests="}, {"'worst' or 'none'"});
 }
 
 
@@ -368,4 +376,84 @@ TEST_F(Diagnose, ATestThatItsReplicateContradicts)
   EXPECT_EQ(json["data"]["outliers"][0]["test"], "test 12");
   EXPECT_NE(headline(json).find("look at 'test 12' first"), std::string::npos)
     << headline(json);
+}
+
+
+
+TEST_F(Diagnose, ACopyIsNoRepetition)
+{
+  plant();
+  process.write("campaign/measured/copy.csv",
+                "# name: copy\n" +
+                  process.read("campaign/measured/test_04.csv"));
+  const auto json = verdict_of(diagnose());
+  ASSERT_EQ(json["data"]["outliers"].size(), 1u) << json["data"];
+  const std::string words = json["data"]["outliers"][0]["words"];
+  EXPECT_NE(words.find("same rows"), std::string::npos) << words;
+  expect_no_name(json);
+}
+
+
+
+TEST_F(Diagnose, TestsOfOneNameAreToldApart)
+{
+  plant();
+  for (const char *name : {"test_04.csv", "test_05.csv"})
+    {
+      std::string text = process.read("campaign/measured/" + std::string(name));
+      const std::size_t begin = text.find("# name:");
+      text.replace(begin, text.find('\n', begin) - begin, "# name: slide");
+      process.write("campaign/measured/" + std::string(name), text);
+    }
+  const auto            json = verdict_of(diagnose());
+  std::set<std::string> names;
+  for (const auto &test : json["shrink"]["per_test"])
+    names.insert(test["name"]);
+  EXPECT_EQ(names.size(), 10u) << json["shrink"]["per_test"];
+  EXPECT_EQ(names.count("slide (measured/test_04.csv)"), 1u);
+}
+
+
+
+// One that is wrong and has no replicate is no outlier by itself; but it is
+// said that everything hangs on it.
+TEST_F(Diagnose, ATestThatMakesTheGapAlone)
+{
+  plant({"--tests", "20"});
+  change_friction("test_05.csv", 1.2);
+  const auto json = verdict_of(diagnose());
+  expect_no_name(json);
+  ASSERT_EQ(json["data"]["outliers"].size(), 1u) << json["data"];
+  EXPECT_EQ(json["data"]["outliers"][0]["test"], "test 05");
+  const std::string words = json["data"]["outliers"][0]["words"];
+  EXPECT_NE(words.find("nothing is found to be missing"), std::string::npos)
+    << words;
+}
+
+
+
+TEST_F(Diagnose, FrictionWithFewDigits)
+{
+  plant();
+  for (const char *name : {"test_04.csv", "test_05.csv"})
+    {
+      std::istringstream in(
+        process.read("campaign/measured/" + std::string(name)));
+      std::ostringstream out;
+      for (std::string line; std::getline(in, line);)
+        {
+          const std::size_t comma = line.rfind(',');
+          if (std::isdigit(line[0]) == 0)
+            out << line << '\n';
+          else
+            out << line.substr(0, comma + 1)
+                << 0.01 * std::lround(100. * std::stod(line.substr(comma + 1)))
+                << '\n';
+        }
+      process.write("campaign/measured/" + std::string(name), out.str());
+    }
+  const auto json = verdict_of(diagnose());
+  EXPECT_NE(json["warnings"].dump().find("rounded to steps of 0.01"),
+            std::string::npos)
+    << json["warnings"];
 }

@@ -76,6 +76,7 @@ TEST(DiagnosisJson, TheBlocksAreTheDocumentedOnes)
                "p_waves",
                "p_conditions",
                "p_replicates",
+               "p_together",
                "excess",
                "rms_percent",
                "noise_floor_percent"});

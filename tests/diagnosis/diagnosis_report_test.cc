@@ -85,8 +85,8 @@ TEST(DiagnosisHeadline, ItNamesWhatIsMissingWithTheNumbers)
   EXPECT_EQ(headline(diagnosis),
             "Overstress is missing (friction that rises with sliding speed): "
             "with it the gap to the measurements falls from 4.91 % to 1.04 % "
-            "of friction, under conditions left out of the fit from 5.13 % to "
-            "1.09 % (noise alone: 1.01 %).");
+            "of friction (noise alone: 1.01 %; beyond it 4.80 % → 0.25 %), "
+            "under conditions left out of the fit from 5.13 % to 1.09 %.");
   diagnosis.effects.push_back("healing");
   EXPECT_TRUE(contains(headline(diagnosis),
                        "Overstress and healing are missing (overstress: "));
@@ -175,9 +175,11 @@ TEST(DiagnosisText, NumbersHaveTheDigitsWorthReading)
   EXPECT_EQ(percent_text(0.), "0.00 %");
   EXPECT_EQ(percent_text(12.), "1200 %");
   EXPECT_EQ(percent_text(std::numeric_limits<double>::infinity()), "–");
-  EXPECT_EQ(chance_text(0.0004), "< 0.001");
-  EXPECT_EQ(chance_text(0.0234), "0.023");
-  EXPECT_EQ(chance_text(1.), "1");
+  EXPECT_EQ(chance_text(0.001, 999), "≤ 0.001");
+  EXPECT_EQ(chance_text(0.0015, 999), "≤ 0.0015");
+  EXPECT_EQ(chance_text(0.0015, 4999), "0.0015");
+  EXPECT_EQ(chance_text(0.0234, 999), "0.023");
+  EXPECT_EQ(chance_text(1., 999), "1");
 }
 
 

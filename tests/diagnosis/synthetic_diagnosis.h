@@ -311,7 +311,7 @@ namespace SyntheticDiagnosis
       parameter("overstress", "Exponent", "", 41.2, 3.)};
     result.candidates[0].parameters[1].is_upper_open = true;
     result.candidates[1] =
-      candidate("stribeck", "possible", 0.001, 1210.4, 983.1, 0.006);
+      candidate("stribeck", "not needed", 0.001, 1210.4, 983.1, 0.006);
     result.element_checks = {element_check(result.tests[3])};
     result.improved_case  = "improved.prm";
     result.next_test      = {"sliding at 0.01 mm/min",

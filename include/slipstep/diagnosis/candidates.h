@@ -67,6 +67,7 @@ namespace SlipStep
     std::vector<Formula> formulas;
     /// Why it cannot be tried; then there are no formulas.
     std::string why_not;
+    bool        is_in_model = false; ///< that is why
   };
 
   /// The catalogue as seen from a case and its tests.

@@ -72,7 +72,7 @@ namespace SlipStep
   {
     std::string name;
     std::string signature;
-    /// "named", "rival", "possible" (significant, but not needed), "rejected",
+    /// "named", "rival", "not needed" (significant by itself), "rejected",
     /// "in the model", "not testable"
     std::string status;
     double      score = 0.; ///< standard deviations
@@ -190,9 +190,10 @@ namespace SlipStep
     // ---- gap
     bool   has_gap  = false;
     double gap_p    = 1.;
-    double p_smooth = 1., p_waves = 1., p_conditions = 1., p_replicates = 1.;
-    double excess = 0.;              ///< of the objective
-    std::vector<Localisation> where; ///< most first
+    double p_smooth = 1., p_waves = 1., p_conditions = 1., p_replicates = 1.,
+           p_together                = 1.;
+    double                    excess = 0.; ///< of the objective
+    std::vector<Localisation> where;       ///< most first
 
     // ---- verdict
     Verdict                  verdict = Verdict::no_gap;
@@ -219,9 +220,11 @@ namespace SlipStep
     std::string                 improved_case; ///< file, "" if none is written
 
     // ---- honesty
-    unsigned int             n_candidates = 0;
-    unsigned int             n_refits     = 0;
-    unsigned int             n_draws      = 0;
+    unsigned int n_candidates = 0; ///< without those in the model
+    /// Whether the case asks for some candidates only.
+    bool                     is_restricted = false;
+    unsigned int             n_refits      = 0;
+    unsigned int             n_draws       = 0;
     std::vector<std::string> would_overturn; ///< sentences
     std::vector<std::string> warnings;
     double                   wall_time = 0.; ///< [s]

@@ -17,7 +17,20 @@ namespace SlipStep
   std::string plain_words(const std::string &effect);
 
   /// The verdict in two or three words.
-  std::string short_verdict(const Verdict verdict);
+  std::string short_verdict(const Diagnosis &diagnosis);
+
+  /// "if the stated noise is right": under what the verdict holds; "" if it
+  /// rests on replicates and several conditions.
+  std::string reservation(const Diagnosis &diagnosis);
+
+  /// Whether nothing significant remains after what was added.
+  bool is_all_explained(const Diagnosis &diagnosis);
+
+  /// "no effect of the catalogue explains", or of those asked for.
+  std::string nothing_explains(const Diagnosis &diagnosis);
+
+  /// A test's name in quotation marks.
+  std::string in_quotes(const std::string &test);
 
   /// "overstress and healing"
   std::string list_text(const std::vector<std::string> &names,
@@ -30,8 +43,8 @@ namespace SlipStep
   /// A share as "4.12 %", with the digits that are worth reading.
   std::string percent_text(const double share);
 
-  /// A chance; "< 0.001" below what is worth telling apart.
-  std::string chance_text(const double p);
+  /// A chance; "≤ 0.001" where so many draws tell none that is smaller.
+  std::string chance_text(const double p, const unsigned int n_draws);
 
   /// "speed 0.1 … 10 mm/s"
   std::string range_text(const Localisation &where);

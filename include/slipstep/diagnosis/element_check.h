@@ -7,13 +7,20 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace SlipStep
 {
-  /// Which tests "Diagnosis/Element tests" names, as numbers of
-  /// Diagnosis::tests.
-  /// @throws InputError for one that does not exist
+  /// The name and the file of a test.
+  using NamedTest = std::pair<std::string, std::filesystem::path>;
+
+  /// Whether "Diagnosis/Element tests" names tests that there are.
+  /// @throws InputError otherwise
+  void check_element_tests(const Parameters             &parameters,
+                           const std::vector<NamedTest> &tests);
+
+  /// Which tests it names, as numbers of Diagnosis::tests, each once.
   std::vector<std::size_t> element_tests(const Parameters &parameters,
                                          const Diagnosis  &diagnosis);
 

@@ -14,6 +14,7 @@ namespace SlipStep
   {
     std::vector<std::size_t> tests;
     double                   chance = 1.;
+    Noise                    noise; ///< of the others
   };
 
   /// The worst contradiction among replicates, judged by noise that is
@@ -26,6 +27,10 @@ namespace SlipStep
                      const Noise                 &present,
                      const Noise                 &prior,
                      const std::uint64_t          seed);
+
+  /// Squares of the slow part of what is whitened by a noise: of a contrast, or
+  /// of what a model leaves of one test.
+  double slow_squares(const Contrast &contrast, const Noise &noise);
 } // namespace SlipStep
 
 #endif

@@ -29,8 +29,11 @@ namespace SlipStep
   };
 
   /// The stages ingest, calibrate and noise.
+  /// @param left_out names of tests that are to be left out
   /// @throws InputError, RunError if the starting model cannot be simulated
-  Prepared prepare(const Parameters &parameters, const Stage &stage);
+  Prepared prepare(const Parameters               &parameters,
+                   const Stage                    &stage,
+                   const std::vector<std::string> &left_out = {});
 
   /// The case with everything that is to be calibrated listed: that which
   /// "Calibration/Parameters" names, else all parameters of active effects.

@@ -38,6 +38,9 @@ namespace SlipStep
   {
     /// In standard deviations of the null; 0 for the wrong sign.
     double value = 0.;
+    /// Standard deviation of the null along this direction: 1 if the noise
+    /// were known.
+    double deviation = 1.;
     /// Of the change, by least squares.
     double strength = 0.;
     /// Length of the whitened change, before and after what the model's own

@@ -40,12 +40,20 @@ namespace SlipStep
   constexpr double sure_cost = 30.;
   /// 2 ln 20: nearer than this, a rival explains the tests as well.
   constexpr double rival_distance = 6.;
+  /// A rival that does better by more than this takes the place of the name.
+  constexpr double sure_gain = 1.;
+  /// Fitted as rivals are those that promise this share of what the name gains,
+  /// to first order, give or take the slack.
+  constexpr double promising_share = 0.6, promising_slack = 10.;
   /// Of the explainable excess, if the remainder is still significant.
   constexpr double sufficient_share = 0.8;
   /// In any case, as far as an excess is known ...
   constexpr double least_share = 0.6;
   /// ... its own scatter being about this.
   constexpr double sure_excess = 25.;
+  /// A candidate that has to change friction by more to be seen cannot be
+  /// tested.
+  constexpr double largest_hidden_change = 0.25;
   ///@}
 
   /// A candidate as seen from a model.
@@ -55,6 +63,7 @@ namespace SlipStep
     /// The best of its directions; none if it could not be simulated.
     std::optional<Direction> best;
     Score                    score;
+    std::string              failure; ///< why it could not be simulated
     /// Chance of such a score among all candidates.
     double p = 1.;
     /// Smallest greatest change of friction that would have been seen at five

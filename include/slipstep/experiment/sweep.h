@@ -33,11 +33,13 @@ namespace SlipStep
   /// label; a failed job does not stop the others. On SIGINT or SIGTERM the
   /// children are stopped, and then this process ends by the same signal.
   /// @param n_parallel at most so many at once; 0 = one per core
+  /// @param is_resumable if not, a signal is left to the caller
   /// @return the exit codes in the order of the jobs; 1 for a killed child
   std::vector<int> run_side_by_side(const std::vector<SweepJob> &jobs,
                                     const std::string           &label,
                                     const bool                   quiet,
-                                    const unsigned int n_parallel = 0);
+                                    const unsigned int n_parallel = 0,
+                                    const bool         is_resumable = true);
 } // namespace SlipStep
 
 #endif

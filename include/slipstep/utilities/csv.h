@@ -66,6 +66,9 @@ namespace SlipStep
     /// The names in the header line.
     const std::vector<std::string> &header() const;
 
+    /// The same for a message: printable, and no longer than that.
+    std::string header_words() const;
+
     /// What the `# key: value` comments say, keys in lower case.
     const std::map<std::string, std::string> &comments() const;
 

@@ -1,0 +1,116 @@
+#include <slipstep/diagnosis/score.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace SlipStep;
+
+namespace
+{
+  constexpr unsigned int n_rows = 240;
+
+  // One of several slides at constant speed, with friction 0.1.
+  CampaignTest slide(const std::string &name, const std::string &condition)
+  {
+    MeasuredTest test;
+    test.name      = name;
+    test.condition = condition;
+    for (unsigned int i = 0; i < n_rows; ++i)
+      {
+        test.time.push_back(0.1 * i);
+        test.displacement.push_back(0.01 * i);
+        test.pressure.push_back(5.);
+        test.friction.push_back(0.1);
+      }
+    return {test, 0.001, true, Replay(test)};
+  }
+
+  // Rows of two replicates and of a test without.
+  Comparison two_and_one()
+  {
+    Comparison comparison(
+      {slide("a", "twice"), slide("b", "twice"), slide("c", "once")});
+    Noise noise;
+    noise.drift  = 0.003;
+    noise.gain   = 0.005;
+    noise.offset = 0.003;
+    noise.slope  = 0.002;
+    comparison.set_noise(noise, comparison.measured);
+    return comparison;
+  }
+
+  NoiseEstimate known(const Comparison &comparison)
+  {
+    NoiseEstimate estimate;
+    estimate.noise      = comparison.noise();
+    estimate.covariance = 1e-6 * estimate.covariance.Identity();
+    return estimate;
+  }
+
+  // The residual of one draw of noise, with a pattern on some of the tests.
+  Eigen::VectorXd residual(const Comparison       &comparison,
+                           const std::uint64_t     seed,
+                           const double            strength,
+                           const std::vector<bool> has_pattern)
+  {
+    RowMatrix pattern = RowMatrix::Zero(comparison.n_rows(), 1);
+    for (std::size_t t = 0; t < comparison.tests.size(); ++t)
+      for (Eigen::Index i = 0; has_pattern[t] && i < comparison.tests[t].size;
+           ++i)
+        // Of four rows to a wave: no slow basis knows it.
+        pattern(comparison.tests[t].begin + i, 0) =
+          strength * std::sin(1.57 * i);
+    comparison.whiten(pattern);
+    return pattern.col(0) +
+           draw_null(comparison, known(comparison), 1, seed).col(0);
+  }
+} // namespace
+
+
+
+TEST(ChanceOfAgreement, NoiseHasItsChance)
+{
+  const Comparison comparison = two_and_one();
+  const RowMatrix  null     = draw_null(comparison, known(comparison), 199, 1);
+  unsigned int     n_alarms = 0;
+  for (unsigned int seed = 10; seed < 110; ++seed)
+    n_alarms +=
+      chance_of_agreement(comparison,
+                          residual(comparison, seed, 0., {true, true, true}),
+                          null) <= 0.1;
+  // Ten of a hundred; four standard deviations.
+  EXPECT_LE(n_alarms, 22u);
+  EXPECT_GE(n_alarms, 1u);
+}
+
+
+
+TEST(ChanceOfAgreement, WhatReplicatesShareIsSeenWhateverItsShape)
+{
+  const Comparison comparison = two_and_one();
+  const RowMatrix  null   = draw_null(comparison, known(comparison), 199, 1);
+  const auto       chance = [&](const std::vector<bool> &has_pattern) {
+    return chance_of_agreement(comparison,
+                               residual(comparison, 7, 8e-4, has_pattern),
+                               null);
+  };
+  EXPECT_LE(chance({true, true, false}), 0.01);
+  // One of two is noise of that test, and the third has no replicate.
+  EXPECT_GT(chance({true, false, false}), 0.01);
+  EXPECT_GT(chance({false, false, true}), 0.01);
+}
+
+
+
+TEST(ChanceOfAgreement, WithoutReplicatesThereIsNone)
+{
+  Comparison comparison({slide("a", "one"), slide("b", "other")});
+  comparison.set_noise(Noise(), comparison.measured);
+  EXPECT_EQ(
+    chance_of_agreement(comparison,
+                        Eigen::VectorXd::Ones(comparison.n_rows()),
+                        draw_null(comparison, known(comparison), 99, 1)),
+    1.);
+}
