@@ -247,16 +247,23 @@ namespace SlipStep
                           {},
                           ""};
       Formula   formula;
-      formula.effect         = "softening";
-      formula.is_one_sided   = true;
-      const std::string rate = "Friction/softening/Rate";
-      const double      mu   = now.number(static_key);
-      formula.parameters     = {{static_key, 0.2 * mu, 5. * mu, false},
-                                {kinetic_key, 0.1 * mu, 5. * mu, false},
-                                {rate,
-                                 0.1 / now.range.longest_path,
-                                 1e4 / now.range.longest_path,
-                                 true}};
+      formula.effect              = "softening";
+      formula.is_one_sided        = true;
+      const std::string rate      = "Friction/softening/Rate";
+      const std::string steepness = "Friction/softening/Steepness";
+      const double      mu        = now.number(static_key);
+      // Next to an exponential only the product of both is felt.
+      const double least_steep = 0.1 / mu, steepest = 30. / mu;
+      formula.parameters = {
+        {static_key, 0.2 * mu, 5. * mu, false},
+        {kinetic_key, 0.1 * mu, 5. * mu, false},
+        {rate,
+         0.1 / (now.range.longest_path * steepest),
+         1e4 / (now.range.longest_path * least_steep),
+         true,
+         true,
+         true},
+        {steepness, least_steep, steepest, true, true, true}};
       for (const double length : ladder(0.003 * now.range.longest_path,
                                         0.5 * now.range.longest_path,
                                         5))
@@ -264,7 +271,8 @@ namespace SlipStep
           const double fall = std::clamp(just_noticed * strength, 1e-4, 2.);
           return std::map<std::string, double>{{static_key, mu * (1. + fall)},
                                                {kinetic_key, mu},
-                                               {rate, 1. / length}};
+                                               {rate, mu / length},
+                                               {steepness, 1. / mu}};
         }});
       candidate.formulas = {formula};
       return candidate;

@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -81,15 +81,44 @@ namespace SlipStep
 
 
 
-    Eigen::VectorXd deviations_of(const Model &model)
+    /// How far noise moves the parameters, to first order.
+    struct Scatter
     {
-      const Eigen::MatrixXd curvature =
-        model.derivatives.transpose() * model.derivatives;
-      return curvature.completeOrthogonalDecomposition()
-        .pseudoInverse()
-        .diagonal()
-        .cwiseMax(0.)
-        .cwiseSqrt();
+      Eigen::VectorXd deviations; ///< standard, if the noise were known
+      /// Of so many of them is an interval of the confidence asked for: by
+      /// draws in which the noise is as uncertain as it is, and never fewer
+      /// than by a normal distribution.
+      std::vector<double> reach;
+    };
+
+    Scatter scatter_of(const Workspace &workspace,
+                       const Model     &model,
+                       const double     confidence)
+    {
+      const Eigen::MatrixXd inverse =
+        (model.derivatives.transpose() * model.derivatives)
+          .completeOrthogonalDecomposition()
+          .pseudoInverse();
+      const RowMatrix      &draws = workspace.null_draws;
+      const Eigen::MatrixXd moved =
+        inverse * (model.derivatives.topRows(draws.rows()).transpose() * draws);
+      const double least =
+        boost::math::quantile(boost::math::normal(), (1. + confidence) / 2.);
+      Scatter result;
+      result.deviations = inverse.diagonal().cwiseMax(0.).cwiseSqrt();
+      for (Eigen::Index i = 0; i < inverse.rows(); ++i)
+        {
+          std::vector<double> distances;
+          for (Eigen::Index draw = 0; draw < moved.cols(); ++draw)
+            distances.push_back(std::abs(moved(i, draw)) /
+                                std::max(result.deviations(i), 1e-300));
+          const auto place =
+            distances.begin() +
+            static_cast<std::ptrdiff_t>(confidence * (distances.size() - 1));
+          std::nth_element(distances.begin(), place, distances.end());
+          result.reach.push_back(std::max(least, *place));
+        }
+      return result;
     }
 
 
@@ -136,9 +165,7 @@ namespace SlipStep
                                                  const Model     &model,
                                                  const double     confidence)
   {
-    const double threshold =
-      boost::math::quantile(boost::math::chi_squared(1.), confidence);
-    const Eigen::VectorXd           deviations = deviations_of(model);
+    const Scatter scatter = scatter_of(workspace, model, confidence);
     std::vector<DiagnosedParameter> result(model.scaled.size());
     side_by_side(model.scaled.size(), [&](const std::size_t i) {
       const FitParameter &parameter = model.campaign->fitted[i];
@@ -157,14 +184,19 @@ namespace SlipStep
       if (part != nullptr)
         {
           out.effect = part->name;
-          follow_both_ways(workspace, model, i, deviations(i), threshold, out);
+          follow_both_ways(workspace,
+                           model,
+                           i,
+                           scatter.deviations(i),
+                           std::pow(scatter.reach[i], 2),
+                           out);
           // Those of the starting model have a value before, too.
           if (workspace.start.text("Calibration/Parameters")
                 .find(parameter.path + " ") == std::string::npos)
             out.before = std::numeric_limits<double>::quiet_NaN();
           return;
         }
-      const double half = std::sqrt(threshold) * deviations(i);
+      const double half = scatter.reach[i] * scatter.deviations(i);
       out.lower         = value(model.scaled[i] - half);
       out.upper         = value(model.scaled[i] + half);
       out.is_lower_open = model.scaled[i] - half < 0.;
