@@ -4,27 +4,7 @@
 # (after the program has been built)
 set -e
 here=$(dirname "$0")
-slipstep=${SLIPSTEP:-$here/../../build/slipstep}
-scratch=$(mktemp -d)
-trap 'rm -r "$scratch"' EXIT
-mkdir -p "$here/measured"
-
-# tests FILE CONDITION PRESSURE PIECES SEED...: a test for every seed
-tests() {
-  file=$1; condition=$2; pressure=$3; pieces=$4; shift 4
-  "$slipstep" point "$here/truth.prm" --output "$scratch" --quiet \
-    --set "Loading/Programme=$(awk -v pressure="$pressure" -v pieces="$pieces" \
-                                 -f "$here/../hidden_rate_effect/programme.awk")"
-  run=1
-  for seed in "$@"; do
-    awk -v seed="$seed" -v pressure="$pressure" -v pieces="$pieces" \
-      -v name="$condition, run $run" -v condition="$condition" \
-      -f "$here/../identify_flat_surface/noise.awk" \
-      -f "$here/../hidden_rate_effect/record.awk" "$scratch/history.csv" \
-      > "$here/measured/${file}_$run.csv"
-    run=$((run + 1))
-  done
-}
+. "$here/../hidden_rate_effect/make_tests.sh"
 
 for time in 3 30 300 3000; do
   tests "rest_$(printf %04d $time)_s" "rest of $time s, 5.8 MPa" 5.8 \

@@ -4,27 +4,7 @@
 # (after the program has been built)
 set -e
 here=$(dirname "$0")
-slipstep=${SLIPSTEP:-$here/../../build/slipstep}
-scratch=$(mktemp -d)
-trap 'rm -r "$scratch"' EXIT
-mkdir -p "$here/measured"
-
-# tests FILE CONDITION PRESSURE PIECES SEED...: a test for every seed
-tests() {
-  file=$1; condition=$2; pressure=$3; pieces=$4; shift 4
-  "$slipstep" point "$here/truth.prm" --output "$scratch" --quiet \
-    --set "Loading/Programme=$(awk -v pressure="$pressure" -v pieces="$pieces" \
-                                 -f "$here/programme.awk")"
-  run=1
-  for seed in "$@"; do
-    awk -v seed="$seed" -v pressure="$pressure" -v pieces="$pieces" \
-      -v name="$condition, run $run" -v condition="$condition" \
-      -f "$here/../identify_flat_surface/noise.awk" \
-      -f "$here/record.awk" "$scratch/history.csv" \
-      > "$here/measured/${file}_$run.csv"
-    run=$((run + 1))
-  done
-}
+. "$here/../hidden_rate_effect/make_tests.sh"
 
 tests 001_mm-min  "1 mm/min, 5.8 MPa"    5.8 "hold:10 1:100"   11 12
 tests 010_mm-min  "10 mm/min, 5.8 MPa"   5.8 "hold:10 10:100"  21 22

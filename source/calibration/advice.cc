@@ -143,7 +143,7 @@ namespace SlipStep
           test.displacement_y.clear();
         else
           test.friction_y.assign(test.friction.size(), 0.);
-        return {words, test, programme.str()};
+        return {words, test, programme.str(), 1.};
       }
 
     private:
@@ -234,30 +234,37 @@ namespace SlipStep
     if (!(now.fastest > 0.) || !(now.longest > 0.))
       return result;
     const double middle = std::sqrt(now.slowest * now.fastest);
+    const auto   beyond = [&](ProposedTest test, const double factor) {
+      test.reach = factor > 1. ? factor : 1. / factor;
+      result.push_back(test);
+    };
     for (const double factor : {0.1, 0.01, 0.001})
-      result.push_back(
-        proposed_slide("sliding at " + speed_in_words(factor * now.slowest),
-                       factor * now.slowest,
-                       now.highest,
-                       now.longest));
+      beyond(proposed_slide("sliding at " +
+                              speed_in_words(factor * now.slowest),
+                            factor * now.slowest,
+                            now.highest,
+                            now.longest),
+             factor);
     for (const double factor : {10., 100.})
-      result.push_back(
-        proposed_slide("sliding at " + speed_in_words(factor * now.fastest),
-                       factor * now.fastest,
-                       now.highest,
-                       now.longest));
+      beyond(proposed_slide("sliding at " +
+                              speed_in_words(factor * now.fastest),
+                            factor * now.fastest,
+                            now.highest,
+                            now.longest),
+             factor);
     for (const double factor : {3., 10.})
-      result.push_back(
-        proposed_slide("sliding for " + rounded(factor * now.longest) + " mm",
-                       middle,
-                       now.highest,
-                       factor * now.longest));
+      beyond(proposed_slide("sliding for " + rounded(factor * now.longest) +
+                              " mm",
+                            middle,
+                            now.highest,
+                            factor * now.longest),
+             factor);
     for (const double pressure : {now.lowest / 3., 3. * now.highest})
-      result.push_back(
-        proposed_slide("sliding under " + rounded(pressure) + " MPa",
-                       middle,
-                       pressure,
-                       now.longest));
+      beyond(proposed_slide("sliding under " + rounded(pressure) + " MPa",
+                            middle,
+                            pressure,
+                            now.longest),
+             3.);
     propose_changes(now, middle, result);
     return result;
   }

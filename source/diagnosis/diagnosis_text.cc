@@ -41,19 +41,22 @@ namespace SlipStep
       return text;
     }
 
-    /// In brackets behind the names.
+    /// In brackets behind one name or two.
     std::string all_plain_words(const Diagnosis &diagnosis)
     {
       std::vector<std::string> names = diagnosis.effects;
       names.insert(names.end(),
                    diagnosis.ambiguous_with.begin(),
                    diagnosis.ambiguous_with.end());
+      // More would bury the numbers.
+      if (names.size() > 2)
+        return "";
       std::string text;
       for (const std::string &name : names)
         text += (text.empty() ? "" : "; ") +
                 (names.size() > 1 ? name + ": " : std::string()) +
                 plain_words(name);
-      return text;
+      return " (" + text + ")";
     }
 
     /// "the gap falls from 4.12 % to 1.05 % of friction ..."
@@ -100,8 +103,8 @@ namespace SlipStep
     std::string named_words(const Diagnosis &diagnosis)
     {
       return list_text(diagnosis.effects) +
-             (diagnosis.effects.size() > 1 ? " are" : " is") + " missing (" +
-             all_plain_words(diagnosis) + "): with " +
+             (diagnosis.effects.size() > 1 ? " are" : " is") + " missing" +
+             all_plain_words(diagnosis) + ": with " +
              (diagnosis.effects.size() > 1 ? "them " : "it ") +
              shrink_words(diagnosis.shrink);
     }
@@ -109,9 +112,9 @@ namespace SlipStep
     std::string ambiguous_words(const Diagnosis &diagnosis)
     {
       std::string text = "these tests do not tell what is missing, " +
-                         names_text(diagnosis) + " (" +
-                         all_plain_words(diagnosis) + "): with the first of " +
-                         "these names " + shrink_words(diagnosis.shrink);
+                         names_text(diagnosis) + all_plain_words(diagnosis) +
+                         ": with " + list_text(diagnosis.effects) + " " +
+                         shrink_words(diagnosis.shrink);
       if (!diagnosis.next_test.words.empty())
         text += "; " + diagnosis.next_test.words + " would tell";
       return text;
@@ -289,13 +292,22 @@ namespace SlipStep
 
   std::string names_text(const Diagnosis &diagnosis)
   {
-    std::string text;
+    std::vector<std::string> alternatives;
     for (std::size_t i = 0; i < diagnosis.effects.size(); ++i)
       {
         std::vector<std::string> names = rivals_of(diagnosis, i);
         names.insert(names.begin(), diagnosis.effects[i]);
-        text += (text.empty() ? "" : ", and ") + list_text(names, "or");
+        alternatives.push_back(list_text(names, "or"));
       }
+    // "a, b, and c or d", but "a and b".
+    std::string text;
+    for (std::size_t i = 0; i < alternatives.size(); ++i)
+      text += (i == 0                      ? "" :
+               i + 1 < alternatives.size() ? ", " :
+               diagnosis.ambiguous_with.empty() || alternatives.size() < 2 ?
+                                             " and " :
+                                             ", and ") +
+              alternatives[i];
     return text;
   }
 

@@ -167,26 +167,28 @@ namespace SlipStep
 
 
 
-    // The cheapest of those that tell apart; else the best.
+    // Of those that tell apart the one that reaches least beyond the tested
+    // conditions, where models are believed and rigs can follow, and of these
+    // the shortest; else the one that tells best.
     template <class Distance>
     NextTest choose_test(const std::vector<ProposedTest> &proposed,
                          const Distance                  &distance_of)
     {
-      NextTest best;
-      double   best_duration = 0.;
+      NextTest                  best;
+      std::pair<double, double> least_cost;
       for (const ProposedTest &test : proposed)
         {
-          const double distance   = distance_of(test.motion);
-          const double duration   = duration_of(test.motion);
-          const bool   is_enough  = distance >= told_apart;
-          const bool   had_enough = best.distance >= told_apart;
-          if (!(is_enough && (!had_enough || duration < best_duration)) &&
+          const double    distance = distance_of(test.motion);
+          const std::pair cost(test.reach, duration_of(test.motion));
+          const bool      is_enough  = distance >= told_apart;
+          const bool      had_enough = best.distance >= told_apart;
+          if (!(is_enough && (!had_enough || cost < least_cost)) &&
               !(!had_enough && distance > best.distance))
             continue;
           best.words     = test.words;
           best.programme = test.programme;
           best.distance  = distance;
-          best_duration  = duration;
+          least_cost     = cost;
         }
       return best;
     }
@@ -286,7 +288,9 @@ namespace SlipStep
       for (const auto &gain : found.gains)
         if (gain.first == result.name)
           result.gain = gain.second;
-      result.status = result.p <= workspace.level ? "not needed" : "rejected";
+      result.status = result.p > workspace.level            ? "rejected" :
+                      judgement.verdict == Verdict::unnamed ? "not enough" :
+                                                              "not needed";
       if (!result.why.empty())
         result.status =
           seen.candidate.is_in_model ? "in the model" : "not testable";

@@ -16,6 +16,7 @@ $3 == "FAILED" { failed[$1]++; next }
     strong = $11 >= 25
     n[$1, strong]++; exact[$1, strong] += $8; holds[$1, strong] += $10
     falsely[$1, strong] += $9
+    partner[$1, strong] += $9 && $10
     if ($5 != "-" && $13 > 0) ratio[$1, ++n_ratio[$1]] = $12 / $13
   }
 }
@@ -27,7 +28,7 @@ END {
     printf "  unnamed %s\n", rate(verdict[c, "unnamed"], all[c])
     for (s = 1; s >= 0; --s)
       if (n[c, s])
-        printf "  %s: exact %s, truth held %s, any false name %s\n", s ? "detectable (>= 25)" : "weak", rate(exact[c, s], n[c, s]), rate(holds[c, s], n[c, s]), rate(falsely[c, s], n[c, s])
+        printf "  %s: exact %s, truth held %s, any false name %s, besides the right one %s\n", s ? "detectable (>= 25)" : "weak", rate(exact[c, s], n[c, s]), rate(holds[c, s], n[c, s]), rate(falsely[c, s], n[c, s]), rate(partner[c, s], n[c, s])
     m = n_ratio[c]
     for (i = 2; i <= m; ++i) { v = ratio[c, i]; for (j = i - 1; j >= 1 && ratio[c, j] > v; --j) ratio[c, j + 1] = ratio[c, j]; ratio[c, j + 1] = v }
     if (intervals[c]) printf "  planted strengths inside their 95 %% intervals: %s\n", rate(inside[c], intervals[c])

@@ -15,6 +15,9 @@ namespace SlipStep
     MeasuredTest motion;
     /// The same as "Loading/Programme" takes it.
     std::string programme;
+    /// How far it is beyond what was tested: a factor of speed, pressure, or
+    /// path.
+    double reach = 1.;
   };
 
   /// Tests beside those of the campaign: slower, faster, longer, after a hold,

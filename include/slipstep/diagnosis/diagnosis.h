@@ -72,7 +72,8 @@ namespace SlipStep
   {
     std::string name;
     std::string signature;
-    /// "named", "rival", "not needed" (significant by itself), "rejected",
+    /// "named", "rival"; of those significant by themselves "not needed", or
+    /// "not enough" where the verdict is "unnamed"; "rejected",
     /// "in the model", "not testable"
     std::string status;
     double      score = 0.; ///< standard deviations
