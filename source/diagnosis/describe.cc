@@ -121,83 +121,143 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    /// Simulated minus measured friction.
+    struct Differences
+    {
+      Eigen::VectorXd before, after, left_out_before, left_out_after;
+    };
+
+
+
+    DiagnosedTest described_test(const Workspace   &workspace,
+                                 const Differences &differences,
+                                 const std::size_t  number)
+    {
+      const Comparison   &comparison = workspace.comparison;
+      const ComparedTest &compared   = comparison.tests[number];
+      const MeasuredTest &rows       = workspace.tests[number].rows;
+      DiagnosedTest       test;
+      test.name       = rows.name;
+      test.condition  = rows.condition;
+      test.file       = rows.file.string();
+      test.level      = compared.level;
+      test.start_time = rows.time.front();
+      for (std::size_t i = 0; i < compared.n_bins(); ++i)
+        {
+          const std::size_t row =
+            (compared.borders[i] + compared.borders[i + 1]) / 2;
+          test.time.push_back(rows.time[row] - rows.time.front());
+          test.displacement.push_back(
+            rows.displacement_y.empty() ?
+              rows.displacement[row] :
+              std::hypot(rows.displacement[row], rows.displacement_y[row]));
+          test.phase.push_back(
+            name_of(workspace.covariates.phase[compared.begin + i]));
+        }
+      const Eigen::VectorXd before = comparison.measured + differences.before;
+      const Eigen::VectorXd after  = comparison.measured + differences.after;
+      test.measured                = part_of(comparison.measured, compared, 0);
+      test.before                  = part_of(before, compared, 0);
+      test.after                   = part_of(after, compared, 0);
+      if (compared.series.size() > 1)
+        {
+          test.measured_y = part_of(comparison.measured, compared, 1);
+          test.before_y   = part_of(before, compared, 1);
+          test.after_y    = part_of(after, compared, 1);
+        }
+      const auto variances = noise_variances(compared, comparison.noise());
+      test.noise =
+        compared.level * std::sqrt(variances.first + variances.second);
+      const auto rms = [&](const Eigen::VectorXd &values) {
+        return root_mean_square(values, compared);
+      };
+      test.rms_before      = rms(differences.before);
+      test.rms_after       = rms(differences.after);
+      test.left_out_before = rms(differences.left_out_before);
+      test.left_out_after  = rms(differences.left_out_after);
+      return test;
+    }
+
+
+
+    DiagnosedTest described_outlier(const CampaignTest &outlier)
+    {
+      DiagnosedTest test;
+      test.name         = outlier.rows.name;
+      test.condition    = outlier.rows.condition;
+      test.file         = outlier.rows.file.string();
+      test.is_outlier   = true;
+      test.time         = outlier.rows.time;
+      test.displacement = outlier.rows.displacement;
+      test.measured     = outlier.rows.friction;
+      return test;
+    }
+
+
+
+    // The starting model, and with one effect after the other.
+    std::vector<GapStep> steps_down(const Prepared &prepared,
+                                    const Model    &after)
+    {
+      const Workspace  &workspace  = *prepared.workspace;
+      const Comparison &comparison = workspace.comparison;
+      const auto step = [&](const std::string &label, const Model &model) {
+        return GapStep{label,
+                       relative_rms(comparison,
+                                    comparison.difference(*model.simulator,
+                                                          model.scaled)),
+                       model.objective};
+      };
+      std::vector<GapStep> steps = {{"starting model as it is",
+                                     prepared.start_rms,
+                                     prepared.start_objective},
+                                    step("calibrated", prepared.base)};
+      for (std::size_t part = 0; part + 1 < after.parts.size(); ++part)
+        {
+          Model so_far =
+            make_model(workspace.start,
+                       {after.parts.begin(), after.parts.begin() + part + 1},
+                       after.values(),
+                       workspace.tests,
+                       &after);
+          comparison.fit(so_far, 0.1);
+          steps.push_back(step("with " + after.parts[part].name, so_far));
+        }
+      if (!after.parts.empty())
+        steps.push_back(step("with " + after.parts.back().name, after));
+      return steps;
+    }
+  } // namespace
+
+
+
   void describe_tests(const Prepared &prepared,
                       const Model    &after,
                       Diagnosis      &diagnosis)
   {
-    const Workspace      &workspace  = *prepared.workspace;
-    const Comparison     &comparison = workspace.comparison;
-    const Eigen::VectorXd before_difference =
+    const Workspace  &workspace  = *prepared.workspace;
+    const Comparison &comparison = workspace.comparison;
+    Differences       differences;
+    differences.before =
       comparison.difference(*prepared.base.simulator, prepared.base.scaled);
-    const Eigen::VectorXd after_difference =
-      comparison.difference(*after.simulator, after.scaled);
-    Eigen::VectorXd left_out_before, left_out_after;
-    left_out_squares(workspace, prepared.base, &left_out_before);
-    left_out_squares(workspace, after, &left_out_after);
+    differences.after = comparison.difference(*after.simulator, after.scaled);
+    left_out_squares(workspace, prepared.base, &differences.left_out_before);
+    left_out_squares(workspace, after, &differences.left_out_after);
     for (std::size_t t = 0; t < workspace.tests.size(); ++t)
-      {
-        const ComparedTest &compared = comparison.tests[t];
-        const MeasuredTest &rows     = workspace.tests[t].rows;
-        DiagnosedTest       test;
-        test.name       = rows.name;
-        test.condition  = rows.condition;
-        test.file       = rows.file.string();
-        test.level      = compared.level;
-        test.start_time = rows.time.front();
-        for (std::size_t i = 0; i < compared.n_bins(); ++i)
-          {
-            const std::size_t row =
-              (compared.borders[i] + compared.borders[i + 1]) / 2;
-            test.time.push_back(rows.time[row] - rows.time.front());
-            test.displacement.push_back(
-              rows.displacement_y.empty() ?
-                rows.displacement[row] :
-                std::hypot(rows.displacement[row], rows.displacement_y[row]));
-            test.phase.push_back(
-              name_of(workspace.covariates.phase[compared.begin + i]));
-          }
-        const Eigen::VectorXd simulated_before =
-          comparison.measured + before_difference;
-        const Eigen::VectorXd simulated_after =
-          comparison.measured + after_difference;
-        test.measured = part_of(comparison.measured, compared, 0);
-        test.before   = part_of(simulated_before, compared, 0);
-        test.after    = part_of(simulated_after, compared, 0);
-        if (compared.series.size() > 1)
-          {
-            test.measured_y = part_of(comparison.measured, compared, 1);
-            test.before_y   = part_of(simulated_before, compared, 1);
-            test.after_y    = part_of(simulated_after, compared, 1);
-          }
-        const auto variances = noise_variances(compared, comparison.noise());
-        test.noise =
-          compared.level * std::sqrt(variances.first + variances.second);
-        test.rms_before      = root_mean_square(before_difference, compared);
-        test.rms_after       = root_mean_square(after_difference, compared);
-        test.left_out_before = root_mean_square(left_out_before, compared);
-        test.left_out_after  = root_mean_square(left_out_after, compared);
-        diagnosis.tests.push_back(test);
-      }
+      diagnosis.tests.push_back(described_test(workspace, differences, t));
     for (const CampaignTest &outlier : prepared.outlier_tests)
-      {
-        DiagnosedTest test;
-        test.name         = outlier.rows.name;
-        test.condition    = outlier.rows.condition;
-        test.file         = outlier.rows.file.string();
-        test.is_outlier   = true;
-        test.time         = outlier.rows.time;
-        test.displacement = outlier.rows.displacement;
-        test.measured     = outlier.rows.friction;
-        diagnosis.tests.push_back(test);
-      }
+      diagnosis.tests.push_back(described_outlier(outlier));
     std::stable_sort(diagnosis.tests.begin(),
                      diagnosis.tests.end(),
                      [](const DiagnosedTest &a, const DiagnosedTest &b) {
                        return a.name < b.name;
                      });
     diagnosis.shrink.left_out_before =
-      relative_rms(comparison, left_out_before);
-    diagnosis.shrink.left_out_after = relative_rms(comparison, left_out_after);
+      relative_rms(comparison, differences.left_out_before);
+    diagnosis.shrink.left_out_after =
+      relative_rms(comparison, differences.left_out_after);
   }
 
 
@@ -206,18 +266,10 @@ namespace SlipStep
                        const Model    &after,
                        Diagnosis      &diagnosis)
   {
-    const Workspace  &workspace  = *prepared.workspace;
-    const Comparison &comparison = workspace.comparison;
+    const Comparison &comparison = prepared.workspace->comparison;
     Shrink           &shrink     = diagnosis.shrink;
-    const auto        rms        = [&](const Model &model) {
-      return relative_rms(comparison,
-                          comparison.difference(*model.simulator,
-                                                model.scaled));
-    };
-    shrink.fitted_before = rms(prepared.base);
-    shrink.fitted_after  = rms(after);
-    double      sum      = 0.;
-    std::size_t n        = 0;
+    double            sum        = 0.;
+    std::size_t       n          = 0;
     for (const ComparedTest &test : comparison.tests)
       {
         const auto variances = noise_variances(test, comparison.noise());
@@ -225,36 +277,15 @@ namespace SlipStep
         n += test.n_bins();
       }
     shrink.noise_floor     = std::sqrt(sum / n);
+    diagnosis.steps        = steps_down(prepared, after);
+    shrink.fitted_before   = diagnosis.steps[1].rms;
+    shrink.fitted_after    = diagnosis.steps.back().rms;
     const auto above_floor = [&](const double value) {
       return std::sqrt(
         std::max(0., value * value - shrink.noise_floor * shrink.noise_floor));
     };
     shrink.systematic_before = above_floor(shrink.fitted_before);
     shrink.systematic_after  = above_floor(shrink.fitted_after);
-
-    diagnosis.steps.push_back({"starting model as it is",
-                               prepared.start_rms,
-                               prepared.start_objective});
-    diagnosis.steps.push_back(
-      {"calibrated", shrink.fitted_before, prepared.base.objective});
-    Model so_far = prepared.base;
-    for (std::size_t part = 0; part < after.parts.size(); ++part)
-      {
-        if (part + 1 == after.parts.size())
-          so_far = after;
-        else
-          {
-            so_far =
-              make_model(workspace.start,
-                         {after.parts.begin(), after.parts.begin() + part + 1},
-                         after.values(),
-                         workspace.tests,
-                         &after);
-            comparison.fit(so_far, 0.1);
-          }
-        diagnosis.steps.push_back(
-          {"with " + after.parts[part].name, rms(so_far), so_far.objective});
-      }
     diagnosis.steps.push_back({"noise alone",
                                shrink.noise_floor,
                                static_cast<double>(comparison.n_rows())});

@@ -266,73 +266,106 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // What was seen of a candidate from the starting model.
+    CandidateResult seen_result(const CandidateView &seen,
+                                const Judgement     &judgement,
+                                const double         level)
+    {
+      CandidateResult result;
+      result.name               = seen.candidate.name;
+      result.signature          = seen.candidate.signature;
+      result.score              = seen.score.value;
+      result.p                  = seen.p;
+      result.minimum_detectable = seen.minimum_detectable;
+      result.is_testable        = seen.candidate.why_not.empty() &&
+                           seen.minimum_detectable <= largest_hidden_change;
+      for (const auto &gain : judgement.found.gains)
+        if (gain.first == result.name)
+          result.gain = gain.second;
+      if (!seen.candidate.why_not.empty())
+        {
+          result.why = seen.candidate.why_not;
+          result.status =
+            seen.candidate.is_in_model ? "in the model" : "not testable";
+        }
+      else if (!result.is_testable)
+        {
+          result.why    = why_not_testable(seen);
+          result.status = "not testable";
+        }
+      else
+        result.status = result.p > level                      ? "rejected" :
+                        judgement.verdict == Verdict::unnamed ? "not enough" :
+                                                                "not needed";
+      return result;
+    }
+
+
+
+    // What the search made of it.
+    void add_found(const SearchResult                    &found,
+                   const std::vector<DiagnosedParameter> &parameters,
+                   CandidateResult                       &result)
+    {
+      for (const Rival &rival : found.rivals)
+        if (rival.name == result.name)
+          result.status = "rival";
+      for (std::size_t part = 0; part < found.model.parts.size(); ++part)
+        {
+          if (found.model.parts[part].name != result.name)
+            continue;
+          result.status      = "named";
+          result.is_testable = true;
+          if (part < found.costs.size())
+            {
+              result.gain          = found.costs[part];
+              result.left_out_gain = found.left_out_gains[part];
+            }
+          for (const DiagnosedParameter &parameter : parameters)
+            if (parameter.effect == result.name)
+              result.parameters.push_back(parameter);
+        }
+    }
+
+
+
+    // Of the table: names, rivals, what is significant, and the rest.
+    int rank(const CandidateResult &result)
+    {
+      static const std::vector<std::string> order = {
+        "named", "rival", "not needed", "not enough", "rejected"};
+      return std::find(order.begin(), order.end(), result.status) -
+             order.begin();
+    }
+  } // namespace
+
+
+
   std::vector<CandidateResult>
   candidate_results(const Workspace                       &workspace,
                     const Judgement                       &judgement,
                     const std::vector<DiagnosedParameter> &parameters,
                     const Model                           &base)
   {
-    const SearchResult          &found = judgement.found;
     std::vector<CandidateResult> results(judgement.view.candidates.size());
     side_by_side(results.size(), [&](const std::size_t c) {
-      const CandidateView &seen   = judgement.view.candidates[c];
-      CandidateResult     &result = results[c];
-      result.name                 = seen.candidate.name;
-      result.signature            = seen.candidate.signature;
-      result.score                = seen.score.value;
-      result.p                    = seen.p;
-      result.minimum_detectable   = seen.minimum_detectable;
-      result.is_testable          = seen.candidate.why_not.empty() &&
-                           seen.minimum_detectable <= largest_hidden_change;
-      result.why = seen.candidate.why_not;
-      for (const auto &gain : found.gains)
-        if (gain.first == result.name)
-          result.gain = gain.second;
-      result.status = result.p > workspace.level            ? "rejected" :
-                      judgement.verdict == Verdict::unnamed ? "not enough" :
-                                                              "not needed";
-      if (!result.why.empty())
-        result.status =
-          seen.candidate.is_in_model ? "in the model" : "not testable";
-      else if (!result.is_testable)
+      const CandidateView &seen = judgement.view.candidates[c];
+      results[c]                = seen_result(seen, judgement, workspace.level);
+      add_found(judgement.found, parameters, results[c]);
+      if (results[c].status == "not testable" &&
+          !seen.candidate.formulas.empty())
         {
-          result.status = "not testable";
-          result.why    = why_not_testable(seen);
-        }
-      for (const Rival &rival : found.rivals)
-        if (rival.name == result.name)
-          result.status = "rival";
-      for (std::size_t part = 0; part < found.model.parts.size(); ++part)
-        if (found.model.parts[part].name == result.name)
-          {
-            result.status      = "named";
-            result.is_testable = true;
-            if (part < found.costs.size())
-              {
-                result.gain          = found.costs[part];
-                result.left_out_gain = found.left_out_gains[part];
-              }
-            for (const DiagnosedParameter &parameter : parameters)
-              if (parameter.effect == result.name)
-                result.parameters.push_back(parameter);
-          }
-      if (result.status == "not testable" && !seen.candidate.formulas.empty())
-        {
-          Model own            = base;
-          own.simulator        = std::make_shared<Simulator>(*base.simulator);
-          result.cheapest_test = cheapest_test(workspace, own, seen.candidate);
+          Model own     = base;
+          own.simulator = std::make_shared<Simulator>(*base.simulator);
+          results[c].cheapest_test =
+            cheapest_test(workspace, own, seen.candidate);
         }
     });
-    const auto rank = [](const CandidateResult &result) {
-      return result.status == "named"      ? 0 :
-             result.status == "rival"      ? 1 :
-             result.status == "not needed" ? 2 :
-             result.status == "rejected"   ? 3 :
-                                             4;
-    };
     std::stable_sort(results.begin(),
                      results.end(),
-                     [&](const CandidateResult &a, const CandidateResult &b) {
+                     [](const CandidateResult &a, const CandidateResult &b) {
                        return rank(a) != rank(b) ? rank(a) < rank(b) :
                                                    a.score > b.score;
                      });

@@ -369,6 +369,9 @@ namespace SlipStep
 
       bool examine(const std::size_t part);
 
+      bool
+      try_rivals(const Model &less, const std::string &name, const double cost);
+
       void tell(const std::string &text) const
       {
         if (workspace.progress)
@@ -424,8 +427,6 @@ namespace SlipStep
     // does better in its place. Returns whether the model has changed.
     bool Searcher::examine(const std::size_t part)
     {
-      constexpr unsigned int most_rivals = 4;
-
       const std::string          name = result.model.parts[part].name;
       const std::optional<Model> less =
         refit_without(workspace, result.model, part);
@@ -449,8 +450,19 @@ namespace SlipStep
         }
       result.costs.push_back(cost);
       result.left_out_gains.push_back(left_out_gain);
+      return try_rivals(*less, name, cost);
+    }
 
-      const View   view    = look(workspace, *less);
+
+
+    // In the place of a name. Returns whether one takes it.
+    bool Searcher::try_rivals(const Model       &less,
+                              const std::string &name,
+                              const double       cost)
+    {
+      constexpr unsigned int most_rivals = 4;
+
+      const View   view    = look(workspace, less);
       unsigned int n_tried = 0;
       for (const CandidateView &seen : view.candidates)
         {
@@ -462,7 +474,7 @@ namespace SlipStep
               n_tried == most_rivals)
             continue;
           ++n_tried;
-          const std::optional<Model> tried = refit_with(workspace, *less, seen);
+          const std::optional<Model> tried = refit_with(workspace, less, seen);
           if (!tried.has_value() || is_at_bound(*tried))
             continue;
           const double distance = penalised(*tried) - penalised(result.model);
