@@ -308,7 +308,15 @@ namespace SlipStep
         percent(std::hypot(workspace.noise.noise.gain,
                            workspace.noise.noise.offset)) +
         " of friction, the verdict could fall.");
-    else if (diagnosis.n_replicate_pairs < 4)
+    if (diagnosis.n_replicate_pairs == 0 &&
+        diagnosis.shrink.fitted_after < 0.95 * diagnosis.shrink.noise_floor)
+      doubts.push_back("What is left (" +
+                       percent(diagnosis.shrink.fitted_after) +
+                       ") is less than the noise stated (" +
+                       percent(diagnosis.shrink.noise_floor) +
+                       "), which seems too large: by less noise, smaller gaps "
+                       "would be seen.");
+    else if (diagnosis.n_replicate_pairs > 0 && diagnosis.n_replicate_pairs < 4)
       doubts.push_back("The noise between tests is known from " +
                        std::to_string(diagnosis.n_replicate_pairs) +
                        " repetition(s) only; one that is farther off would "

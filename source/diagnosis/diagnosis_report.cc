@@ -64,9 +64,10 @@ namespace SlipStep
       if (!where.phases.empty())
         text += ", most in " + plural("phase", where.phases);
       if (!where.tests.empty())
-        text += ", in " + plural("test", all_in_quotes(where.tests));
+        text += ", in " + list_text(all_in_quotes(where.tests));
       return card(title,
-                  paragraph(range_text(where), "big") + paragraph(text + ".") +
+                  paragraph(capitalised(place_words(where)), "big") +
+                    paragraph(text + ".") +
                     note("Explains " + fixed_text(100. * where.share, 0) +
                          " % of the difference beyond the noise."));
     }

@@ -197,6 +197,7 @@ figure svg { max-width: 100%; }
   .heat tbody th { max-width: 7em; } }
 @media print { * { print-color-adjust: exact;
     -webkit-print-color-adjust: exact; }
+  .cards { grid-template-columns: 1fr 1fr 1fr; }
   .gallery { grid-template-columns: 1fr 1fr; }
   .legend { break-after: avoid; }
   .bar, .card, .maps > div { break-inside: avoid; } }

@@ -34,13 +34,6 @@ namespace SlipStep
       return rivals;
     }
 
-    std::string capitalised(std::string text)
-    {
-      if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
-        text[0] += 'A' - 'a';
-      return text;
-    }
-
     /// In brackets behind one name or two.
     std::string all_plain_words(const Diagnosis &diagnosis)
     {
@@ -126,7 +119,7 @@ namespace SlipStep
                          nothing_explains(diagnosis) + ": " +
                          gap_words(diagnosis.shrink) + gap_chance(diagnosis);
       if (!diagnosis.where.empty())
-        text += ", most at " + range_text(diagnosis.where[0]);
+        text += ", most " + place_words(diagnosis.where[0]);
       if (!diagnosis.correction_covariate.empty())
         text += "; a correction by " + diagnosis.correction_covariate +
                 ", cause unknown, brings it to " +
@@ -194,6 +187,15 @@ namespace SlipStep
       return fitted;
     }
   } // namespace
+
+
+
+  std::string capitalised(std::string text)
+  {
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+      text[0] += 'A' - 'a';
+    return text;
+  }
 
 
 
@@ -357,15 +359,49 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    /// "0.5 … 1.7 mm/s"
+    std::string ends_text(const Localisation &where)
+    {
+      const std::string from = plain_text(where.from, 3);
+      const std::string to   = plain_text(where.to, 3);
+      return (from == to ? from : from + " … " + to) +
+             (where.unit.empty() ? "" : " " + where.unit);
+    }
+  } // namespace
+
+
+
   std::string range_text(const Localisation &where)
   {
-    const std::string unit = where.unit.empty() ? "" : " " + where.unit;
-    if (where.from == 0. && where.to == 0.)
-      return where.covariate;
-    const std::string from = plain_text(where.from, 3);
-    const std::string to   = plain_text(where.to, 3);
-    return where.covariate + " " + (from == to ? from : from + " … " + to) +
-           unit;
+    return where.from == 0. && where.to == 0. ?
+             where.covariate :
+             where.covariate + " " + ends_text(where);
+  }
+
+
+
+  std::string place_words(const Localisation &where)
+  {
+    static const std::map<std::string, std::string> words = {
+      {"speed", "at speeds of"},
+      {"pressure", "under pressures of"},
+      {"path", "after a path of"},
+      {"slip since start", "after a start, at a slip of"},
+      {"rest", "after rests of"},
+      {"heat", "after recent frictional work of"},
+      {"angle", "at angles of"},
+      {"order of the tests", "in the order of tests at"}};
+    if (where.covariate == "direction")
+      return where.from > 0.5 ? "where motion goes back" :
+                                "where motion goes forward";
+    if (where.covariate == "flank")
+      return "on the flanks where slip begins";
+    const auto found = words.find(where.covariate);
+    return found == words.end() || (where.from == 0. && where.to == 0.) ?
+             "by " + range_text(where) :
+             found->second + " " + ends_text(where);
   }
 
 

@@ -133,7 +133,7 @@ TEST(DiagnosisHeadline, WhatHasNoNameHasItsPlace)
   Diagnosis         diagnosis = SyntheticDiagnosis::unnamed();
   const std::string text      = headline(diagnosis);
   EXPECT_TRUE(contains(text, "no effect of the catalogue explains"));
-  EXPECT_TRUE(contains(text, "most at speed 0.5 … 1.7 mm/s"));
+  EXPECT_TRUE(contains(text, "most at speeds of 0.5 … 1.7 mm/s"));
   EXPECT_TRUE(contains(text, "cause unknown, brings it to 2.71 %"));
   diagnosis.correction_covariate = "";
   diagnosis.where.clear();
@@ -239,7 +239,7 @@ TEST(DiagnosisReport, TheFirstScreenTellsWhatWasWrongMissingAndGained)
   const std::string named = first_screen_of(SyntheticDiagnosis::named());
   for (const std::string &part :
        {std::string("missing effect named: overstress"),
-        std::string("speed 0.5 … 1.7 mm/s"),
+        std::string("At speeds of 0.5 … 1.7 mm/s"),
         std::string("Measured friction is higher there than simulated"),
         std::string("friction that rises with sliding speed (overstress)"),
         "4.91" + percent + " → 1.04" + percent + " of friction",

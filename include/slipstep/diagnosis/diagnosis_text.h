@@ -29,6 +29,9 @@ namespace SlipStep
   /// "no effect of the catalogue explains", or of those asked for.
   std::string nothing_explains(const Diagnosis &diagnosis);
 
+  /// With a capital at the beginning.
+  std::string capitalised(std::string text);
+
   /// A test's name in quotation marks.
   std::string in_quotes(const std::string &test);
 
@@ -48,6 +51,9 @@ namespace SlipStep
 
   /// "speed 0.1 … 10 mm/s"
   std::string range_text(const Localisation &where);
+
+  /// "at speeds of 0.5 … 1.7 mm/s": the same in words.
+  std::string place_words(const Localisation &where);
 
   /// "higher", "lower" or "different" than simulated.
   std::string sign_text(const Localisation &where);
