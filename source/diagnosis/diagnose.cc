@@ -152,8 +152,18 @@ namespace SlipStep
         if (comparison.tests[t].condition ==
             static_cast<std::size_t>(worst - of_condition.begin()))
           left_out.push_back(prepared.workspace->tests[t].rows.name);
-      const Prepared  others  = prepare(parameters, {}, left_out);
-      const Judgement without = judge(*others.workspace, others.base);
+      Judgement without;
+      try
+        {
+          const Prepared others = prepare(parameters, {}, left_out);
+          without               = judge(*others.workspace, others.base);
+        }
+      catch (const RunError &)
+        {
+          // Too little is left, or it cannot be simulated.
+          throw_if_stopped();
+          return;
+        }
       if (without.verdict == Verdict::unnamed)
         return;
       std::vector<std::string> names;
