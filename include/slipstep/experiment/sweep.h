@@ -38,8 +38,8 @@ namespace SlipStep
   std::vector<int> run_side_by_side(const std::vector<SweepJob> &jobs,
                                     const std::string           &label,
                                     const bool                   quiet,
-                                    const unsigned int n_parallel = 0,
-                                    const bool         is_resumable = true);
+                                    const unsigned int           n_parallel = 0,
+                                    const bool is_resumable = true);
 } // namespace SlipStep
 
 #endif
