@@ -16,7 +16,7 @@ function sorted(list, size,   i, j, v) {
 function rank(word) { return (word ~ /^(ambiguous|unnamed|no_gap|not_testable)$/ ? "~" : "") word }
 END {
   sorted(rows, n_rows); sorted(columns, n_columns)
-  line = "| hidden \\ said |"; rule = "|---|"
+  line = "| Hidden, said |"; rule = "|---|"
   for (c = 1; c <= n_columns; ++c) { line = line " " columns[c] " |"; rule = rule "---:|" }
   print line; print rule
   for (r = 1; r <= n_rows; ++r) {
