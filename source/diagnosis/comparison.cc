@@ -210,7 +210,7 @@ namespace SlipStep
           {
             const FitParameter &parameter = model.campaign->fitted[i];
             start.push_back(parameter.to_scaled(parameter.start));
-            belief.push_back(is_of_a_part(parameter.path) ?
+            belief.push_back(model.owner_of(parameter.path) != nullptr ?
                                1. / believed_share :
                                natural_slope(parameter, start.back()) /
                                  believed_deviation);
@@ -276,15 +276,6 @@ namespace SlipStep
       // Of a parameter of what was added, as a share of its bounds: it starts
       // at a first guess, of which nothing is believed.
       static constexpr double believed_share = 0.5;
-
-      bool is_of_a_part(const std::string &path) const
-      {
-        for (const Part &part : model.parts)
-          for (const CandidateParameter &parameter : part.formula.parameters)
-            if (parameter.path == path)
-              return true;
-        return false;
-      }
 
       void leave_out(RowMatrix &columns) const
       {
@@ -446,6 +437,17 @@ namespace SlipStep
     return std::any_of(parts.begin(), parts.end(), [&](const Part &part) {
       return part.name == name;
     });
+  }
+
+
+
+  const Part *Model::owner_of(const std::string &path) const
+  {
+    for (const Part &part : parts)
+      for (const CandidateParameter &parameter : part.formula.parameters)
+        if (parameter.path == path)
+          return &part;
+    return nullptr;
   }
 
 

@@ -123,17 +123,6 @@ namespace SlipStep
 
 
 
-    const Part *owner_of(const Model &model, const std::string &path)
-    {
-      for (const Part &part : model.parts)
-        for (const CandidateParameter &parameter : part.formula.parameters)
-          if (parameter.path == path)
-            return &part;
-      return nullptr;
-    }
-
-
-
     void follow_both_ways(const Workspace    &workspace,
                           const Model        &model,
                           const std::size_t   i,
@@ -169,7 +158,7 @@ namespace SlipStep
     std::vector<DiagnosedParameter> result(model.scaled.size());
     side_by_side(model.scaled.size(), [&](const std::size_t i) {
       const FitParameter &parameter = model.campaign->fitted[i];
-      const Part         *part      = owner_of(model, parameter.path);
+      const Part         *part      = model.owner_of(parameter.path);
       DiagnosedParameter &out       = result[i];
       out.path                      = parameter.path;
       out.name                      = parameter.name;

@@ -445,8 +445,9 @@ namespace SlipStep
       double      step      = 0.;
       for (const CampaignTest &test : workspace.tests)
         {
-          n_rounded += coarse_step(test) > 0.;
-          step = std::max(step, coarse_step(test));
+          const double own = coarse_step(test);
+          n_rounded += own > 0.;
+          step = std::max(step, own);
         }
       if (n_rounded > 0)
         {

@@ -50,6 +50,9 @@ namespace SlipStep
     /// Whether an effect was added.
     bool has(const std::string &name) const;
 
+    /// The part that a parameter came with; none for one of the starting model.
+    const Part *owner_of(const std::string &path) const;
+
     /// @name After Comparison::fit().
     ///@{
     double          objective = 0.;
