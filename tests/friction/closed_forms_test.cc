@@ -292,20 +292,54 @@ TEST(ClosedForms, elliptic_cone)
 
 TEST(ClosedForms, memories_at_rest_and_off_the_plane)
 {
-  const auto   law   = make_law({{"Effects", "heating, expression"},
+  const auto   law   = make_law({{"Effects", "heating, expression, ageing"},
                                  {"expression/Covariate", "hold time"},
-                                 {"heating/Cooling time", "3 s"}});
+                                 {"heating/Cooling time", "3 s"},
+                                 {"ageing/Renewal length", "0.2"}});
   ContactState state = slide(*law, 5., 10., 100., 50, law->initial_state());
-  const double hot = state.temperature_rise, young = state.contact_age;
+  const double hot = state.temperature_rise, held = state.hold_time,
+               young = state.contact_age;
   EXPECT_GT(hot, 1.);
-  EXPECT_NEAR(young, 0.01 / 10., 1e-10); // D_c / V
+  EXPECT_NEAR(held, 0.01 / 10., 1e-10); // D_c / V
+  EXPECT_NEAR(young, 0.2 / 10., 1e-9);  // L / V
   ContactState end;
   law->update(state, vector(0.), 5., 2., end);
   EXPECT_NEAR(end.temperature_rise, hot * std::exp(-2. / 3.), 1e-10 * hot);
+  EXPECT_NEAR(end.hold_time, held + 2., 1e-6);
   EXPECT_NEAR(end.contact_age, young + 2., 1e-6);
   law->update(state, vector(1.), -1., 2., end);
   EXPECT_NEAR(end.temperature_rise, hot * std::exp(-2. / 3.), 1e-10 * hot);
+  EXPECT_EQ(end.hold_time, 0.);
   EXPECT_EQ(end.contact_age, 0.);
+}
+
+
+
+// After a rest the peak is the logarithm of its time, and fades with
+// exp(-slip/L).
+TEST(ClosedForms, ageing_grows_with_the_logarithm_of_a_rest)
+{
+  const auto   law = make_law({{"Effects", "ageing"},
+                               {"Static coefficient", "0.1"},
+                               {"ageing/Growth", "0.02"},
+                               {"ageing/Time", "3 s"},
+                               {"ageing/Renewal length", "0.5 mm"}});
+  const double p   = 5.;
+  for (const double rest : {1., 10., 1000.})
+    {
+      ContactState state =
+        slide(*law, p, 10., 100., 2000, law->initial_state());
+      const double young = state.contact_age;
+      ContactState end;
+      law->update(state, vector(0.), p, rest, end);
+      EXPECT_NEAR(end.contact_age, young + rest, 1e-9 * rest);
+      // So fast that nothing ages meanwhile, in one step and in many.
+      const double slip = 0.3, age = (young + rest) * std::exp(-slip / 0.5);
+      for (const unsigned int n : {1, 50})
+        EXPECT_NEAR(slide(*law, p, 1e6, slip, n, end).traction[0] / (p * 0.1),
+                    1. + 0.02 * std::log1p(age / 3.),
+                    1e-5);
+    }
 }
 
 

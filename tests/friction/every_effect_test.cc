@@ -173,6 +173,7 @@ TEST_P(EveryEffect, tells_the_derivatives_of_its_strength)
   ContactState start     = travel(*law, 20, 0.4).state;
   start.temperature_rise = 3.;
   start.contact_age      = 2.;
+  start.hold_time        = 2.;
   const double angle     = 0.8;
   // slip, normal traction, angle, rate, coefficient, work
   using Arguments              = std::array<double, 6>;
@@ -364,6 +365,8 @@ namespace
         return f * (1. + 0.1 * std::exp(-std::pow(speed / 2., 1.5)));
       if (name == "expression")
         return f * (1. + 0.3 * std::tanh(0.002 / speed / 5.));
+      if (name == "ageing")
+        return f * (1. + 0.1 * std::log1p(0.02 / speed / 0.05));
       if (name == "heating")
         {
           // t (1 + b t) = f, since T = h t_c t lambda.

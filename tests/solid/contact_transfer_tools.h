@@ -32,6 +32,7 @@ namespace SlipStep::Testing
     state.dissipation = 0.3 + 0.2 * x - 0.1 * y * a;
     state.temperature_rise = 0.2 + 0.3 * x - 0.1 * b;
     state.contact_age      = 0.5 + y * a;
+    state.hold_time        = 0.7 + x * a;
     state.loading_ratio =
       law.isotropic_traction(state.traction).norm() / state.strength;
     return state;
@@ -72,14 +73,15 @@ namespace SlipStep::Testing
   /// What a transfer conserves.
   inline auto conserved(const ContactState &state)
   {
-    return std::array<double, 8>{{state.traction[0],
+    return std::array<double, 9>{{state.traction[0],
                                   state.traction[1],
                                   state.normal_traction,
                                   state.strength,
                                   state.slip_path,
                                   state.dissipation,
                                   state.temperature_rise,
-                                  state.contact_age}};
+                                  state.contact_age,
+                                  state.hold_time}};
   }
 
   inline void expect_admissible(const FrictionLaw &law, const ContactState &s)

@@ -35,14 +35,18 @@ namespace SlipStep
 
     /// Temperature of the contact above that of its surroundings [degC].
     double temperature_rise = 0.;
-    /// How long what now touches has been in touch [s].
+    /// How long what now touches has been in touch, of effect ageing [s].
     double contact_age = 0.;
+    /// The same with the renewal length of effect expression [s].
+    double hold_time = 0.;
 
     /// The memories, for those who treat all alike: a new one is added here,
     /// and is then transferred and saved.
-    static constexpr std::array<double ContactState::*, 2> memories()
+    static constexpr std::array<double ContactState::*, 3> memories()
     {
-      return {{&ContactState::temperature_rise, &ContactState::contact_age}};
+      return {{&ContactState::temperature_rise,
+               &ContactState::contact_age,
+               &ContactState::hold_time}};
     }
 
     /// All of it, for boost::serialization.

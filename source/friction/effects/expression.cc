@@ -1,6 +1,6 @@
 #include <deal.II/base/numbers.h>
 
-#include <slipstep/friction/effect.h>
+#include <slipstep/friction/contact_age.h>
 
 #include <muParser.h>
 
@@ -74,13 +74,10 @@ namespace SlipStep
     /// A formula of the user's own, of one covariate x:
     /// \f[ G = g\left(\min(\max(x, x_0), x_1)\right). \f]
     /// x is the logarithm log10 of the slip rate [mm/s], the pressure [MPa],
-    /// the slip path [mm], the contact age \f$\theta\f$ [s], the temperature
-    /// rise at the beginning of the step [degC] or the angle of slip [deg]. The
-    /// age is that of Dieterich (1979), J. Geophys. Res. 84, 2161: it grows
-    /// with time and is renewed by slip, \f$\dot\theta = 1 -
-    /// \lambda\theta/D_c\f$, integrated exactly for a constant slip rate. The
-    /// formula is sampled when it is read; the law uses a monotone cubic
-    /// through 1001 values.
+    /// the slip path [mm], the hold time as the age of the contact with renewal
+    /// length \f$D_c\f$ [s], the temperature rise at the beginning of the step
+    /// [degC] or the angle of slip [deg]. The formula is sampled when it is
+    /// read; the law uses a monotone cubic through 1001 values.
     class Expression : public StrengthEffect
     {
     public:
@@ -146,7 +143,7 @@ namespace SlipStep
           {
             const Rate x    = (covariate == "path" ?
                                  Rate{step.start.slip_path + step.slip, 1.} :
-                                 contact_age(step));
+                                 hold_time(step));
             const Rate rate = table(x.value);
             factor.value    = rate.value;
             factor.d_slip   = rate.derivative * x.derivative;
@@ -158,8 +155,8 @@ namespace SlipStep
                             ContactState       &end) const override
       {
         if (covariate == "hold time")
-          end.contact_age =
-            step.normal_traction > 0. ? contact_age(step).value : 0.;
+          end.hold_time =
+            step.normal_traction > 0. ? hold_time(step).value : 0.;
       }
 
       static void declare(Parameters &parameters)
@@ -238,19 +235,9 @@ namespace SlipStep
         return Table(from, to, samples);
       }
 
-      // theta at the end of the step, and its derivative with respect to slip.
-      Rate contact_age(const SlipStepData &step) const
+      Rate hold_time(const SlipStepData &step) const
       {
-        const double x = step.slip / D_c, decay = std::exp(-x);
-        // (1 - e^-x) / x and its derivative.
-        const bool   is_small = x < 1e-4;
-        const double share =
-          is_small ? 1. - x / 2. + x * x / 6. : -std::expm1(-x) / x;
-        const double slope =
-          is_small ? -0.5 + x / 3. - x * x / 8. : (decay - share) / x;
-        return {step.start.contact_age * decay + step.time_step * share,
-                (step.time_step * slope - step.start.contact_age * decay) /
-                  D_c};
+        return contact_age_after(step.start.hold_time, step, D_c);
       }
 
       const std::string covariate;
