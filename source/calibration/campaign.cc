@@ -177,11 +177,15 @@ namespace SlipStep
           skip_key,
           "nothing is left of " + test.file.string() + ", which takes " +
             std::to_string(test.time.back() - test.time.front()) + " s");
+      double row_distance = std::numeric_limits<double>::max();
+      for (std::size_t i = 1; i < test.time.size(); ++i)
+        row_distance = std::min(row_distance, test.time[i] - test.time[i - 1]);
       CampaignTest result{test,
                           0.,
                           false,
                           Replay(resample(test).test,
-                                 parameters.number("Calibration/Lead-in"))};
+                                 parameters.number("Calibration/Lead-in"),
+                                 row_distance)};
       keep_rows(result.rows, rows);
       const double noted     = noted_noise(test);
       const double stated    = noted > 0. ? noted : stated_noise(parameters);

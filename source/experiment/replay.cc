@@ -24,8 +24,11 @@ namespace SlipStep
 
 
 
-  Replay::Replay(const MeasuredTest &motion, const double lead_in)
+  Replay::Replay(const MeasuredTest &motion,
+                 const double        lead_in,
+                 const double        row_distance)
     : start_time(motion.time.front())
+    , row_distance(row_distance)
   {
     // Put on the plane, the contact takes the first pressure at once.
     intervals.push_back({Tensor<1, 2>(), 0., motion.pressure.front(), 1.});
@@ -137,17 +140,26 @@ namespace SlipStep
                        const double       tolerance,
                        ContactPoint      &point,
                        Slider            &slider,
+                       Slope             &slope,
                        double            &wanted_step) const
   {
     // Least share of an interval: a jump of a soft machine takes no time.
     constexpr double least_share = 1e-9;
+    // What straight lines may err, over what a step may.
+    constexpr double times_more = 4.;
 
     const double made =
       (step.end - step.begin) * intervals[step.interval].duration;
     const double      scale = law.static_coefficient() * largest_pressure;
     const MachineStep tried = make(step, law, machine, slider, point);
-    const double      error =
-      tried.error / std::max({scale, point.trial().strength, 1e-300});
+    const Slope       now   = {(tried.slider.load - slider.load) / made, made};
+    // Of a parabola with these slopes.
+    const double bend  = slope.step > 0. && made > 1.5 * row_distance ?
+                           (now.rate - slope.rate).norm() * made * made /
+                            (4. * (made + slope.step)) :
+                           0.;
+    const double error = std::max(tried.error, bend / times_more) /
+                         std::max({scale, point.trial().strength, 1e-300});
     const double factor =
       std::isfinite(error) ?
         0.9 * std::sqrt(tolerance / std::max(error, 1e-30)) :
@@ -156,6 +168,7 @@ namespace SlipStep
       {
         wanted_step = std::max(made, wanted_step) * std::min(factor, 2.);
         slider      = tried.slider;
+        slope       = now;
         return true;
       }
     wanted_step = made * std::clamp(factor, 0.1, 0.7);
@@ -164,6 +177,7 @@ namespace SlipStep
     if (!std::isfinite(error))
       throw RunError("no time step is small enough");
     slider = tried.slider;
+    slope  = now;
     return true;
   }
 
@@ -176,6 +190,7 @@ namespace SlipStep
   {
     ContactPoint point(law);
     Slider       slider;
+    Slope        slope;
     steps.clear();
     time_list.assign(1, start_time);
     double time = start_time, wanted_step = std::numeric_limits<double>::max();
@@ -184,7 +199,11 @@ namespace SlipStep
         const double duration = intervals[i].duration;
         if (i == n_before)
           first_compared = steps.size();
-        wanted_step = std::min(wanted_step, first_step(i, law, machine));
+        const double first = first_step(i, law, machine);
+        wanted_step        = std::min(wanted_step, first);
+        // A corner at the end of a step is no bend.
+        if (std::isfinite(first))
+          slope = Slope();
         for (double begin = 0.; begin < 1.;)
           {
             const double left  = 1. - begin;
@@ -193,8 +212,14 @@ namespace SlipStep
             if (share < left && share > left / 2.)
               share = left / 2.;
             const Step step = {i, begin, share == left ? 1. : begin + share};
-            if (!attempt(
-                  step, law, machine, tolerance, point, slider, wanted_step))
+            if (!attempt(step,
+                         law,
+                         machine,
+                         tolerance,
+                         point,
+                         slider,
+                         slope,
+                         wanted_step))
               continue;
             point.commit();
             steps.push_back(step);

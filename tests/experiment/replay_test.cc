@@ -39,11 +39,12 @@ namespace
   std::vector<double> friction_at(const Parameters          &parameters,
                                   const double               tolerance,
                                   const std::vector<double> &times,
-                                  const double               lead_in = 0.)
+                                  const double               lead_in = 0.,
+                                  const double row_distance          = 1e30)
   {
     const FrictionLaw law(parameters);
     const Machine     machine(parameters);
-    Replay            replay(zigzag(), lead_in);
+    Replay            replay(zigzag(), lead_in, row_distance);
     replay.plan(law, machine, tolerance);
     Replay::Curve curve;
     replay.simulate(law, machine, curve);
@@ -110,6 +111,37 @@ TEST(Replay, ErrorFallsWithTheTolerance)
 
 
 // What halving leaves is what it took away: steps of first order.
+// Without an overstress the law is exact for steps of any length, so that only
+// straight lines between their ends are wrong.
+TEST(Replay, FollowsTheCurveBetweenTheEndsOfSteps)
+{
+  std::vector<double> times;
+  for (double t = 0.01; t < 20.; t += 0.01)
+    times.push_back(t);
+  for (const std::string effects :
+       {"subloading", "subloading, softening", "subloading, overstress"})
+    {
+      const Parameters parameters =
+        make_parameters({{"Friction/Effects", effects},
+                         {"Friction/subloading/Rate", "50"},
+                         {"Friction/Static coefficient", "0.13"}});
+      const auto error = [&](const double row_distance) {
+        const std::vector<double> exact =
+          friction_at(parameters, 1e-10, times, 0., 1e-3);
+        const std::vector<double> found =
+          friction_at(parameters, 5e-4, times, 0., row_distance);
+        double largest = 0.;
+        for (std::size_t i = 0; i < times.size(); ++i)
+          largest = std::max(largest, std::abs(found[i] - exact[i]) / 0.13);
+        return largest;
+      };
+      EXPECT_LT(error(0.01), 4e-3) << effects;
+      EXPECT_GT(error(1e30), 2e-2) << effects;
+    }
+}
+
+
+
 TEST(Replay, HalvingTheStepsHalvesTheError)
 {
   const Parameters          parameters = make_parameters({});

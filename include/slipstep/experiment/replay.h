@@ -24,10 +24,17 @@ namespace SlipStep
     /// @param lead_in length [mm] slid before the first row, in the direction
     ///   and with the speed of the first motion, under the first pressure: for
     ///   records that begin while the contact slides already
-    explicit Replay(const MeasuredTest &motion, const double lead_in = 0.);
+    /// @param row_distance least time between two rows at which curves are wanted
+    ///   [s]; the rows of @p motion if not given
+    explicit Replay(
+      const MeasuredTest &motion,
+      const double        lead_in      = 0.,
+      const double        row_distance = std::numeric_limits<double>::max());
 
     /// Choose the steps such that the error which the law estimates for each
-    /// is at most @p tolerance, relative to the friction at full slip.
+    /// is at most @p tolerance, relative to the friction at full slip, and that
+    /// of straight lines between their ends, which does not add up, four times
+    /// that where there are rows in between.
     /// @param most_steps where to give up: a contact that sticks and slips
     ///   may take any number
     /// @throws RunError if no step is small enough, or there are too many
@@ -89,6 +96,13 @@ namespace SlipStep
       double      end;
     };
 
+    /// How the load changed in the step before.
+    struct Slope
+    {
+      dealii::Tensor<1, 2> rate;      ///< [MPa/s]
+      double               step = 0.; ///< its length [s], 0: there was none
+    };
+
     void add_lead_in(const MeasuredTest &motion, const double length);
 
     /// Time after which a step in this interval ends, infinite if the motion
@@ -103,6 +117,7 @@ namespace SlipStep
                  const double       tolerance,
                  ContactPoint      &point,
                  Slider            &slider,
+                 Slope             &slope,
                  double            &wanted_step) const;
 
     MachineStep make(const Step        &step,
@@ -115,6 +130,7 @@ namespace SlipStep
     /// Intervals before the first row.
     std::size_t         n_before = 0;
     double              start_time;
+    double              row_distance;
     double              largest_pressure = 0.;
     std::vector<Step>   steps;
     std::size_t         first_compared = 0; ///< of the steps
