@@ -23,7 +23,8 @@ namespace SlipStep
         {CampaignClass::two, "two"},
         {CampaignClass::other_formula, "other_formula"},
         {CampaignClass::outside, "outside"},
-        {CampaignClass::ablated, "ablated"}};
+        {CampaignClass::ablated, "ablated"},
+        {CampaignClass::narrow, "narrow"}};
 
       /// What random numbers are for.
       enum class Stream : std::uint32_t
@@ -95,10 +96,29 @@ namespace SlipStep
       {
         if (campaign_class == CampaignClass::ablated)
           return {"overstress", "softening"};
+        // What could be seen in such tests.
+        if (campaign_class == CampaignClass::narrow)
+          return {"pressure",
+                  "shear_cap",
+                  "adhesion",
+                  "heating",
+                  "run_in",
+                  "stribeck",
+                  "viscous"};
         std::vector<std::string> names;
         for (const auto &kind : hidden_effects(formula_of(campaign_class)))
           names.push_back(kind.name);
         return names;
+      }
+
+
+
+      std::string list_of(const std::vector<std::string> &names)
+      {
+        std::string list;
+        for (const std::string &name : names)
+          list += (list.empty() ? "" : ", ") + name;
+        return list;
       }
 
 
@@ -123,10 +143,8 @@ namespace SlipStep
                            effect) > 1)
               throw InputError("effect \"" + effect + "\" is named twice");
             if (std::count(possible.begin(), possible.end(), effect) == 0)
-              throw InputError("class " + name +
-                               " hides overstress or "
-                               "softening, not \"" +
-                               effect + "\"");
+              throw InputError("class " + name + " hides one of: " +
+                               list_of(possible) + "; not \"" + effect + "\"");
           }
       }
 
@@ -160,8 +178,10 @@ namespace SlipStep
       {
         const HiddenEffectKind &kind =
           hidden_effect(name, formula_of(options.campaign_class));
+        // What such tests reach of it is a third.
         const double drawn =
-          log_uniform(random, least_amplitude, largest_amplitude);
+          log_uniform(random, least_amplitude, largest_amplitude) *
+          (options.campaign_class == CampaignClass::narrow ? 3. : 1.);
         PlantedEffect effect{name,
                              formula_of(options.campaign_class),
                              kind.formula,
@@ -280,7 +300,9 @@ namespace SlipStep
           options.n_tests -
           (options.with_replicates ? std::lround(0.3 * options.n_tests) : 0);
         const std::vector<Protocol> protocols =
-          draw_protocols(n_protocols, random);
+          options.campaign_class == CampaignClass::narrow ?
+            draw_narrow_protocols(n_protocols, random) :
+            draw_protocols(n_protocols, random);
         const std::vector<std::size_t> order =
           draw_run_order(n_protocols, options.n_tests, random);
 

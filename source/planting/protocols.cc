@@ -193,38 +193,81 @@ namespace SlipStep
 
 
 
+    namespace
+    {
+      std::vector<Protocol> first(const unsigned int    n,
+                                  std::vector<Protocol> protocols)
+      {
+        if (n > protocols.size())
+          throw InputError("a campaign has at most " +
+                           std::to_string(protocols.size()) + " conditions");
+        protocols.resize(n);
+        return protocols;
+      }
+    } // namespace
+
+
+
     std::vector<Protocol> draw_protocols(const unsigned int n, Random &random)
     {
-      if (n > n_protocols)
-        throw InputError("a campaign has at most " +
-                         std::to_string(n_protocols) + " conditions");
-      const Levels          v         = draw_levels_of_loading(random);
-      const double          p         = v.usual;
-      const double          length    = std::round(uniform(random, 15., 25.));
-      const double          rest      = rounded(log_uniform(random, 10., 30.));
-      std::vector<Protocol> protocols = {
-        plain_slide(v.middle, p, length),
-        slides_with_pauses(v.fast, p, rest),
-        speed_steps({v.low, v.middle, v.high, v.middle, v.low}, p),
-        rests(v.middle, p, {rest, 10. * rest, 100. * rest}),
-        pressure_steps(v.middle, v.light, {p, v.heavy, p, v.light}),
-        plain_slide(v.middle, p, length, 90.),
-        reversals(v.middle, p, 4.),
-        plain_slide(v.slow, p, 0.6 * length),
-        plain_slide(v.high, p, 2. * length),
-        plain_slide(v.middle, v.heavy, length),
-        plain_slide(v.middle, v.light, length),
-        plain_slide(v.high, p, length, 30.),
-        pressure_ladder(v.high, {1.5, 3., 6., 10., 15., 20.}),
-        plain_slide(v.fast, v.heavy, 3. * length),
-        plain_slide(v.middle, v.heavy, length, 60.),
-        rests(v.high, p, {3. * rest, 30. * rest, 0.3 * rest}),
-        plain_slide(v.low, v.light, length),
-        reversals(v.high, v.heavy, 8.),
-        speed_steps({v.slow, v.high, v.slow, v.fast}, v.heavy),
-        plain_slide(v.low, p, 2. * length)};
-      protocols.resize(n);
-      return protocols;
+      const Levels v      = draw_levels_of_loading(random);
+      const double p      = v.usual;
+      const double length = std::round(uniform(random, 15., 25.));
+      const double rest   = rounded(log_uniform(random, 10., 30.));
+      return first(n,
+                   {plain_slide(v.middle, p, length),
+                    slides_with_pauses(v.fast, p, rest),
+                    speed_steps({v.low, v.middle, v.high, v.middle, v.low}, p),
+                    rests(v.middle, p, {rest, 10. * rest, 100. * rest}),
+                    pressure_steps(v.middle, v.light, {p, v.heavy, p, v.light}),
+                    plain_slide(v.middle, p, length, 90.),
+                    reversals(v.middle, p, 4.),
+                    plain_slide(v.slow, p, 0.6 * length),
+                    plain_slide(v.high, p, 2. * length),
+                    plain_slide(v.middle, v.heavy, length),
+                    plain_slide(v.middle, v.light, length),
+                    plain_slide(v.high, p, length, 30.),
+                    pressure_ladder(v.high, {1.5, 3., 6., 10., 15., 20.}),
+                    plain_slide(v.fast, v.heavy, 3. * length),
+                    plain_slide(v.middle, v.heavy, length, 60.),
+                    rests(v.high, p, {3. * rest, 30. * rest, 0.3 * rest}),
+                    plain_slide(v.low, v.light, length),
+                    reversals(v.high, v.heavy, 8.),
+                    speed_steps({v.slow, v.high, v.slow, v.fast}, v.heavy),
+                    plain_slide(v.low, p, 2. * length)});
+    }
+
+
+
+    std::vector<Protocol> draw_narrow_protocols(const unsigned int n,
+                                                Random            &random)
+    {
+      const Levels v      = draw_levels_of_loading(random);
+      const double p      = v.usual;
+      const double q      = rounded(1.6 * p);
+      const double slow   = v.middle;
+      const double fast   = rounded(5. * slow);
+      const double length = std::round(uniform(random, 15., 25.));
+      return first(n, {plain_slide(slow, p, length),
+                       plain_slide(fast, p, length),
+                       plain_slide(slow, q, length),
+                       plain_slide(fast, q, length),
+                       speed_steps({slow, fast, slow}, p),
+                       pressure_steps(slow, p, {q, p, q}),
+                       plain_slide(fast, p, 2. * length),
+                       plain_slide(slow, q, 2. * length),
+                       speed_steps({fast, slow, fast}, q),
+                       pressure_steps(fast, q, {p, q, p}),
+                       plain_slide(slow, p, 2. * length),
+                       plain_slide(fast, q, 2. * length),
+                       speed_steps({slow, fast, slow}, q),
+                       pressure_steps(fast, p, {q, p, q}),
+                       speed_steps({fast, slow, fast}, p),
+                       pressure_steps(slow, q, {p, q, p}),
+                       plain_slide(slow, p, 0.5 * length),
+                       plain_slide(fast, p, 0.5 * length),
+                       plain_slide(slow, q, 0.5 * length),
+                       plain_slide(fast, q, 0.5 * length)});
     }
 
 

@@ -115,7 +115,8 @@ namespace SlipStep
          "to be read by accident (answer.sealed; slipstep plant --open FILE\n"
          "prints it). Classes: none, one (effect of the catalogue), two,\n"
          "other_formula, outside (the catalogue), ablated (the case lacks\n"
-         "overstress or softening). The same class and seed give the same tests.\n",
+         "overstress or softening), narrow (one, but the tests hardly tell\n"
+         "effects apart). The same class and seed give the same tests.\n",
          0,
          1,
          {"class",
@@ -211,7 +212,8 @@ namespace SlipStep
          "of the list: prm, json, md (parameters); text, md (effects)")
         ("resume", "go on where an earlier run of the case was stopped")
         ("class", po::value<std::string>()->value_name("NAME"),
-         "what is hidden: none, one, two, other_formula, outside, ablated")
+         "what is hidden: none, one, two, other_formula, outside, ablated, "
+         "narrow")
         ("seed", po::value<std::string>()->value_name("N"),
          "of the random numbers, 1 unless given")
         ("effect", po::value<std::string>()->value_name("NAME[,NAME]"),

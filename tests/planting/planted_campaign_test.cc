@@ -55,7 +55,8 @@ TEST(PlantedCampaign, HidesWhatItsClassSays)
     {CampaignClass::two, 2},
     {CampaignClass::other_formula, 1},
     {CampaignClass::outside, 1},
-    {CampaignClass::ablated, 1}};
+    {CampaignClass::ablated, 1},
+    {CampaignClass::narrow, 1}};
   for (const auto &[campaign_class, size] : sizes)
     {
       const auto campaign = plant(campaign_class, 4);
@@ -71,6 +72,32 @@ TEST(PlantedCampaign, HidesWhatItsClassSays)
   EXPECT_THROW(plant(CampaignClass::ablated, 4, {"healing"}), InputError);
   EXPECT_THROW(plant(CampaignClass::two, 4, {"healing", "healing"}),
                InputError);
+}
+
+
+
+TEST(PlantedCampaign, NarrowTestsCoverLittle)
+{
+  const auto campaign = plant(CampaignClass::narrow, 3);
+  double     slow = 1e30, fast = 0., low = 1e30, high = 0.;
+  for (const PlantedTest &test : campaign.tests)
+    {
+      const MeasuredTest &rows = test.measured;
+      EXPECT_TRUE(rows.displacement_y.empty());
+      for (std::size_t i = 1; i < rows.time.size(); ++i)
+        {
+          const double speed =
+            (rows.displacement[i] - rows.displacement[i - 1]) /
+            (rows.time[i] - rows.time[i - 1]);
+          slow = std::min(slow, speed);
+          fast = std::max(fast, speed);
+          low  = std::min(low, rows.pressure[i]);
+          high = std::max(high, rows.pressure[i]);
+        }
+    }
+  EXPECT_GT(slow, 0.);
+  EXPECT_LT(fast / slow, 6.);
+  EXPECT_LT(high / low, 2.);
 }
 
 

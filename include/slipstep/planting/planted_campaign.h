@@ -22,7 +22,8 @@ namespace SlipStep
       two,           ///< two of them
       other_formula, ///< an effect of the catalogue in another formula
       outside,       ///< an effect that the catalogue does not have
-      ablated        ///< the start model lacks overstress or softening
+      ablated,       ///< the start model lacks overstress or softening
+      narrow         ///< one, but the tests hardly tell effects apart
     };
 
     /// "other_formula"

@@ -37,6 +37,11 @@ namespace SlipStep
     /// fast slides with pauses. Levels are drawn once for all.
     std::vector<Protocol> draw_protocols(const unsigned int n, Random &random);
 
+    /// Slides and steps within a narrow range of speeds and pressures only:
+    /// many effects look alike there.
+    std::vector<Protocol> draw_narrow_protocols(const unsigned int n,
+                                                Random            &random);
+
     /// Motion and pressure of a test, its friction zero: about 170 rows, evenly
     /// spread over the time of every leg, closer where a leg begins.
     MeasuredTest motion_of(const Protocol &protocol);
