@@ -273,8 +273,87 @@ namespace SlipStep
            name == "direction"          ? covariates.is_reverse :
            name == "angle"              ? covariates.angle :
            name == "flank"              ? covariates.since_start :
+           name == "unloading"          ? covariates.unloading :
+           name == "change of pressure" ? covariates.pressure_change :
+           name == "rate of pressure"   ? covariates.pressure_rate :
+           name == "change of speed"    ? covariates.speed_change :
                                           covariates.path;
   }
+
+
+
+  Eigen::VectorXd lagging_change(const Comparison      &comparison,
+                                 const Eigen::VectorXd &path,
+                                 const Eigen::VectorXd &value,
+                                 const double           length)
+  {
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(value.size());
+    for (const ComparedTest &test : comparison.tests)
+      {
+        // The second axis is the first again.
+        double       follower = 0., before = 0.;
+        Eigen::Index n_seen = 0;
+        for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
+          {
+            if (i == test.begin + Eigen::Index(test.n_bins()))
+              n_seen = 0;
+            if (!(value(i) > 0.))
+              continue;
+            const double now = std::log(value(i));
+            if (n_seen++ == 0)
+              follower = now;
+            else
+              follower =
+                now + (follower - now) * std::exp((before - path(i)) / length);
+            before    = path(i);
+            result(i) = now - follower;
+          }
+      }
+    return result;
+  }
+
+
+
+  namespace
+  {
+    // Of a number compared.
+    std::size_t middle_row(const ComparedTest &test, const std::size_t bin)
+    {
+      return (test.borders[bin] + test.borders[bin + 1]) / 2;
+    }
+
+
+
+    // Pressure over the largest so far, and its rate.
+    void follow_pressure(const Comparison                &comparison,
+                         const std::vector<CampaignTest> &tests,
+                         Covariates                      &covariates)
+    {
+      const Eigen::VectorXd &p = covariates.pressure;
+      for (std::size_t t = 0; t < tests.size(); ++t)
+        {
+          const ComparedTest        &test    = comparison.tests[t];
+          const std::vector<double> &time    = tests[t].rows.time;
+          const Eigen::Index         n_bins  = test.n_bins();
+          const auto                 time_at = [&](const Eigen::Index bin) {
+            return time[middle_row(test, bin)];
+          };
+          double largest = 0.;
+          for (Eigen::Index i = 0; i < test.size; ++i)
+            {
+              const Eigen::Index bin = i % n_bins, row = test.begin + i;
+              if (bin == 0)
+                largest = 0.;
+              largest = std::max(largest, p(row));
+              if (largest > 0.)
+                covariates.unloading(row) = 1. - p(row) / largest;
+              if (bin > 0)
+                covariates.pressure_rate(row) =
+                  (p(row) - p(row - 1)) / (time_at(bin) - time_at(bin - 1));
+            }
+        }
+    }
+  } // namespace
 
 
 
@@ -297,7 +376,9 @@ namespace SlipStep
                                     &result.is_reverse,
                                     &result.heat,
                                     &result.order,
-                                    &result.axis})
+                                    &result.axis,
+                                    &result.unloading,
+                                    &result.pressure_rate})
       *values = Eigen::VectorXd::Zero(n);
     for (std::size_t t = 0; t < tests.size(); ++t)
       {
@@ -319,16 +400,15 @@ namespace SlipStep
         for (std::size_t s = 0; s < test.series.size(); ++s)
           for (std::size_t i = 0; i < n_bins; ++i)
             {
-              const Eigen::Index k = test.begin + s * n_bins + i;
-              const std::size_t  row =
-                (test.borders[i] + test.borders[i + 1]) / 2;
-              result.speed(k)       = rows.speed[row];
-              result.pressure(k)    = tests[t].rows.pressure[row];
-              result.path(k)        = rows.path[row];
-              result.since_start(k) = rows.since_start[row];
-              result.rest(k)        = rows.rest[row];
-              result.since_rest(k)  = rows.since_rest[row];
-              result.angle(k)       = rows.angle[row];
+              const Eigen::Index k   = test.begin + s * n_bins + i;
+              const std::size_t  row = middle_row(test, i);
+              result.speed(k)        = rows.speed[row];
+              result.pressure(k)     = tests[t].rows.pressure[row];
+              result.path(k)         = rows.path[row];
+              result.since_start(k)  = rows.since_start[row];
+              result.rest(k)         = rows.rest[row];
+              result.since_rest(k)   = rows.since_rest[row];
+              result.angle(k)        = rows.angle[row];
               result.is_reverse(k) =
                 rows.speed[row] > 0. && std::cos(rows.angle[row]) < -0.5 ? 1. :
                                                                            0.;
@@ -338,6 +418,17 @@ namespace SlipStep
               result.phase[k] = rows.phase[row];
             }
       }
+    follow_pressure(comparison, tests, result);
+    const double length = 0.1 * result.path.maxCoeff();
+    if (length > 0.)
+      {
+        result.pressure_change =
+          lagging_change(comparison, result.path, result.pressure, length);
+        result.speed_change =
+          lagging_change(comparison, result.path, result.speed, length);
+      }
+    else
+      result.pressure_change = result.speed_change = Eigen::VectorXd::Zero(n);
     return result;
   }
 
@@ -387,230 +478,6 @@ namespace SlipStep
                 std::max(result.longest_slide, covariates.since_rest(k));
           }
       }
-    return result;
-  }
-
-
-
-  namespace
-  {
-    double largest(const Eigen::VectorXd &values)
-    {
-      return values.size() == 0 ? 0. : values.maxCoeff();
-    }
-
-
-
-    /// Adds functions of one covariate after the other.
-    class BasisMaker
-    {
-    public:
-      explicit BasisMaker(const Covariates &covariates)
-        : covariates(covariates)
-        , n(covariates.friction.size())
-      {}
-
-      // Three polynomials of x over the rows where it is finite, times
-      // friction; nothing if it hardly varies there.
-      void polynomials(const std::string     &name,
-                       const std::string     &unit,
-                       const Eigen::VectorXd &x,
-                       const bool             is_logarithmic)
-      {
-        double low = std::numeric_limits<double>::infinity(), high = -low;
-        for (Eigen::Index i = 0; i < n; ++i)
-          if (std::isfinite(x(i)))
-            {
-              low  = std::min(low, x(i));
-              high = std::max(high, x(i));
-            }
-        if (!(high - low > (is_logarithmic ? 0.05 : 1e-6 * std::abs(high))))
-          return;
-        for (unsigned int degree = 1; degree <= 3; ++degree)
-          {
-            BasisColumn column{name, Eigen::VectorXd::Zero(n), low, high, unit};
-            if (is_logarithmic)
-              {
-                column.from = std::pow(10., low);
-                column.to   = std::pow(10., high);
-              }
-            for (Eigen::Index i = 0; i < n; ++i)
-              if (std::isfinite(x(i)))
-                {
-                  const double t     = 2. * (x(i) - low) / (high - low) - 1.;
-                  column.friction(i) = covariates.friction(i) *
-                                       (degree == 1 ? t :
-                                        degree == 2 ? 1.5 * t * t - 0.5 :
-                                                      t * (2.5 * t * t - 1.5));
-                }
-            add(column);
-          }
-      }
-
-      void add(const BasisColumn &column)
-      {
-        if (column.friction.squaredNorm() > 0.)
-          columns.push_back(column);
-      }
-
-      const Covariates        &covariates;
-      const Eigen::Index       n;
-      std::vector<BasisColumn> columns;
-    };
-
-
-
-    // The logarithm where there is one, else nothing.
-    Eigen::VectorXd logarithm(const Eigen::VectorXd &x)
-    {
-      return x.unaryExpr([](const double value) {
-        return value > 0. ? std::log10(value) :
-                            std::numeric_limits<double>::quiet_NaN();
-      });
-    }
-
-
-
-    void add_memories(BasisMaker &maker)
-    {
-      const Covariates &at     = maker.covariates;
-      const double      length = largest(at.path);
-      // After a rest, a function of how long it was, forgotten by slip.
-      if (largest(at.rest) > 0.)
-        for (const double share : {0.01, 0.1, 1.})
-          {
-            BasisColumn column{"rest",
-                               Eigen::VectorXd::Zero(maker.n),
-                               0.,
-                               largest(at.rest),
-                               "s"};
-            for (Eigen::Index i = 0; i < maker.n; ++i)
-              if (at.rest(i) > 0. && at.speed(i) > 0.)
-                column.friction(i) =
-                  at.friction(i) * std::log1p(at.rest(i)) *
-                  std::exp(-at.since_start(i) / (share * length));
-            maker.add(column);
-          }
-      // Since every start.
-      for (const double share : {0.003, 0.03, 0.3})
-        {
-          BasisColumn column{"slip since start",
-                             Eigen::VectorXd::Zero(maker.n),
-                             0.,
-                             3. * share * length,
-                             "mm"};
-          for (Eigen::Index i = 0; i < maker.n; ++i)
-            if (at.speed(i) > 0.)
-              column.friction(i) =
-                at.friction(i) *
-                std::exp(-at.since_start(i) / (share * length));
-          maker.add(column);
-        }
-      // Since the beginning of the test.
-      for (const double share : {0.01, 0.1})
-        {
-          BasisColumn column{"path",
-                             Eigen::VectorXd::Zero(maker.n),
-                             0.,
-                             3. * share * length,
-                             "mm"};
-          for (Eigen::Index i = 0; i < maker.n; ++i)
-            column.friction(i) =
-              at.friction(i) * std::exp(-at.path(i) / (share * length));
-          maker.add(column);
-        }
-    }
-
-
-
-    void add_directions(BasisMaker &maker)
-    {
-      const Covariates &at  = maker.covariates;
-      const auto        add = [&](const std::string &name,
-                           const auto        &factor,
-                           const double       to) {
-        BasisColumn column{name, Eigen::VectorXd::Zero(maker.n), 0., to, "deg"};
-        for (Eigen::Index i = 0; i < maker.n; ++i)
-          column.friction(i) = at.friction(i) * factor(i);
-        maker.add(column);
-      };
-      if (largest(at.is_reverse) > 0.)
-        add(
-          "direction",
-          [&](const Eigen::Index i) { return at.is_reverse(i); },
-          180.);
-      bool is_oblique = false;
-      for (Eigen::Index i = 0; i < maker.n; ++i)
-        is_oblique = is_oblique || std::abs(std::sin(at.angle(i))) > 0.05;
-      if (!is_oblique)
-        return;
-      for (const double multiple : {2., 4.})
-        {
-          add(
-            "angle",
-            [&](const Eigen::Index i) {
-              return std::cos(multiple * at.angle(i));
-            },
-            90.);
-          add(
-            "angle",
-            [&](const Eigen::Index i) {
-              return std::sin(multiple * at.angle(i));
-            },
-            90.);
-        }
-    }
-  } // namespace
-
-
-
-  std::vector<BasisColumn> smooth_basis(const Comparison &comparison,
-                                        const Covariates &covariates)
-  {
-    BasisMaker maker(covariates);
-    maker.polynomials("speed", "mm/s", logarithm(covariates.speed), true);
-    maker.polynomials("pressure", "MPa", logarithm(covariates.pressure), true);
-    maker.polynomials("path", "mm", covariates.path, false);
-    maker.polynomials("heat", "MPa mm", covariates.heat, false);
-    maker.polynomials("order of the tests", "", covariates.order, false);
-    add_memories(maker);
-    add_directions(maker);
-    // The pressure's own change, along the flanks.
-    BasisColumn flank{"flank", Eigen::VectorXd::Zero(maker.n), 0., 0., ""};
-    for (const ComparedTest &test : comparison.tests)
-      for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
-        {
-          const Phase phase = covariates.phase[i];
-          if (phase == Phase::presliding || phase == Phase::restart ||
-              phase == Phase::reversal)
-            flank.friction(i) = test.level;
-        }
-    maker.add(flank);
-    return maker.columns;
-  }
-
-
-
-  std::vector<Eigen::VectorXd> condition_basis(const Comparison  &comparison,
-                                               const Covariates  &covariates,
-                                               const unsigned int n_waves)
-  {
-    std::vector<Eigen::VectorXd> result;
-    for (std::size_t c = 0; c < comparison.conditions.size(); ++c)
-      for (unsigned int wave = 0; wave <= n_waves; ++wave)
-        {
-          Eigen::VectorXd column = Eigen::VectorXd::Zero(comparison.n_rows());
-          for (const ComparedTest &test : comparison.tests)
-            if (test.condition == c)
-              for (Eigen::Index i = 0; i < test.size; ++i)
-                {
-                  const Eigen::Index row = test.begin + i;
-                  column(row)            = covariates.friction(row) *
-                                std::cos(wave * PI * (i % test.n_bins() + 0.5) /
-                                         test.n_bins());
-                }
-          result.push_back(column);
-        }
     return result;
   }
 } // namespace SlipStep

@@ -37,7 +37,7 @@ namespace SlipStep
       "Effects of which 'slipstep diagnose' thinks when something is missing, "
       "separated by commas, or 'all' of the catalogue.");
     parameters.declare(section + "Level",
-                       "0.03",
+                       "0.04",
                        Quantity(Dimension::number, 1e-3, 0.3),
                        "Chance of an alarm where nothing is missing. Between "
                        "0.001 and 0.3, no unit.");

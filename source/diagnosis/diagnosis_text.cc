@@ -392,12 +392,19 @@ namespace SlipStep
       {"rest", "after rests of"},
       {"heat", "after recent frictional work of"},
       {"angle", "at angles of"},
+      {"rate of pressure", "while the pressure changes by"},
       {"order of the tests", "in the order of tests at"}};
     if (where.covariate == "direction")
       return where.from > 0.5 ? "where motion goes back" :
                                 "where motion goes forward";
     if (where.covariate == "flank")
       return "on the flanks where slip begins";
+    if (where.covariate == "unloading")
+      return "where the pressure has been higher before";
+    if (where.covariate == "change of pressure")
+      return "for some slip after a change of pressure";
+    if (where.covariate == "change of speed")
+      return "for some slip after a change of speed";
     const auto found = words.find(where.covariate);
     return found == words.end() || (where.from == 0. && where.to == 0.) ?
              "by " + range_text(where) :

@@ -256,7 +256,7 @@ namespace SlipStep
     {
       if (!seen.failure.empty())
         return "it could not be simulated: " + seen.failure;
-      if (!seen.best.has_value())
+      if (seen.ways.empty())
         return "nothing changes in these tests";
       if (seen.score.free_length <= 0.)
         return "its effect cannot be told from that of the fitted parameters";

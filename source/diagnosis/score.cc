@@ -1,3 +1,4 @@
+#include <slipstep/diagnosis/basis.h>
 #include <slipstep/diagnosis/score.h>
 
 #include <Eigen/Dense>

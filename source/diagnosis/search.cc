@@ -14,204 +14,27 @@ namespace SlipStep
     // Precision of the objective in fits that decide.
     constexpr double precision = 0.1;
 
-    // Scores are of this many standard deviations when an effect counts as
-    // seen.
-    constexpr double seen_deviations = 5.;
 
 
-
-    std::vector<Part> with_part(const Model &model, const CandidateView &view)
-    {
-      std::vector<Part> parts = model.parts;
-      parts.push_back(
-        {view.candidate.name, view.candidate.formulas[view.best->formula]});
-      return parts;
-    }
-
-
-
-    Values merged(Values values, const Values &others)
-    {
-      for (const auto &value : others)
-        values[value.first] = value.second;
-      return values;
-    }
-
-
-
-    // Changes of friction by one formula of a candidate at unit strength.
-    // Returns why there are none, if it cannot be simulated.
-    std::string add_directions(const Workspace        &workspace,
-                               const Model            &model,
-                               const Candidate        &candidate,
-                               const std::size_t       candidate_number,
-                               const std::size_t       formula_number,
-                               std::vector<Direction> &directions)
-    {
-      const Formula    &formula = candidate.formulas[formula_number];
-      std::vector<Part> parts   = model.parts;
-      parts.push_back({candidate.name, formula});
-      const Values own = model.values();
-      try
-        {
-          Model trial = make_model(
-            workspace.start,
-            parts,
-            merged(own, formula.shapes[formula.shapes.size() / 2].values(1.)),
-            workspace.tests,
-            &model);
-          const Eigen::VectorXd base =
-            workspace.comparison.difference(*model.simulator, model.scaled);
-          for (std::size_t s = 0; s < formula.shapes.size(); ++s)
-            {
-              const Values values = merged(own, formula.shapes[s].values(1.));
-              std::vector<double> scaled;
-              for (const FitParameter &parameter : trial.campaign->fitted)
-                scaled.push_back(std::clamp(
-                  parameter.to_scaled(values.at(parameter.path)), 0., 1.));
-              const Eigen::VectorXd there =
-                workspace.comparison.difference(*trial.simulator, scaled);
-              if (there.size() == 0)
-                continue;
-              Direction direction;
-              direction.friction     = there - base;
-              direction.is_one_sided = formula.is_one_sided;
-              direction.candidate    = candidate_number;
-              direction.formula      = formula_number;
-              direction.shape        = s;
-              directions.push_back(direction);
-            }
-        }
-      catch (const InputError &error)
-        {
-          return error.what();
-        }
-      catch (const RunError &error)
-        {
-          throw_if_stopped();
-          return error.what();
-        }
-      return "";
-    }
-
-
-
-    // Below this share of the friction, greatest over the rows, nothing but
-    // round-off and time steps are seen.
-    constexpr double least_change = 1e-5;
-  } // namespace
-
-
-
-  View look(Workspace &workspace, const Model &model)
-  {
-    const std::vector<Candidate> candidates =
-      make_candidates(model.simulator->with(model.scaled), workspace.range);
-    std::vector<std::vector<Direction>> found(candidates.size());
-    std::vector<std::string>            failures(candidates.size());
-    side_by_side(candidates.size(), [&](const std::size_t c) {
-      Model own     = model;
-      own.simulator = std::make_shared<Simulator>(*model.simulator);
-      for (std::size_t f = 0; f < candidates[c].formulas.size(); ++f)
-        failures[c] =
-          add_directions(workspace, own, candidates[c], c, f, found[c]);
-    });
-    View view;
-    for (const auto &directions : found)
-      for (const Direction &direction : directions)
-        if (direction.friction.cwiseAbs().maxCoeff() >
-            least_change * workspace.range.typical_friction)
-          view.directions.push_back(direction);
-    view.candidates.resize(candidates.size());
-    for (std::size_t c = 0; c < candidates.size(); ++c)
-      {
-        view.candidates[c].candidate = candidates[c];
-        if (found[c].empty())
-          view.candidates[c].failure = failures[c];
-      }
-    if (view.directions.empty())
-      return view;
-
-    const ScoreTest scores(workspace.comparison,
-                           model,
-                           workspace.null_draws,
-                           view.directions);
-    for (std::size_t d = 0; d < view.directions.size(); ++d)
-      {
-        const Direction &direction = view.directions[d];
-        const Score     &score     = scores.scores[d];
-        CandidateView   &seen      = view.candidates[direction.candidate];
-        if (!seen.best.has_value() || score.value > seen.score.value)
-          {
-            seen.best  = direction;
-            seen.score = score;
-          }
-        if (score.free_length > 0.)
-          seen.minimum_detectable =
-            std::min(seen.minimum_detectable,
-                     seen_deviations * score.deviation / score.free_length *
-                       direction.friction.cwiseAbs().maxCoeff() /
-                       workspace.range.typical_friction);
-      }
-    for (CandidateView &seen : view.candidates)
-      seen.p = scores.family_p(seen.score.value);
-    std::stable_sort(view.candidates.begin(),
-                     view.candidates.end(),
-                     [](const CandidateView &a, const CandidateView &b) {
-                       return a.score.value > b.score.value;
-                     });
-    return view;
-  }
-
-
-
-  std::vector<Direction> smooth_directions(const Workspace &workspace,
-                                           const View      &view)
-  {
-    std::vector<Direction> result = view.directions;
-    for (const BasisColumn &column :
-         smooth_basis(workspace.comparison, workspace.covariates))
-      {
-        Direction direction;
-        direction.friction = column.friction;
-        result.push_back(direction);
-      }
-    return result;
-  }
-
-
-
-  GapTest
-  test_gap(const Workspace &workspace, const Model &model, const View &view)
-  {
-    return test_gap(workspace.comparison,
-                    workspace.covariates,
-                    model,
-                    workspace.null_draws,
-                    smooth_directions(workspace, view));
-  }
-
-
-
-  namespace
-  {
     // With the effect at a strength, less if that cannot be simulated.
-    std::optional<Model> fit_from(const Workspace     &workspace,
-                                  const Model         &model,
-                                  const CandidateView &view,
-                                  const Values        &values,
-                                  double               strength)
+    std::optional<Model> fit_from(const Workspace &workspace,
+                                  const Model     &model,
+                                  const Candidate &candidate,
+                                  const Direction &direction,
+                                  const Values    &values,
+                                  double           strength)
     {
-      const Formula &formula = view.candidate.formulas[view.best->formula];
+      const Shape &shape =
+        candidate.formulas[direction.formula].shapes[direction.shape];
       for (unsigned int attempt = 0; attempt < 2; ++attempt, strength *= 0.1)
         try
           {
-            Model result = make_model(
-              workspace.start,
-              with_part(model, view),
-              merged(values, formula.shapes[view.best->shape].values(strength)),
-              workspace.tests,
-              &model);
+            Model result =
+              make_model(workspace.start,
+                         with_part(model, candidate, direction.formula),
+                         merged(values, shape.values(strength)),
+                         workspace.tests,
+                         &model);
             if (workspace.comparison.fit(result, precision))
               return result;
           }
@@ -223,6 +46,67 @@ namespace SlipStep
           }
       return {};
     }
+
+
+
+    // By one formula.
+    std::optional<Model> refit_by(const Workspace          &workspace,
+                                  const Model              &model,
+                                  const Candidate          &candidate,
+                                  const CandidateView::Way &way)
+    {
+      // Above, in units of the noise, a model is so far off that its
+      // parameters have been pulled anywhere: those of the start are as good.
+      constexpr double far = 2.;
+
+      // To first order; less where that is far.
+      double strength = std::clamp(way.score.strength, -50., 100.);
+      if (way.direction.is_one_sided)
+        strength = std::max(strength, 0.1);
+      std::optional<Model> best = fit_from(
+        workspace, model, candidate, way.direction, model.values(), strength);
+      if (model.objective < far * workspace.comparison.n_rows())
+        return best;
+      Values start = model.values();
+      for (const FitParameter &parameter : model.campaign->fitted)
+        start[parameter.path] = parameter.start;
+      for (const double share : {1., 0.2})
+        {
+          const std::optional<Model> other = fit_from(workspace,
+                                                      model,
+                                                      candidate,
+                                                      way.direction,
+                                                      start,
+                                                      share * strength);
+          if (other.has_value() &&
+              (!best.has_value() || other->objective < best->objective))
+            best = other;
+        }
+      return best;
+    }
+
+
+
+    bool ends_at_bound(const CandidateParameter &parameter, const Model &model)
+    {
+      for (std::size_t i = 0; i < model.scaled.size(); ++i)
+        if (model.campaign->fitted[i].path == parameter.path &&
+            ((model.scaled[i] < 1e-6 && !parameter.lower_makes_sense) ||
+             (model.scaled[i] > 1. - 1e-6 && !parameter.upper_makes_sense)))
+          return true;
+      return false;
+    }
+
+
+
+    bool is_at_bound(const Model &model)
+    {
+      for (const Part &part : model.parts)
+        for (const CandidateParameter &parameter : part.formula.parameters)
+          if (ends_at_bound(parameter, model))
+            return true;
+      return false;
+    }
   } // namespace
 
 
@@ -231,30 +115,23 @@ namespace SlipStep
                                   const Model         &model,
                                   const CandidateView &view)
   {
-    // Above, in units of the noise, a model is so far off that its parameters
-    // have been pulled anywhere: those of the start are as good.
-    constexpr double far = 2.;
+    // Below this share of the best score another formula is not tried.
+    constexpr double as_promising = 0.7;
 
-    const Formula &formula = view.candidate.formulas[view.best->formula];
-    // To first order; less where that is far.
-    double strength = std::clamp(view.score.strength, -50., 100.);
-    if (formula.is_one_sided)
-      strength = std::max(strength, 0.1);
-    ++workspace.n_refits;
-    std::optional<Model> best =
-      fit_from(workspace, model, view, model.values(), strength);
-    if (model.objective < far * workspace.comparison.n_rows())
-      return best;
-    Values start = model.values();
-    for (const FitParameter &parameter : model.campaign->fitted)
-      start[parameter.path] = parameter.start;
-    for (const double share : {1., 0.2})
+    std::optional<Model> best;
+    const auto           rank = [](const Model &tried) {
+      return std::make_pair(is_at_bound(tried), penalised(tried));
+    };
+    for (const CandidateView::Way &way : view.ways)
       {
-        const std::optional<Model> other =
-          fit_from(workspace, model, view, start, share * strength);
-        if (other.has_value() &&
-            (!best.has_value() || other->objective < best->objective))
-          best = other;
+        if (way.score.value < as_promising * view.score.value)
+          break;
+        ++workspace.n_refits;
+        const std::optional<Model> tried =
+          refit_by(workspace, model, view.candidate, way);
+        if (tried.has_value() &&
+            (!best.has_value() || rank(*tried) < rank(*best)))
+          best = tried;
       }
     return best;
   }
@@ -291,29 +168,6 @@ namespace SlipStep
 
   namespace
   {
-    bool ends_at_bound(const CandidateParameter &parameter, const Model &model)
-    {
-      for (std::size_t i = 0; i < model.scaled.size(); ++i)
-        if (model.campaign->fitted[i].path == parameter.path &&
-            ((model.scaled[i] < 1e-6 && !parameter.lower_makes_sense) ||
-             (model.scaled[i] > 1. - 1e-6 && !parameter.upper_makes_sense)))
-          return true;
-      return false;
-    }
-
-
-
-    bool is_at_bound(const Model &model)
-    {
-      for (const Part &part : model.parts)
-        for (const CandidateParameter &parameter : part.formula.parameters)
-          if (ends_at_bound(parameter, model))
-            return true;
-      return false;
-    }
-
-
-
     // The same without one of its parts, fitted again.
     std::optional<Model> refit_without(Workspace        &workspace,
                                        const Model      &model,
@@ -395,7 +249,7 @@ namespace SlipStep
       unsigned int         n_tried = 0;
       for (const CandidateView &seen : view.candidates)
         {
-          if (!seen.best.has_value() || seen.p > workspace.level ||
+          if (seen.ways.empty() || seen.p > workspace.level ||
               n_tried == most_tried)
             continue;
           ++n_tried;
@@ -468,7 +322,7 @@ namespace SlipStep
         {
           const double promised =
             std::pow(seen.score.strength * seen.score.free_length, 2);
-          if (!seen.best.has_value() || seen.candidate.name == name ||
+          if (seen.ways.empty() || seen.candidate.name == name ||
               !(seen.score.value > 0.) ||
               promised < promising_share * cost - promising_slack ||
               n_tried == most_rivals)

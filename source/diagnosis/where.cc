@@ -1,5 +1,6 @@
 #include <deal.II/base/numbers.h>
 
+#include <slipstep/diagnosis/basis.h>
 #include <slipstep/diagnosis/where.h>
 
 #include <algorithm>
@@ -35,7 +36,13 @@ namespace SlipStep
                                              {"angle", "deg", false},
                                              {"direction", "", false},
                                              {"order of the tests", "", false},
-                                             {"flank", "", false}};
+                                             {"flank", "", false},
+                                             {"unloading", "", false},
+                                             {"rate of pressure",
+                                              "MPa/s",
+                                              false},
+                                             {"change of pressure", "", false},
+                                             {"change of speed", "", false}};
       return list;
     }
 

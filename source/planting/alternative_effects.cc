@@ -39,23 +39,28 @@ namespace SlipStep
 
 
 
-      // Contacts strengthen with the logarithm of their age, and slip renews
-      // them; Dieterich (1979), J. Geophys. Res. 84, 2161.
+      // Asperities spread by creep with a power of the stress, which falls as
+      // they spread: at rest as the fifth root of time; Brechet and Estrin
+      // (1994), Scr. Metall. Mater. 30, 1449. What was won is lost in
+      // proportion to slip.
       Truth healing(TrueContact &contact, const double a, Random &random)
       {
         const double t_0    = log_uniform(random, 1., 10.);
         const double length = log_uniform(random, 0.02, 0.5);
-        const double b      = a / std::log1p(Reach::long_rest / t_0);
+        const double c      = std::max(a, 1e-12) /
+                         (std::pow(1. + Reach::long_rest / t_0, 0.2) - 1.);
         contact.influences.push_back(
-          {[=](const Instant &, const double age) {
-             return 1. + b * std::log1p(std::max(age, 0.) / t_0);
+          {[](const Instant &, const double growth) {
+             return 1. + std::max(growth, 0.);
            },
            {},
-           [=](const Instant &now, const double age) {
-             return 1. - now.slip_rate * age / length;
+           [=](const Instant &now, const double growth) {
+             return c / (5. * t_0) *
+                      std::pow(1. + std::max(growth, 0.) / c, -4.) -
+                    now.slip_rate * growth / length;
            },
            {}});
-        return {{"b", b, ""}, {"t_0", t_0, "s"}, {"L", length, "mm"}};
+        return {{"c", c, ""}, {"t_0", t_0, "s"}, {"L", length, "mm"}};
       }
 
 
@@ -251,7 +256,7 @@ namespace SlipStep
                "d mu/d lambda = -(mu - mu_k)^2 / (L (mu_s - mu_k))",
                &softening},
               {"healing",
-               "G = 1 + b ln(1 + age/t_0), d age/dt = 1 - lambda age/L",
+               "G = 1 + g, dg/dt = c/(5 t_0) (1 + g/c)^-4 - lambda g/L",
                &healing},
               {"pressure", "G = 1 - m ln(p / p_0)", &pressure},
               {"shear_cap",

@@ -74,11 +74,31 @@ TEST(Candidates, AreAllOfTheCatalogueUnlessSomeAreAskedFor)
   start.set("Diagnosis/Candidates", "healing, pressure", "test");
   const std::vector<Candidate> some = make_candidates(start, usual_range());
   ASSERT_EQ(some.size(), 2u);
-  // Nothing can heal that does not soften.
   EXPECT_EQ(some[0].name, "healing");
-  EXPECT_NE(some[0].why_not.find("softening"), std::string::npos);
-  EXPECT_TRUE(some[0].formulas.empty());
   EXPECT_FALSE(some[1].formulas.empty());
+}
+
+
+
+// What has not softened cannot recover, but it can age.
+TEST(Candidates, HealingIsRecoveryOrAgeing)
+{
+  Parameters start = coulomb_case();
+  start.set("Diagnosis/Candidates", "healing", "test");
+  const auto formulas = [&](const std::string &effects) {
+    start.set("Friction/Effects", effects, "test");
+    const std::vector<Candidate> found = make_candidates(start, usual_range());
+    std::vector<std::string>     names;
+    for (const Formula &formula : found[0].formulas)
+      names.push_back(formula.effect);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(formulas(""), (Names{"ageing"}));
+  EXPECT_EQ(formulas("softening"), (Names{"healing", "ageing"}));
+  EXPECT_EQ(formulas("softening, healing"), (Names{"", "ageing"}));
+  start.set("Friction/healing/Rate", "1e-3 1/s", "test");
+  EXPECT_EQ(formulas("softening, healing"), Names());
 }
 
 
@@ -89,9 +109,8 @@ TEST(Candidates, LeaveOutWhatTheModelHas)
   start.set("Friction/Effects", "overstress, pressure", "test");
   for (const Candidate &candidate : make_candidates(start, usual_range()))
     {
-      const bool is_out = candidate.name == "overstress" ||
-                          candidate.name == "pressure" ||
-                          candidate.name == "healing";
+      const bool is_out =
+        candidate.name == "overstress" || candidate.name == "pressure";
       EXPECT_EQ(candidate.formulas.empty(), is_out) << candidate.name;
       EXPECT_EQ(candidate.why_not.empty(), !is_out) << candidate.name;
     }

@@ -1,4 +1,4 @@
-#include <slipstep/diagnosis/covariates.h>
+#include <slipstep/diagnosis/basis.h>
 
 #include <gtest/gtest.h>
 
@@ -79,6 +79,54 @@ TEST(Covariates, KnowTheHistoryOfEveryRow)
   EXPECT_NEAR(found.since_start(row(45.)), 0.5, 0.02);
   EXPECT_EQ(found.is_reverse(row(35.)), 0.);
   EXPECT_EQ(found.is_reverse(row(45.)), 1.);
+}
+
+
+
+// Pressure doubles within a second, and comes back.
+TEST(Covariates, RememberThePressure)
+{
+  MeasuredTest test;
+  test.name = "pressure steps";
+  for (int i = 0; i < 301; ++i)
+    {
+      const double t = 0.1 * i;
+      test.time.push_back(t);
+      test.displacement.push_back(0.1 * t);
+      test.pressure.push_back(t <= 10. ? 5. :
+                              t <= 11. ? 5. + 5. * (t - 10.) :
+                              t <= 20. ? 10. :
+                              t <= 21. ? 10. - 5. * (t - 20.) :
+                                         5.);
+      test.friction.push_back(0.1);
+    }
+  Comparison       comparison({{test, 0.001, true, Replay(test)}}, 1000);
+  const Covariates found = covariates_of(test, comparison);
+  EXPECT_EQ(found.unloading(50), 0.);
+  EXPECT_EQ(found.unloading(150), 0.);
+  EXPECT_NEAR(found.unloading(250), 0.5, 1e-12);
+  EXPECT_NEAR(found.pressure_rate(105), 5., 1e-9);
+  EXPECT_NEAR(found.pressure_rate(150), 0., 1e-9);
+  EXPECT_NEAR(found.pressure_rate(205), -5., 1e-9);
+  // A tenth of 3 mm is forgotten by exp(-1) in 3 s.
+  EXPECT_EQ(found.pressure_change(90), 0.);
+  EXPECT_GT(found.pressure_change(110), 0.5);
+  EXPECT_NEAR(found.pressure_change(160) / found.pressure_change(130),
+              std::exp(-1.),
+              1e-6);
+  EXPECT_LT(found.pressure_change(210), -0.5);
+  EXPECT_NEAR(found.speed_change.cwiseAbs().maxCoeff(), 0., 1e-9);
+
+  std::set<std::string> names;
+  for (const BasisColumn &column : smooth_basis(comparison, found))
+    {
+      names.insert(column.covariate);
+      EXPECT_TRUE(column.friction.allFinite()) << column.covariate;
+    }
+  for (const std::string name :
+       {"unloading", "rate of pressure", "change of pressure"})
+    EXPECT_EQ(names.count(name), 1u) << name;
+  EXPECT_EQ(names.count("change of speed"), 0u);
 }
 
 

@@ -127,7 +127,7 @@ TEST(Replay, FollowsTheCurveBetweenTheEndsOfSteps)
                          {"Friction/Static coefficient", "0.13"}});
       const auto error = [&](const double row_distance) {
         const std::vector<double> exact =
-          friction_at(parameters, 1e-10, times, 0., 1e-3);
+          friction_at(parameters, 1e-7, times, 0., 1e-3);
         const std::vector<double> found =
           friction_at(parameters, 5e-4, times, 0., row_distance);
         double largest = 0.;
@@ -135,8 +135,8 @@ TEST(Replay, FollowsTheCurveBetweenTheEndsOfSteps)
           largest = std::max(largest, std::abs(found[i] - exact[i]) / 0.13);
         return largest;
       };
-      EXPECT_LT(error(0.01), 4e-3) << effects;
-      EXPECT_GT(error(1e30), 2e-2) << effects;
+      EXPECT_LT(error(0.01), 5e-3) << effects;
+      EXPECT_GT(error(1e30), 1.5e-2) << effects;
     }
 }
 

@@ -39,13 +39,18 @@ namespace SlipStep
     /// Duration of the last rest [s], 0 before any.
     Eigen::VectorXd rest;
     /// Time since that rest ended, or during it since it began [s].
-    Eigen::VectorXd    since_rest;
-    Eigen::VectorXd    angle;      ///< of motion [rad]
-    Eigen::VectorXd    is_reverse; ///< 1 where motion goes back
-    Eigen::VectorXd    heat;       ///< recent frictional work [MPa mm]
-    Eigen::VectorXd    order;    ///< of the test in the campaign; 0 if unknown
-    Eigen::VectorXd    friction; ///< as simulated
-    Eigen::VectorXd    axis;     ///< 0 or 1
+    Eigen::VectorXd since_rest;
+    Eigen::VectorXd angle;      ///< of motion [rad]
+    Eigen::VectorXd is_reverse; ///< 1 where motion goes back
+    Eigen::VectorXd heat;       ///< recent frictional work [MPa mm]
+    Eigen::VectorXd order;      ///< of the test in the campaign; 0 if unknown
+    Eigen::VectorXd friction;   ///< as simulated
+    Eigen::VectorXd axis;       ///< 0 or 1
+    /// How far the pressure has fallen below the largest so far, as a share.
+    Eigen::VectorXd unloading;
+    Eigen::VectorXd pressure_rate; ///< [MPa/s]
+    /// lagging_change() over a tenth of the longest path.
+    Eigen::VectorXd    pressure_change, speed_change;
     std::vector<Phase> phase;
   };
 
@@ -59,30 +64,17 @@ namespace SlipStep
                              const Eigen::VectorXd           &friction,
                              const double elastic_slip_per_pressure);
 
+  /// ln of a positive value over what follows it, test by test; 0 where it is
+  /// not positive.
+  /// @param length slip on which it follows [mm]
+  Eigen::VectorXd lagging_change(const Comparison      &comparison,
+                                 const Eigen::VectorXd &path,
+                                 const Eigen::VectorXd &value,
+                                 const double           length);
+
   TestedRange tested_range(const Comparison                &comparison,
                            const std::vector<CampaignTest> &tests,
                            const Covariates                &covariates);
-
-  /// A correction of the simulated friction that depends on one covariate.
-  struct BasisColumn
-  {
-    std::string     covariate; ///< "speed"
-    Eigen::VectorXd friction;  ///< change, per unit
-    /// Where it is felt.
-    double      from = 0.;
-    double      to   = 0.;
-    std::string unit;
-  };
-
-  /// Smooth functions of every covariate that varies, times friction.
-  std::vector<BasisColumn> smooth_basis(const Comparison &comparison,
-                                        const Covariates &covariates);
-
-  /// What a model with anything at all could remove: the mean of every
-  /// condition and a few waves.
-  std::vector<Eigen::VectorXd> condition_basis(const Comparison  &comparison,
-                                               const Covariates  &covariates,
-                                               const unsigned int n_waves);
 } // namespace SlipStep
 
 #endif

@@ -1,35 +1,15 @@
 #ifndef slipstep_diagnosis_search_h
 #define slipstep_diagnosis_search_h
 
-#include <slipstep/diagnosis/candidates.h>
-#include <slipstep/diagnosis/comparison.h>
-#include <slipstep/diagnosis/covariates.h>
-#include <slipstep/diagnosis/score.h>
+#include <slipstep/diagnosis/look.h>
 
-#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace SlipStep
 {
-  /// What a search looks at: the tests, their noise, and the rules.
-  struct Workspace
-  {
-    Parameters                start;
-    std::vector<CampaignTest> tests;
-    Comparison                comparison;
-    NoiseEstimate             noise;
-    Covariates                covariates;
-    TestedRange               range;
-    RowMatrix                 null_draws;
-    double                    level        = 0.03;
-    unsigned int              most_effects = 4;
-    unsigned int              n_refits     = 0; ///< counted here
-    /// Told what is being done.
-    std::function<void(const std::string &)> progress;
-  };
-
   /// @name Rules, in units of the objective (chi^2).
   ///@{
   /// What every parameter has to gain.
@@ -56,39 +36,8 @@ namespace SlipStep
   constexpr double largest_hidden_change = 0.25;
   ///@}
 
-  /// A candidate as seen from a model.
-  struct CandidateView
-  {
-    Candidate candidate;
-    /// The best of its directions; none if it could not be simulated.
-    std::optional<Direction> best;
-    Score                    score;
-    std::string              failure; ///< why it could not be simulated
-    /// Chance of such a score among all candidates.
-    double p = 1.;
-    /// Smallest greatest change of friction that would have been seen at five
-    /// standard deviations, as a share; infinite if none would.
-    double minimum_detectable = std::numeric_limits<double>::infinity();
-  };
-
-  /// The catalogue as seen from a model, best score first.
-  struct View
-  {
-    std::vector<CandidateView> candidates;
-    std::vector<Direction>     directions;
-  };
-
-  View look(Workspace &workspace, const Model &model);
-
-  /// Directions of the covariates, and of the candidates seen from a model.
-  std::vector<Direction> smooth_directions(const Workspace &workspace,
-                                           const View      &view);
-
-  /// Whether a model leaves more than noise, with what is seen from it.
-  GapTest
-  test_gap(const Workspace &workspace, const Model &model, const View &view);
-
-  /// A model with one more effect, fitted; none if it cannot be simulated.
+  /// A model with one more effect, fitted, by the formula that does best; none
+  /// if it cannot be simulated.
   std::optional<Model> refit_with(Workspace           &workspace,
                                   const Model         &model,
                                   const CandidateView &view);

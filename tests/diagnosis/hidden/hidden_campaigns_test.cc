@@ -78,6 +78,8 @@ INSTANTIATE_TEST_SUITE_P(
     Expected{CampaignClass::one, 3, Verdict::named, {"compliance"}},
     Expected{CampaignClass::one, 7, Verdict::named, {"overstress"}},
     Expected{CampaignClass::one, 9, Verdict::named, {"healing"}},
+    // A tenth of a per cent, with a flow rule so stiff that few time steps do.
+    Expected{CampaignClass::one, 33, Verdict::named, {"overstress"}},
     Expected{CampaignClass::one,
              10,
              Verdict::named,
@@ -94,6 +96,10 @@ INSTANTIATE_TEST_SUITE_P(
     // A spring that stiffens: what a linear one leaves is huge, and no name of
     // the catalogue's may take it up.
     Expected{CampaignClass::other_formula, 50, Verdict::named, {"compliance"}},
+    Expected{CampaignClass::other_formula, 42, Verdict::named, {"healing"}},
+    // Squeezed oil and flattened asperities, which leave little trace.
+    Expected{CampaignClass::outside, 14, Verdict::unnamed, {}},
+    Expected{CampaignClass::outside, 34, Verdict::unnamed, {}},
     Expected{CampaignClass::outside, 1, Verdict::unnamed, {}},
     Expected{CampaignClass::outside, 6, Verdict::unnamed, {}},
     Expected{CampaignClass::outside, 9, Verdict::unnamed, {}},

@@ -130,7 +130,7 @@ namespace SlipStep
         return least;
       const View view = look(clean, model);
       for (const CandidateView &seen : view.candidates)
-        if (seen.best.has_value() &&
+        if (!seen.ways.empty() &&
             std::find(hidden.begin(), hidden.end(), seen.candidate.name) !=
               hidden.end())
           {

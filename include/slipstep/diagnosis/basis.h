@@ -1,0 +1,33 @@
+#ifndef slipstep_diagnosis_basis_h
+#define slipstep_diagnosis_basis_h
+
+#include <slipstep/diagnosis/covariates.h>
+
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// A correction of the simulated friction that depends on one covariate.
+  struct BasisColumn
+  {
+    std::string     covariate; ///< "speed"
+    Eigen::VectorXd friction;  ///< change, per unit
+    /// Where it is felt.
+    double      from = 0.;
+    double      to   = 0.;
+    std::string unit;
+  };
+
+  /// Smooth functions of every covariate that varies, times friction.
+  std::vector<BasisColumn> smooth_basis(const Comparison &comparison,
+                                        const Covariates &covariates);
+
+  /// What a model with anything at all could remove: the mean of every
+  /// condition and a few waves.
+  std::vector<Eigen::VectorXd> condition_basis(const Comparison  &comparison,
+                                               const Covariates  &covariates,
+                                               const unsigned int n_waves);
+} // namespace SlipStep
+
+#endif

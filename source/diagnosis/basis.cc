@@ -1,0 +1,301 @@
+#include <deal.II/base/numbers.h>
+
+#include <slipstep/diagnosis/basis.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace SlipStep
+{
+  using dealii::numbers::PI;
+
+  namespace
+  {
+    double largest(const Eigen::VectorXd &values)
+    {
+      return values.size() == 0 ? 0. : values.maxCoeff();
+    }
+
+
+
+    /// Adds functions of one covariate after the other.
+    class BasisMaker
+    {
+    public:
+      explicit BasisMaker(const Covariates &covariates)
+        : covariates(covariates)
+        , n(covariates.friction.size())
+      {}
+
+      // Three polynomials of x over the rows where it is finite, times
+      // friction; nothing if it hardly varies there.
+      void polynomials(const std::string     &name,
+                       const std::string     &unit,
+                       const Eigen::VectorXd &x,
+                       const bool             is_logarithmic)
+      {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (Eigen::Index i = 0; i < n; ++i)
+          if (std::isfinite(x(i)))
+            {
+              low  = std::min(low, x(i));
+              high = std::max(high, x(i));
+            }
+        if (!(high - low > (is_logarithmic ? 0.05 : 1e-6 * std::abs(high))))
+          return;
+        for (unsigned int degree = 1; degree <= 3; ++degree)
+          {
+            BasisColumn column{name, Eigen::VectorXd::Zero(n), low, high, unit};
+            if (is_logarithmic)
+              {
+                column.from = std::pow(10., low);
+                column.to   = std::pow(10., high);
+              }
+            for (Eigen::Index i = 0; i < n; ++i)
+              if (std::isfinite(x(i)))
+                {
+                  const double t     = 2. * (x(i) - low) / (high - low) - 1.;
+                  column.friction(i) = covariates.friction(i) *
+                                       (degree == 1 ? t :
+                                        degree == 2 ? 1.5 * t * t - 0.5 :
+                                                      t * (2.5 * t * t - 1.5));
+                }
+            add(column);
+          }
+      }
+
+      void add(const BasisColumn &column)
+      {
+        if (column.friction.squaredNorm() > 0.)
+          columns.push_back(column);
+      }
+
+      const Covariates        &covariates;
+      const Eigen::Index       n;
+      std::vector<BasisColumn> columns;
+    };
+
+
+
+    // The logarithm where there is one, else nothing.
+    Eigen::VectorXd logarithm(const Eigen::VectorXd &x)
+    {
+      return x.unaryExpr([](const double value) {
+        return value > 0. ? std::log10(value) :
+                            std::numeric_limits<double>::quiet_NaN();
+      });
+    }
+
+
+
+    void add_memories(BasisMaker &maker)
+    {
+      const Covariates &at     = maker.covariates;
+      const double      length = largest(at.path);
+      // After a rest, a function of how long it was, forgotten by slip.
+      if (largest(at.rest) > 0.)
+        for (const double share : {0.01, 0.1, 1.})
+          {
+            BasisColumn column{"rest",
+                               Eigen::VectorXd::Zero(maker.n),
+                               0.,
+                               largest(at.rest),
+                               "s"};
+            for (Eigen::Index i = 0; i < maker.n; ++i)
+              if (at.rest(i) > 0. && at.speed(i) > 0.)
+                column.friction(i) =
+                  at.friction(i) * std::log1p(at.rest(i)) *
+                  std::exp(-at.since_start(i) / (share * length));
+            maker.add(column);
+          }
+      // Since every start.
+      for (const double share : {0.003, 0.03, 0.3})
+        {
+          BasisColumn column{"slip since start",
+                             Eigen::VectorXd::Zero(maker.n),
+                             0.,
+                             3. * share * length,
+                             "mm"};
+          for (Eigen::Index i = 0; i < maker.n; ++i)
+            if (at.speed(i) > 0.)
+              column.friction(i) =
+                at.friction(i) *
+                std::exp(-at.since_start(i) / (share * length));
+          maker.add(column);
+        }
+      // Since the beginning of the test.
+      for (const double share : {0.01, 0.1})
+        {
+          BasisColumn column{"path",
+                             Eigen::VectorXd::Zero(maker.n),
+                             0.,
+                             3. * share * length,
+                             "mm"};
+          for (Eigen::Index i = 0; i < maker.n; ++i)
+            column.friction(i) =
+              at.friction(i) * std::exp(-at.path(i) / (share * length));
+          maker.add(column);
+        }
+    }
+
+
+
+    // Of pressure and speed: what was before is forgotten by slip, or never.
+    void add_histories(BasisMaker &maker, const Comparison &comparison)
+    {
+      const Covariates &at  = maker.covariates;
+      const auto        add = [&](const std::string     &name,
+                           const std::string     &unit,
+                           const Eigen::VectorXd &x) {
+        if (x.size() == 0 || !(x.maxCoeff() - x.minCoeff() > 0.05))
+          return;
+        maker.add({name,
+                   at.friction.cwiseProduct(x),
+                   x.minCoeff(),
+                   x.maxCoeff(),
+                   unit});
+      };
+      add("unloading", "", at.unloading);
+      const double fastest = at.pressure_rate.cwiseAbs().maxCoeff();
+      if (fastest > 0.)
+        for (const double scale : {1., 20.})
+          add("rate of pressure",
+              "MPa/s",
+              (at.pressure_rate * (scale / fastest)).array().tanh().matrix());
+      const double path = largest(at.path);
+      if (!(path > 0.))
+        return;
+      for (const double share : {0.02, 0.1, 0.4})
+        {
+          add("change of pressure",
+              "",
+              lagging_change(comparison, at.path, at.pressure, share * path));
+          add("change of speed",
+              "",
+              lagging_change(comparison, at.path, at.speed, share * path));
+        }
+    }
+
+
+
+    // Something that breaks or wears through, after any path.
+    void add_steps(BasisMaker &maker)
+    {
+      constexpr unsigned int n_places = 9;
+      constexpr double       ratio = 1.6, sharpness = 6.;
+
+      const Covariates &at    = maker.covariates;
+      double            place = largest(at.path);
+      for (unsigned int k = 0; k < n_places; ++k)
+        {
+          place /= ratio;
+          BasisColumn column{"path",
+                             Eigen::VectorXd::Zero(maker.n),
+                             place,
+                             largest(at.path),
+                             "mm"};
+          for (Eigen::Index i = 0; i < maker.n; ++i)
+            column.friction(i) =
+              at.friction(i) /
+              (1. + std::pow(place / std::max(at.path(i), 1e-3 * place),
+                             2. * sharpness));
+          maker.add(column);
+        }
+    }
+
+
+
+    void add_directions(BasisMaker &maker)
+    {
+      const Covariates &at  = maker.covariates;
+      const auto        add = [&](const std::string &name,
+                           const auto        &factor,
+                           const double       to) {
+        BasisColumn column{name, Eigen::VectorXd::Zero(maker.n), 0., to, "deg"};
+        for (Eigen::Index i = 0; i < maker.n; ++i)
+          column.friction(i) = at.friction(i) * factor(i);
+        maker.add(column);
+      };
+      if (largest(at.is_reverse) > 0.)
+        add(
+          "direction",
+          [&](const Eigen::Index i) { return at.is_reverse(i); },
+          180.);
+      bool is_oblique = false;
+      for (Eigen::Index i = 0; i < maker.n; ++i)
+        is_oblique = is_oblique || std::abs(std::sin(at.angle(i))) > 0.05;
+      if (!is_oblique)
+        return;
+      for (const double multiple : {2., 4.})
+        {
+          add(
+            "angle",
+            [&](const Eigen::Index i) {
+              return std::cos(multiple * at.angle(i));
+            },
+            90.);
+          add(
+            "angle",
+            [&](const Eigen::Index i) {
+              return std::sin(multiple * at.angle(i));
+            },
+            90.);
+        }
+    }
+  } // namespace
+
+
+
+  std::vector<BasisColumn> smooth_basis(const Comparison &comparison,
+                                        const Covariates &covariates)
+  {
+    BasisMaker maker(covariates);
+    maker.polynomials("speed", "mm/s", logarithm(covariates.speed), true);
+    maker.polynomials("pressure", "MPa", logarithm(covariates.pressure), true);
+    maker.polynomials("path", "mm", covariates.path, false);
+    maker.polynomials("heat", "MPa mm", covariates.heat, false);
+    maker.polynomials("order of the tests", "", covariates.order, false);
+    add_memories(maker);
+    add_steps(maker);
+    add_histories(maker, comparison);
+    add_directions(maker);
+    // The pressure's own change, along the flanks.
+    BasisColumn flank{"flank", Eigen::VectorXd::Zero(maker.n), 0., 0., ""};
+    for (const ComparedTest &test : comparison.tests)
+      for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
+        {
+          const Phase phase = covariates.phase[i];
+          if (phase == Phase::presliding || phase == Phase::restart ||
+              phase == Phase::reversal)
+            flank.friction(i) = test.level;
+        }
+    maker.add(flank);
+    return maker.columns;
+  }
+
+
+
+  std::vector<Eigen::VectorXd> condition_basis(const Comparison  &comparison,
+                                               const Covariates  &covariates,
+                                               const unsigned int n_waves)
+  {
+    std::vector<Eigen::VectorXd> result;
+    for (std::size_t c = 0; c < comparison.conditions.size(); ++c)
+      for (unsigned int wave = 0; wave <= n_waves; ++wave)
+        {
+          Eigen::VectorXd column = Eigen::VectorXd::Zero(comparison.n_rows());
+          for (const ComparedTest &test : comparison.tests)
+            if (test.condition == c)
+              for (Eigen::Index i = 0; i < test.size; ++i)
+                {
+                  const Eigen::Index row = test.begin + i;
+                  column(row)            = covariates.friction(row) *
+                                std::cos(wave * PI * (i % test.n_bins() + 0.5) /
+                                         test.n_bins());
+                }
+          result.push_back(column);
+        }
+    return result;
+  }
+} // namespace SlipStep

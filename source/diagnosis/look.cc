@@ -1,0 +1,208 @@
+#include <slipstep/diagnosis/basis.h>
+#include <slipstep/diagnosis/look.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace SlipStep
+{
+  std::vector<Part> with_part(const Model      &model,
+                              const Candidate  &candidate,
+                              const std::size_t formula)
+  {
+    std::vector<Part> parts = model.parts;
+    parts.push_back({candidate.name, candidate.formulas[formula]});
+    return parts;
+  }
+
+
+
+  Values merged(Values values, const Values &others)
+  {
+    for (const auto &value : others)
+      values[value.first] = value.second;
+    return values;
+  }
+
+
+
+  namespace
+  {
+    // Scores are of this many standard deviations when an effect counts as
+    // seen.
+    constexpr double seen_deviations = 5.;
+
+
+
+    // Changes of friction by one formula of a candidate at unit strength.
+    // Returns why there are none, if it cannot be simulated.
+    std::string add_directions(const Workspace        &workspace,
+                               const Model            &model,
+                               const Candidate        &candidate,
+                               const std::size_t       candidate_number,
+                               const std::size_t       formula_number,
+                               std::vector<Direction> &directions)
+    {
+      const Formula &formula = candidate.formulas[formula_number];
+      const Values   own     = model.values();
+      try
+        {
+          Model trial = make_model(
+            workspace.start,
+            with_part(model, candidate, formula_number),
+            merged(own, formula.shapes[formula.shapes.size() / 2].values(1.)),
+            workspace.tests,
+            &model);
+          const Eigen::VectorXd base =
+            workspace.comparison.difference(*model.simulator, model.scaled);
+          for (std::size_t s = 0; s < formula.shapes.size(); ++s)
+            {
+              const Values values = merged(own, formula.shapes[s].values(1.));
+              std::vector<double> scaled;
+              for (const FitParameter &parameter : trial.campaign->fitted)
+                scaled.push_back(std::clamp(
+                  parameter.to_scaled(values.at(parameter.path)), 0., 1.));
+              const Eigen::VectorXd there =
+                workspace.comparison.difference(*trial.simulator, scaled);
+              if (there.size() == 0)
+                continue;
+              Direction direction;
+              direction.friction     = there - base;
+              direction.is_one_sided = formula.is_one_sided;
+              direction.candidate    = candidate_number;
+              direction.formula      = formula_number;
+              direction.shape        = s;
+              directions.push_back(direction);
+            }
+        }
+      catch (const InputError &error)
+        {
+          return error.what();
+        }
+      catch (const RunError &error)
+        {
+          throw_if_stopped();
+          return error.what();
+        }
+      return "";
+    }
+
+
+
+    // Keep the best direction of every formula.
+    void keep_best(std::vector<CandidateView::Way> &ways,
+                   const CandidateView::Way        &way)
+    {
+      for (CandidateView::Way &other : ways)
+        if (other.direction.formula == way.direction.formula)
+          {
+            if (way.score.value > other.score.value)
+              other = way;
+            return;
+          }
+      ways.push_back(way);
+    }
+
+
+
+    // Below this share of the friction, greatest over the rows, nothing but
+    // round-off and time steps are seen.
+    constexpr double least_change = 1e-5;
+  } // namespace
+
+
+
+  View look(Workspace &workspace, const Model &model)
+  {
+    const std::vector<Candidate> candidates =
+      make_candidates(model.simulator->with(model.scaled), workspace.range);
+    std::vector<std::vector<Direction>> found(candidates.size());
+    std::vector<std::string>            failures(candidates.size());
+    side_by_side(candidates.size(), [&](const std::size_t c) {
+      Model own     = model;
+      own.simulator = std::make_shared<Simulator>(*model.simulator);
+      for (std::size_t f = 0; f < candidates[c].formulas.size(); ++f)
+        failures[c] =
+          add_directions(workspace, own, candidates[c], c, f, found[c]);
+    });
+    View view;
+    for (const auto &directions : found)
+      for (const Direction &direction : directions)
+        if (direction.friction.cwiseAbs().maxCoeff() >
+            least_change * workspace.range.typical_friction)
+          view.directions.push_back(direction);
+    view.candidates.resize(candidates.size());
+    for (std::size_t c = 0; c < candidates.size(); ++c)
+      {
+        view.candidates[c].candidate = candidates[c];
+        if (found[c].empty())
+          view.candidates[c].failure = failures[c];
+      }
+    if (view.directions.empty())
+      return view;
+
+    const ScoreTest scores(workspace.comparison,
+                           model,
+                           workspace.null_draws,
+                           view.directions);
+    for (std::size_t d = 0; d < view.directions.size(); ++d)
+      {
+        const Direction &direction = view.directions[d];
+        const Score     &score     = scores.scores[d];
+        CandidateView   &seen      = view.candidates[direction.candidate];
+        keep_best(seen.ways, {direction, score});
+        if (score.free_length > 0.)
+          seen.minimum_detectable =
+            std::min(seen.minimum_detectable,
+                     seen_deviations * score.deviation / score.free_length *
+                       direction.friction.cwiseAbs().maxCoeff() /
+                       workspace.range.typical_friction);
+      }
+    for (CandidateView &seen : view.candidates)
+      {
+        std::stable_sort(seen.ways.begin(),
+                         seen.ways.end(),
+                         [](const auto &a, const auto &b) {
+                           return a.score.value > b.score.value;
+                         });
+        if (!seen.ways.empty())
+          seen.score = seen.ways.front().score;
+        seen.p = scores.family_p(seen.score.value);
+      }
+    std::stable_sort(view.candidates.begin(),
+                     view.candidates.end(),
+                     [](const CandidateView &a, const CandidateView &b) {
+                       return a.score.value > b.score.value;
+                     });
+    return view;
+  }
+
+
+
+  std::vector<Direction> smooth_directions(const Workspace &workspace,
+                                           const View      &view)
+  {
+    std::vector<Direction> result = view.directions;
+    for (const BasisColumn &column :
+         smooth_basis(workspace.comparison, workspace.covariates))
+      {
+        Direction direction;
+        direction.friction = column.friction;
+        result.push_back(direction);
+      }
+    return result;
+  }
+
+
+
+  GapTest
+  test_gap(const Workspace &workspace, const Model &model, const View &view)
+  {
+    return test_gap(workspace.comparison,
+                    workspace.covariates,
+                    model,
+                    workspace.null_draws,
+                    smooth_directions(workspace, view));
+  }
+} // namespace SlipStep
