@@ -300,6 +300,31 @@ figure svg { max-width: 100%; }
 
 
 
+  namespace
+  {
+    // What covariates of the history mean, for those that are told.
+    std::string history_words(const Diagnosis &diagnosis)
+    {
+      bool has_change = false, has_unloading = false;
+      for (const Localisation &where : diagnosis.where)
+        {
+          has_change = has_change || where.covariate == "change of speed" ||
+                       where.covariate == "change of pressure";
+          has_unloading = has_unloading || where.covariate == "unloading";
+        }
+      return std::string(
+               has_change ?
+                 " Change of pressure or speed: the logarithm of what it is "
+                 "over what it was some slip before." :
+                 "") +
+             (has_unloading ? " Unloading: how far the pressure has fallen "
+                              "below the largest so far, as a share." :
+                              "");
+    }
+  } // namespace
+
+
+
   std::string places_section(const Diagnosis &diagnosis)
   {
     if (diagnosis.where.empty())
@@ -314,9 +339,12 @@ figure svg { max-width: 100%; }
                        list_text(where.tests)});
     return heading("Where simulation and measurement disagree") +
            html_table(lines, "places") +
-           note("Explains alone: how much of the difference beyond the noise a "
-                "smooth correction along this quantity would take away; the "
-                "shares overlap. The range is where it is felt most.");
+           note(
+             std::string(
+               "Explains alone: how much of the difference beyond the noise a "
+               "smooth correction along this quantity would take away; the "
+               "shares overlap. The range is where it is felt most.") +
+             history_words(diagnosis));
   }
 
 

@@ -23,26 +23,27 @@ namespace SlipStep
     {
       std::string name, unit;
       bool        is_logarithmic = false;
+      /// Near zero in most rows.
+      bool is_rare = false;
     };
 
     const std::vector<Axis> &axes()
     {
-      static const std::vector<Axis> list = {{"speed", "mm/s", true},
-                                             {"pressure", "MPa", true},
-                                             {"path", "mm", false},
-                                             {"slip since start", "mm", true},
-                                             {"rest", "s", true},
-                                             {"heat", "MPa mm", false},
-                                             {"angle", "deg", false},
-                                             {"direction", "", false},
-                                             {"order of the tests", "", false},
-                                             {"flank", "", false},
-                                             {"unloading", "", false},
-                                             {"rate of pressure",
-                                              "MPa/s",
-                                              false},
-                                             {"change of pressure", "", false},
-                                             {"change of speed", "", false}};
+      static const std::vector<Axis> list = {
+        {"speed", "mm/s", true},
+        {"pressure", "MPa", true},
+        {"path", "mm", false},
+        {"slip since start", "mm", true},
+        {"rest", "s", true},
+        {"heat", "MPa mm", false},
+        {"angle", "deg", false},
+        {"direction", "", false},
+        {"order of the tests", "", false},
+        {"flank", "", false},
+        {"unloading", "", false, true},
+        {"rate of pressure", "MPa/s", false, true},
+        {"change of pressure", "", false, true},
+        {"change of speed", "", false, true}};
       return list;
     }
 
@@ -199,7 +200,9 @@ namespace SlipStep
           Eigen::VectorXd::Zero(workspace.comparison.n_rows());
         for (std::size_t i = 0; i < directions.size(); ++i)
           correction += strengths(i) * directions[i].friction;
-        find_range(workspace, correction, place);
+        // Changes are of either sign, and forgotten on several lengths.
+        if (axis.name.compare(0, 9, "change of") != 0)
+          find_range(workspace, correction, place);
         find_members(workspace, together.explained, place);
         result.push_back(place);
       }
@@ -215,12 +218,21 @@ namespace SlipStep
 
   namespace
   {
-    // Borders of bins with about as many rows each.
-    std::vector<double> bin_borders(std::vector<double> values)
+    // Borders of bins with about as many rows each, or equally wide where most
+    // rows would be in one of these.
+    std::vector<double> bin_borders(std::vector<double> values,
+                                    const bool          equally_wide)
     {
       constexpr std::size_t most_bins = 14;
       std::sort(values.begin(), values.end());
       std::vector<double> borders;
+      if (equally_wide && values.back() > values.front())
+        {
+          for (std::size_t i = 0; i < most_bins; ++i)
+            borders.push_back(values.front() +
+                              (values.back() - values.front()) * i / most_bins);
+          return borders;
+        }
       for (std::size_t i = 0; i < most_bins; ++i)
         {
           const double border = values[i * (values.size() - 1) / most_bins];
@@ -355,7 +367,7 @@ namespace SlipStep
           values.push_back(shown(axis.name, x(i)));
       if (values.empty())
         return panel;
-      sort_rows(bin_borders(values));
+      sort_rows(bin_borders(values, axis.is_rare));
       for (const auto &change : changes)
         panel.signatures.emplace_back(change.first, std::vector<double>());
       const Noise &noise = workspace.comparison.noise();
@@ -384,8 +396,12 @@ namespace SlipStep
     const std::vector<Localisation>                            &where)
   {
     std::vector<CovariatePanel> result;
-    for (const std::string name :
-         {"speed", "pressure", "path", "slip since start", "rest", "angle"})
+    std::vector<std::string>    names = {
+         "speed", "pressure", "path", "slip since start", "rest", "angle"};
+    for (const Localisation &place : where)
+      if (axis_of(place.covariate).is_rare)
+        names.push_back(place.covariate);
+    for (const std::string &name : names)
       {
         CovariatePanel panel =
           PanelMaker(workspace, difference, changes, name).make();
