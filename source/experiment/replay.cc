@@ -152,14 +152,25 @@ namespace SlipStep
       (step.end - step.begin) * intervals[step.interval].duration;
     const double      scale = law.static_coefficient() * largest_pressure;
     const MachineStep tried = make(step, law, machine, slider, point);
-    const Slope       now   = {(tried.slider.load - slider.load) / made, made};
+    const auto friction = [&](const Tensor<1, 2> &load, const double share) {
+      const Interval &now = intervals[step.interval];
+      const double    pressure =
+        now.start_pressure + share * (now.end_pressure - now.start_pressure);
+      return pressure > 0. ? load / pressure : Tensor<1, 2>();
+    };
+    const Slope now = {(friction(tried.slider.load, step.end) -
+                        friction(slider.load, step.begin)) /
+                         made,
+                       made};
     // Of a parabola with these slopes.
-    const double bend  = slope.step > 0. && made > 1.5 * row_distance ?
-                           (now.rate - slope.rate).norm() * made * made /
+    const double bend = slope.step > 0. && made > 1.5 * row_distance ?
+                          (now.rate - slope.rate).norm() * made * made /
                             (4. * (made + slope.step)) :
-                           0.;
-    const double error = std::max(tried.error, bend / times_more) /
-                         std::max({scale, point.trial().strength, 1e-300});
+                          0.;
+    const double error =
+      std::max(tried.error / std::max({scale, point.trial().strength, 1e-300}),
+               bend /
+                 (times_more * std::max(law.static_coefficient(), 1e-300)));
     const double factor =
       std::isfinite(error) ?
         0.9 * std::sqrt(tolerance / std::max(error, 1e-30)) :

@@ -142,6 +142,31 @@ TEST(Replay, FollowsTheCurveBetweenTheEndsOfSteps)
 
 
 
+// The load stays at rest, so that friction falls as one over the pressure.
+TEST(Replay, FollowsTheFrictionWhileThePressureGrows)
+{
+  MeasuredTest test;
+  test.time         = {0., 10., 12.};
+  test.displacement = {0., 1., 1.};
+  test.pressure     = {3., 3., 6.};
+  test.friction.assign(3, 0.);
+  const FrictionLaw law(
+    make_parameters({{"Friction/Effects", "subloading"},
+                     {"Friction/Static coefficient", "0.13"}}));
+  Replay replay(test, 0., 0.1);
+  replay.plan(law, Machine(), 5e-4);
+  Replay::Curve curve;
+  replay.simulate(law, Machine(), curve);
+  std::vector<double> times;
+  for (double t = 10.1; t < 12.; t += 0.1)
+    times.push_back(t);
+  const std::vector<double> found = replay.at(curve.friction, times);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    EXPECT_NEAR(found[i], 0.13 * 3. / (3. + 1.5 * (times[i] - 10.)), 5e-4);
+}
+
+
+
 TEST(Replay, HalvingTheStepsHalvesTheError)
 {
   const Parameters          parameters = make_parameters({});

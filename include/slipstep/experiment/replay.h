@@ -96,10 +96,10 @@ namespace SlipStep
       double      end;
     };
 
-    /// How the load changed in the step before.
+    /// How friction changed in the step before.
     struct Slope
     {
-      dealii::Tensor<1, 2> rate;      ///< [MPa/s]
+      dealii::Tensor<1, 2> rate;      ///< [1/s]
       double               step = 0.; ///< its length [s], 0: there was none
     };
 
