@@ -98,13 +98,7 @@ namespace SlipStep
           return {"overstress", "softening"};
         // What could be seen in such tests.
         if (campaign_class == CampaignClass::narrow)
-          return {"pressure",
-                  "shear_cap",
-                  "adhesion",
-                  "heating",
-                  "run_in",
-                  "stribeck",
-                  "viscous"};
+          return {"pressure", "shear_cap", "adhesion", "run_in", "viscous"};
         std::vector<std::string> names;
         for (const auto &kind : hidden_effects(formula_of(campaign_class)))
           names.push_back(kind.name);
@@ -178,10 +172,11 @@ namespace SlipStep
       {
         const HiddenEffectKind &kind =
           hidden_effect(name, formula_of(options.campaign_class));
-        // What such tests reach of it is a third.
-        const double drawn =
-          log_uniform(random, least_amplitude, largest_amplitude) *
-          (options.campaign_class == CampaignClass::narrow ? 3. : 1.);
+        // Narrow tests reach little of it.
+        const bool is_narrow = options.campaign_class == CampaignClass::narrow;
+        const double  drawn  = log_uniform(random,
+                                         is_narrow ? 0.04 : least_amplitude,
+                                         is_narrow ? 0.3 : largest_amplitude);
         PlantedEffect effect{name,
                              formula_of(options.campaign_class),
                              kind.formula,
