@@ -215,7 +215,7 @@ namespace SlipStep
         std::count_if(result.candidates.begin(),
                       result.candidates.end(),
                       [](const CandidateResult &candidate) {
-                        return candidate.status != "in the model";
+                        return candidate.standing != Standing::in_the_model;
                       });
       result.n_refits = workspace.n_refits;
     }

@@ -19,4 +19,28 @@ namespace SlipStep
       }
     return "";
   }
+
+
+
+  std::string name_of(const Standing standing)
+  {
+    switch (standing)
+      {
+        case Standing::named:
+          return "named";
+        case Standing::rival:
+          return "rival";
+        case Standing::not_needed:
+          return "not needed";
+        case Standing::not_enough:
+          return "not enough";
+        case Standing::rejected:
+          return "rejected";
+        case Standing::not_testable:
+          return "not testable";
+        case Standing::in_the_model:
+          return "in the model";
+      }
+    return "";
+  }
 } // namespace SlipStep

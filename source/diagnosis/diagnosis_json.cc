@@ -112,7 +112,7 @@ namespace SlipStep
     json to_json(const CandidateResult &candidate)
     {
       return {{"effect", candidate.name},
-              {"status", candidate.status},
+              {"status", name_of(candidate.standing)},
               {"score", candidate.score},
               {"p", candidate.p},
               {"gain", candidate.gain},
@@ -170,7 +170,7 @@ namespace SlipStep
     {
       json result = json::array();
       for (const CandidateResult &candidate : diagnosis.candidates)
-        if (candidate.status == "not testable")
+        if (candidate.standing == Standing::not_testable)
           result.push_back({{"effect", candidate.name},
                             {"why", candidate.why},
                             {"cheapest_test", candidate.cheapest_test}});

@@ -105,7 +105,7 @@ namespace SlipStep
       for (const CandidateResult &candidate : diagnosis.candidates)
         if (std::isfinite(candidate.minimum_detectable))
           seen.push_back(&candidate);
-        else if (candidate.status == "not testable")
+        else if (candidate.standing == Standing::not_testable)
           ++n_blind;
       const std::string blind = std::to_string(n_blind) + " of " +
                                 std::to_string(seen.size() + n_blind) +

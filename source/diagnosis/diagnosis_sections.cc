@@ -59,13 +59,14 @@ namespace SlipStep
                                const unsigned int     n_draws)
     {
       const bool        is_tried = candidate.is_testable;
-      const std::string style    = candidate.status == "named" ? "named" :
-                                   candidate.status == "rival" ? "rival" :
-                                   candidate.status == "not testable" ||
-                                    candidate.status == "in the model" ?
-                                                                 "grey" :
-                                                                 "";
-      std::string       remark   = html_text(candidate.why);
+      const std::string style =
+        candidate.standing == Standing::named ? "named" :
+        candidate.standing == Standing::rival ? "rival" :
+        candidate.standing == Standing::not_testable ||
+            candidate.standing == Standing::in_the_model ?
+                                                "grey" :
+                                                "";
+      std::string remark = html_text(candidate.why);
       if (!candidate.cheapest_test.empty())
         remark += (remark.empty() ? "" : "; ") +
                   std::string("would show in: ") +
@@ -74,8 +75,8 @@ namespace SlipStep
              cell("<b>" + html_text(candidate.name) +
                   "</b><br><span class='origin'>" +
                   html_text(plain_words(candidate.name)) + "</span>") +
-             cell("<span class='status'>" + html_text(candidate.status) +
-                  "</span>") +
+             cell("<span class='status'>" +
+                  html_text(name_of(candidate.standing)) + "</span>") +
              cell(is_tried ? html_text(chance_text(candidate.p, n_draws)) : "–",
                   "number") +
              cell(gain_text(candidate.gain), "number") +

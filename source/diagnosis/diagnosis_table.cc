@@ -74,7 +74,7 @@ namespace SlipStep
                          fixed_text(candidate.gain, 1),
                          fixed_text(candidate.left_out_gain, 1),
                          percent_text(candidate.minimum_detectable),
-                         candidate.status});
+                         name_of(candidate.standing)});
       return lines.size() > 1 ? "\n" + text_table(lines, widest) : "";
     }
 

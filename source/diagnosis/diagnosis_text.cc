@@ -345,7 +345,7 @@ namespace SlipStep
       return "no effect of the catalogue explains";
     std::vector<std::string> tried;
     for (const CandidateResult &candidate : diagnosis.candidates)
-      if (candidate.status != "in the model")
+      if (candidate.standing != Standing::in_the_model)
         tried.push_back(candidate.name);
     return "none of the effects asked for (" + list_text(tried) + ") explains";
   }

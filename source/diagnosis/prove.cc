@@ -286,19 +286,21 @@ namespace SlipStep
           result.gain = gain.second;
       if (!seen.candidate.why_not.empty())
         {
-          result.why = seen.candidate.why_not;
-          result.status =
-            seen.candidate.is_in_model ? "in the model" : "not testable";
+          result.why      = seen.candidate.why_not;
+          result.standing = seen.candidate.is_in_model ?
+                              Standing::in_the_model :
+                              Standing::not_testable;
         }
       else if (!result.is_testable)
         {
-          result.why    = why_not_testable(seen);
-          result.status = "not testable";
+          result.why      = why_not_testable(seen);
+          result.standing = Standing::not_testable;
         }
       else
-        result.status = result.p > level                      ? "rejected" :
-                        judgement.verdict == Verdict::unnamed ? "not enough" :
-                                                                "not needed";
+        result.standing = result.p > level ? Standing::rejected :
+                          judgement.verdict == Verdict::unnamed ?
+                                             Standing::not_enough :
+                                             Standing::not_needed;
       return result;
     }
 
@@ -311,12 +313,12 @@ namespace SlipStep
     {
       for (const Rival &rival : found.rivals)
         if (rival.name == result.name)
-          result.status = "rival";
+          result.standing = Standing::rival;
       for (std::size_t part = 0; part < found.model.parts.size(); ++part)
         {
           if (found.model.parts[part].name != result.name)
             continue;
-          result.status      = "named";
+          result.standing    = Standing::named;
           result.is_testable = true;
           if (part < found.costs.size())
             {
@@ -331,13 +333,10 @@ namespace SlipStep
 
 
 
-    // Of the table: names, rivals, what is significant, and the rest.
-    int rank(const CandidateResult &result)
+    // Of the table: what was not tried comes last.
+    Standing rank(const CandidateResult &result)
     {
-      static const std::vector<std::string> order = {
-        "named", "rival", "not needed", "not enough", "rejected"};
-      return std::find(order.begin(), order.end(), result.status) -
-             order.begin();
+      return std::min(result.standing, Standing::not_testable);
     }
   } // namespace
 
@@ -354,7 +353,7 @@ namespace SlipStep
       const CandidateView &seen = judgement.view.candidates[c];
       results[c]                = seen_result(seen, judgement, workspace.level);
       add_found(judgement.found, parameters, results[c]);
-      if (results[c].status == "not testable" &&
+      if (results[c].standing == Standing::not_testable &&
           !seen.candidate.formulas.empty())
         {
           Model own     = base;

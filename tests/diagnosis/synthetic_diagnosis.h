@@ -39,7 +39,7 @@ namespace SyntheticDiagnosis
   }
 
   inline CandidateResult candidate(const std::string &name,
-                                   const std::string &status,
+                                   const Standing     standing,
                                    const double       p,
                                    const double       gain,
                                    const double       left_out_gain,
@@ -48,7 +48,7 @@ namespace SyntheticDiagnosis
     CandidateResult result;
     result.name               = name;
     result.signature          = "signature of " + name;
-    result.status             = status;
+    result.standing           = standing;
     result.p                  = p;
     result.score              = gain > 0. ? std::sqrt(gain) : 0.4;
     result.gain               = gain;
@@ -214,17 +214,17 @@ namespace SyntheticDiagnosis
     const double infinity = std::numeric_limits<double>::infinity();
     const double none     = std::nan("");
     result.candidates     = {
-          candidate("overstress", "rejected", 0.47, none, none, 0.0035),
-          candidate("stribeck", "rejected", 0.6, none, none, 0.006),
-          candidate("viscous", "rejected", 0.8, none, none, 0.008),
-          candidate("healing", "rejected", 0.93, none, none, 0.021),
-          candidate("run_in", "rejected", 0.97, none, none, 0.004),
-          candidate("pressure", "rejected", 1., none, none, 0.012),
-          candidate("shear_cap", "rejected", 1., none, none, 0.31),
-          candidate("direction", "rejected", 1., none, none, 0.005),
-          candidate("anisotropy", "not testable", 1., none, none, infinity),
-          candidate("heating", "not testable", 1., none, none, infinity),
-          candidate("softening", "in the model", 1., none, none, infinity)};
+          candidate("overstress", Standing::rejected, 0.47, none, none, 0.0035),
+          candidate("stribeck", Standing::rejected, 0.6, none, none, 0.006),
+          candidate("viscous", Standing::rejected, 0.8, none, none, 0.008),
+          candidate("healing", Standing::rejected, 0.93, none, none, 0.021),
+          candidate("run_in", Standing::rejected, 0.97, none, none, 0.004),
+          candidate("pressure", Standing::rejected, 1., none, none, 0.012),
+          candidate("shear_cap", Standing::rejected, 1., none, none, 0.31),
+          candidate("direction", Standing::rejected, 1., none, none, 0.005),
+          candidate("anisotropy", Standing::not_testable, 1., none, none, infinity),
+          candidate("heating", Standing::not_testable, 1., none, none, infinity),
+          candidate("softening", Standing::in_the_model, 1., none, none, infinity)};
     result.candidates[8].why           = "no test slides off the axis";
     result.candidates[8].cheapest_test = "a slide at 45 deg";
     result.candidates[9].why           = "no run is long and fast enough";
@@ -305,13 +305,13 @@ namespace SyntheticDiagnosis
     result.explained_share = 0.98;
     result.remainder_p     = 0.46;
     result.candidates[0] =
-      candidate("overstress", "named", 0.001, 2210.4, 1983.1, 0.0035);
+      candidate("overstress", Standing::named, 0.001, 2210.4, 1983.1, 0.0035);
     result.candidates[0].parameters = {
       parameter("overstress", "Viscosity", "s", 0.0123, 0.0006),
       parameter("overstress", "Exponent", "", 41.2, 3.)};
     result.candidates[0].parameters[1].is_upper_open = true;
     result.candidates[1] =
-      candidate("stribeck", "not needed", 0.001, 1210.4, 983.1, 0.006);
+      candidate("stribeck", Standing::not_needed, 0.001, 1210.4, 983.1, 0.006);
     result.element_checks = {element_check(result.tests[3])};
     result.improved_case  = "improved.prm";
     result.next_test      = {"sliding at 0.01 mm/min",
@@ -323,12 +323,12 @@ namespace SyntheticDiagnosis
 
   inline Diagnosis ambiguous()
   {
-    Diagnosis result            = named();
-    result.verdict              = Verdict::ambiguous;
-    result.ambiguous_with       = {"stribeck"};
-    result.rival_of             = {"overstress"};
-    result.candidates[1].status = "rival";
-    result.candidates[1].gain   = 2206.2;
+    Diagnosis result              = named();
+    result.verdict                = Verdict::ambiguous;
+    result.ambiguous_with         = {"stribeck"};
+    result.rival_of               = {"overstress"};
+    result.candidates[1].standing = Standing::rival;
+    result.candidates[1].gain     = 2206.2;
     return result;
   }
 
@@ -338,7 +338,7 @@ namespace SyntheticDiagnosis
     result.verdict   = Verdict::unnamed;
     result.withdrawn = {"overstress"};
     result.candidates[0] =
-      candidate("overstress", "rejected", 0.001, 310.4, -12., 0.0035);
+      candidate("overstress", Standing::rejected, 0.001, 310.4, -12., 0.0035);
     result.correction_covariate = "speed";
     result.correction_formula =
       "1 + 0.04*min(max(log(v/0.01), 0), 6.9) - 0.002*log(v)^2";
@@ -361,11 +361,11 @@ namespace SyntheticDiagnosis
     result.verdict           = Verdict::not_testable;
     result.n_replicate_pairs = 0;
     for (CandidateResult &one : result.candidates)
-      if (one.status != "in the model")
+      if (one.standing != Standing::in_the_model)
         {
           const std::string name = one.name;
           one                    = candidate(name,
-                          "not testable",
+                          Standing::not_testable,
                           1.,
                           std::nan(""),
                           std::nan(""),

@@ -67,17 +67,29 @@ namespace SlipStep
     std::vector<std::string> phases, tests; ///< most of it, largest first
   };
 
+  /// What became of an effect of the catalogue, in the order of the table.
+  enum class Standing
+  {
+    named,
+    rival,
+    not_needed, ///< significant by itself, but with the names no more
+    not_enough, ///< significant, but too much remains for a name
+    rejected,
+    not_testable,
+    in_the_model
+  };
+
+  /// "not needed"
+  std::string name_of(const Standing standing);
+
   /// An effect of the catalogue.
   struct CandidateResult
   {
     std::string name;
     std::string signature;
-    /// "named", "rival"; of those significant by themselves "not needed", or
-    /// "not enough" where the verdict is "unnamed"; "rejected",
-    /// "in the model", "not testable"
-    std::string status;
-    double      score = 0.; ///< standard deviations
-    double      p     = 1.; ///< family-wise
+    Standing    standing = Standing::rejected;
+    double      score    = 0.; ///< standard deviations
+    double      p        = 1.; ///< family-wise
     /// Of the objective when it is added to the starting model; NaN if it was
     /// not fitted.
     double gain          = std::numeric_limits<double>::quiet_NaN();
