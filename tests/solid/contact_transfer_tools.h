@@ -32,7 +32,7 @@ namespace SlipStep::Testing
     state.dissipation = 0.3 + 0.2 * x - 0.1 * y * a;
     state.temperature_rise = 0.2 + 0.3 * x - 0.1 * b;
     state.contact_age      = 0.5 + y * a;
-    state.hold_time        = 0.7 + x * a;
+    state.hold_time        = 0.7 + x * b;
     state.loading_ratio =
       law.isotropic_traction(state.traction).norm() / state.strength;
     return state;
