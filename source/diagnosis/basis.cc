@@ -157,8 +157,10 @@ namespace SlipStep
                    unit});
       };
       add("unloading", "", at.unloading);
-      const double fastest = at.pressure_rate.cwiseAbs().maxCoeff();
-      if (fastest > 0.)
+      const double fastest = largest(at.pressure_rate.cwiseAbs());
+      // Not the tremble of a load cell.
+      const bool is_changed = largest(at.pressure_change.cwiseAbs()) > 0.05;
+      if (fastest > 0. && is_changed)
         for (const double scale : {1., 20.})
           add("rate of pressure",
               "MPa/s",

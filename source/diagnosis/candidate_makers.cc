@@ -378,7 +378,12 @@ namespace SlipStep
       // Without softening there is no fall to recover from.
       if (now.has("softening"))
         candidate.formulas.push_back(recovery_formula(now));
-      candidate.formulas.push_back(ageing_formula(now));
+      // Without rests it is an effect of the speed, which has other names.
+      if (now.range.longest_rest > 0.)
+        candidate.formulas.push_back(ageing_formula(now));
+      if (candidate.formulas.empty())
+        candidate.why_not = "nothing rested, and without softening nothing can "
+                            "recover";
       return candidate;
     }
 

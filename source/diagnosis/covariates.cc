@@ -1,19 +1,15 @@
-#include <deal.II/base/numbers.h>
-
 #include <slipstep/diagnosis/covariates.h>
 #include <slipstep/experiment/test_rows.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <limits>
 
 namespace SlipStep
 {
   namespace
   {
-    using dealii::numbers::PI;
-
     /// The rows of one test, before they are averaged.
     struct TestRows
     {

@@ -123,8 +123,12 @@ namespace SlipStep
       Model own     = model;
       own.simulator = std::make_shared<Simulator>(*model.simulator);
       for (std::size_t f = 0; f < candidates[c].formulas.size(); ++f)
-        failures[c] =
-          add_directions(workspace, own, candidates[c], c, f, found[c]);
+        {
+          const std::string failure =
+            add_directions(workspace, own, candidates[c], c, f, found[c]);
+          if (!failure.empty())
+            failures[c] = failure;
+        }
     });
     View view;
     for (const auto &directions : found)

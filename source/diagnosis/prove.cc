@@ -201,17 +201,16 @@ namespace SlipStep
                                   const Model     &base,
                                   const Candidate &candidate)
     {
-      const Formula    &formula = candidate.formulas.front();
-      std::vector<Part> parts   = base.parts;
-      parts.push_back({candidate.name, formula});
-      Values values = base.values();
-      for (const auto &value : formula.shapes[formula.shapes.size() / 2].values(
-             worthwhile_strength))
-        values[value.first] = value.second;
+      const Formula &formula = candidate.formulas.front();
+      const Shape   &shape   = formula.shapes[formula.shapes.size() / 2];
       try
         {
           Model model =
-            make_model(workspace.start, parts, values, workspace.tests, &base);
+            make_model(workspace.start,
+                       with_part(base, candidate, 0),
+                       merged(base.values(), shape.values(worthwhile_strength)),
+                       workspace.tests,
+                       &base);
           // The effect stays; what these tests show of it, the others take
           // away again.
           std::vector<bool> held;

@@ -125,6 +125,9 @@ namespace SlipStep
       return std::numeric_limits<double>::infinity();
     const double traction =
       law.static_coefficient() * std::max(now.start_pressure, now.end_pressure);
+    // Off the plane.
+    if (!(traction > 0.))
+      return std::numeric_limits<double>::infinity();
     const double elastic_slip =
       traction / law.tangential_stiffness() + traction / machine.stiffness();
     return first_slip * elastic_slip /
@@ -162,11 +165,15 @@ namespace SlipStep
                         friction(slider.load, step.begin)) /
                          made,
                        made};
-    // Of a parabola with these slopes.
-    const double bend = slope.step > 0. && made > 1.5 * row_distance ?
-                          (now.rate - slope.rate).norm() * made * made /
-                            (4. * (made + slope.step)) :
-                          0.;
+    // Of a parabola with these slopes; a new interval may begin at a corner,
+    // where a long step before it tells nothing of how fast the slope changes.
+    const double before =
+      step.begin > 0. ? slope.step : std::min(slope.step, made);
+    const bool is_looked_at =
+      step.interval >= n_before && slope.step > 0. && made > 1.5 * row_distance;
+    const double bend = is_looked_at ? (now.rate - slope.rate).norm() * made *
+                                         made / (4. * (made + before)) :
+                                       0.;
     const double error =
       std::max(tried.error / std::max({scale, point.trial().strength, 1e-300}),
                bend /

@@ -181,7 +181,7 @@ namespace SyntheticDiagnosis
   {
     Diagnosis result;
     result.seed              = 1;
-    result.level             = 0.03;
+    result.level             = 0.04;
     result.n_conditions      = 6;
     result.n_replicate_pairs = 3;
     result.n_samples         = 18400;

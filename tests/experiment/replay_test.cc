@@ -110,7 +110,6 @@ TEST(Replay, ErrorFallsWithTheTolerance)
 
 
 
-// What halving leaves is what it took away: steps of first order.
 // Without an overstress the law is exact for steps of any length, so that only
 // straight lines between their ends are wrong.
 TEST(Replay, FollowsTheCurveBetweenTheEndsOfSteps)
@@ -142,31 +141,66 @@ TEST(Replay, FollowsTheCurveBetweenTheEndsOfSteps)
 
 
 
-// The load stays at rest, so that friction falls as one over the pressure.
+// The load stays at rest, so that friction falls as one over the pressure:
+// right after sliding, and when all has been quiet for long.
 TEST(Replay, FollowsTheFrictionWhileThePressureGrows)
 {
-  MeasuredTest test;
-  test.time         = {0., 10., 12.};
-  test.displacement = {0., 1., 1.};
-  test.pressure     = {3., 3., 6.};
-  test.friction.assign(3, 0.);
   const FrictionLaw law(
     make_parameters({{"Friction/Effects", "subloading"},
                      {"Friction/Static coefficient", "0.13"}}));
-  Replay replay(test, 0., 0.1);
-  replay.plan(law, Machine(), 5e-4);
-  Replay::Curve curve;
-  replay.simulate(law, Machine(), curve);
-  std::vector<double> times;
-  for (double t = 10.1; t < 12.; t += 0.1)
-    times.push_back(t);
-  const std::vector<double> found = replay.at(curve.friction, times);
-  for (std::size_t i = 0; i < times.size(); ++i)
-    EXPECT_NEAR(found[i], 0.13 * 3. / (3. + 1.5 * (times[i] - 10.)), 5e-4);
+  for (const double rest : {0., 1000.})
+    {
+      MeasuredTest test;
+      test.time         = {0., 10.};
+      test.displacement = {0., 1.};
+      test.pressure     = {3., 3.};
+      if (rest > 0.)
+        {
+          test.time.push_back(10. + rest);
+          test.displacement.push_back(1.);
+          test.pressure.push_back(3.);
+        }
+      const double begin = test.time.back();
+      test.time.push_back(begin + 2.);
+      test.displacement.push_back(1.);
+      test.pressure.push_back(6.);
+      test.friction.assign(test.time.size(), 0.);
+      Replay replay(test, 0., 0.1);
+      replay.plan(law, Machine(), 5e-4);
+      Replay::Curve curve;
+      replay.simulate(law, Machine(), curve);
+      std::vector<double> times;
+      for (double t = begin + 0.1; t < begin + 2.; t += 0.1)
+        times.push_back(t);
+      const std::vector<double> found = replay.at(curve.friction, times);
+      for (std::size_t i = 0; i < times.size(); ++i)
+        EXPECT_NEAR(found[i], 0.13 * 3. / (3. + 1.5 * (times[i] - begin)), 6e-4)
+          << rest;
+    }
 }
 
 
 
+// A slider that is lifted turns in the air.
+TEST(Replay, MovesOffThePlane)
+{
+  MeasuredTest test;
+  test.time         = {0., 1., 2., 3.};
+  test.displacement = {0., 1., 0.5, 0.5};
+  test.pressure     = {0., 0., 0., 0.};
+  test.friction.assign(4, 0.);
+  const FrictionLaw law(make_parameters({{"Friction/Effects", "subloading"}}));
+  Replay            replay(test);
+  replay.plan(law, Machine(), 5e-4, 1000);
+  Replay::Curve curve;
+  replay.simulate(law, Machine(), curve);
+  for (const double friction : curve.friction)
+    EXPECT_EQ(friction, 0.);
+}
+
+
+
+// What halving leaves is what it took away: steps of first order.
 TEST(Replay, HalvingTheStepsHalvesTheError)
 {
   const Parameters          parameters = make_parameters({});

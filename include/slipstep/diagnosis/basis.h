@@ -3,6 +3,8 @@
 
 #include <slipstep/diagnosis/covariates.h>
 
+#include <Eigen/Core>
+
 #include <string>
 #include <vector>
 

@@ -3,6 +3,11 @@
 
 #include <slipstep/diagnosis/candidates.h>
 
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace SlipStep
 {
   /// What the makers of candidates look at.

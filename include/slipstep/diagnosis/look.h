@@ -41,7 +41,8 @@ namespace SlipStep
     };
 
     Candidate candidate;
-    /// Best first; none if it could not be simulated.
+    /// Best first; none if it was not tried, could not be simulated, or
+    /// changes nothing.
     std::vector<Way> ways;
     Score            score;   ///< of the best
     std::string      failure; ///< why it could not be simulated

@@ -24,7 +24,7 @@ namespace SlipStep
     /// @param lead_in length [mm] slid before the first row, in the direction
     ///   and with the speed of the first motion, under the first pressure: for
     ///   records that begin while the contact slides already
-    /// @param row_distance least time between two rows at which curves are wanted
+    /// @param row_distance time between neighbouring rows at which curves are wanted
     ///   [s]; the rows of @p motion if not given
     explicit Replay(
       const MeasuredTest &motion,

@@ -1,4 +1,5 @@
 #include <slipstep/friction/contact_age.h>
+#include <slipstep/friction/effect.h>
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <slipstep/friction/contact_age.h>
+#include <slipstep/friction/effect.h>
 
 #include <muParser.h>
 
