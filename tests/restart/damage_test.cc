@@ -192,7 +192,7 @@ TEST_F(Damage, NoneButAnotherProgramIsRefusedByName)
   make_victim();
   copy("victim", "format");
   replace("format/checkpoint/manifest.json", "\"format\": ", "\"format\": 9");
-  expect_refused("format", {"--resume"}, {"format 91", "reads format 2"});
+  expect_refused("format", {"--resume"}, {"format 92", "reads format 2"});
   copy("victim", "version");
   replace("version/checkpoint/manifest.json",
           "\"version\": \"",
