@@ -31,7 +31,6 @@ namespace SlipStep
       // Three polynomials of x over the rows where it is finite, times
       // friction; nothing if it hardly varies there.
       void polynomials(const std::string     &name,
-                       const std::string     &unit,
                        const Eigen::VectorXd &x,
                        const bool             is_logarithmic)
       {
@@ -46,12 +45,7 @@ namespace SlipStep
           return;
         for (unsigned int degree = 1; degree <= 3; ++degree)
           {
-            BasisColumn column{name, Eigen::VectorXd::Zero(n), low, high, unit};
-            if (is_logarithmic)
-              {
-                column.from = std::pow(10., low);
-                column.to   = std::pow(10., high);
-              }
+            BasisColumn column{name, Eigen::VectorXd::Zero(n)};
             for (Eigen::Index i = 0; i < n; ++i)
               if (std::isfinite(x(i)))
                 {
@@ -97,11 +91,7 @@ namespace SlipStep
       if (largest(at.rest) > 0.)
         for (const double share : {0.01, 0.1, 1.})
           {
-            BasisColumn column{"rest",
-                               Eigen::VectorXd::Zero(maker.n),
-                               0.,
-                               largest(at.rest),
-                               "s"};
+            BasisColumn column{"rest", Eigen::VectorXd::Zero(maker.n)};
             for (Eigen::Index i = 0; i < maker.n; ++i)
               if (at.rest(i) > 0. && at.speed(i) > 0.)
                 column.friction(i) =
@@ -113,10 +103,7 @@ namespace SlipStep
       for (const double share : {0.003, 0.03, 0.3})
         {
           BasisColumn column{"slip since start",
-                             Eigen::VectorXd::Zero(maker.n),
-                             0.,
-                             3. * share * length,
-                             "mm"};
+                             Eigen::VectorXd::Zero(maker.n)};
           for (Eigen::Index i = 0; i < maker.n; ++i)
             if (at.speed(i) > 0.)
               column.friction(i) =
@@ -127,11 +114,7 @@ namespace SlipStep
       // Since the beginning of the test.
       for (const double share : {0.01, 0.1})
         {
-          BasisColumn column{"path",
-                             Eigen::VectorXd::Zero(maker.n),
-                             0.,
-                             3. * share * length,
-                             "mm"};
+          BasisColumn column{"path", Eigen::VectorXd::Zero(maker.n)};
           for (Eigen::Index i = 0; i < maker.n; ++i)
             column.friction(i) =
               at.friction(i) * std::exp(-at.path(i) / (share * length));
@@ -144,26 +127,19 @@ namespace SlipStep
     // Of pressure and speed: what was before is forgotten by slip, or never.
     void add_histories(BasisMaker &maker, const Comparison &comparison)
     {
-      const Covariates &at  = maker.covariates;
-      const auto        add = [&](const std::string     &name,
-                           const std::string     &unit,
-                           const Eigen::VectorXd &x) {
+      const Covariates &at = maker.covariates;
+      const auto add = [&](const std::string &name, const Eigen::VectorXd &x) {
         if (x.size() == 0 || !(x.maxCoeff() - x.minCoeff() > 0.05))
           return;
-        maker.add({name,
-                   at.friction.cwiseProduct(x),
-                   x.minCoeff(),
-                   x.maxCoeff(),
-                   unit});
+        maker.add({name, at.friction.cwiseProduct(x)});
       };
-      add("unloading", "", at.unloading);
+      add("unloading", at.unloading);
       const double fastest = largest(at.pressure_rate.cwiseAbs());
       // Not the tremble of a load cell.
       const bool is_changed = largest(at.pressure_change.cwiseAbs()) > 0.05;
       if (fastest > 0. && is_changed)
         for (const double scale : {1., 20.})
           add("rate of pressure",
-              "MPa/s",
               (at.pressure_rate * (scale / fastest)).array().tanh().matrix());
       const double path = largest(at.path);
       if (!(path > 0.))
@@ -171,10 +147,8 @@ namespace SlipStep
       for (const double share : {0.02, 0.1, 0.4})
         {
           add("change of pressure",
-              "",
               lagging_change(comparison, at.path, at.pressure, share * path));
           add("change of speed",
-              "",
               lagging_change(comparison, at.path, at.speed, share * path));
         }
     }
@@ -192,11 +166,7 @@ namespace SlipStep
       for (unsigned int k = 0; k < n_places; ++k)
         {
           place /= ratio;
-          BasisColumn column{"path",
-                             Eigen::VectorXd::Zero(maker.n),
-                             place,
-                             largest(at.path),
-                             "mm"};
+          BasisColumn column{"path", Eigen::VectorXd::Zero(maker.n)};
           for (Eigen::Index i = 0; i < maker.n; ++i)
             column.friction(i) =
               at.friction(i) /
@@ -211,19 +181,15 @@ namespace SlipStep
     void add_directions(BasisMaker &maker)
     {
       const Covariates &at  = maker.covariates;
-      const auto        add = [&](const std::string &name,
-                           const auto        &factor,
-                           const double       to) {
-        BasisColumn column{name, Eigen::VectorXd::Zero(maker.n), 0., to, "deg"};
+      const auto        add = [&](const std::string &name, const auto &factor) {
+        BasisColumn column{name, Eigen::VectorXd::Zero(maker.n)};
         for (Eigen::Index i = 0; i < maker.n; ++i)
           column.friction(i) = at.friction(i) * factor(i);
         maker.add(column);
       };
       if (largest(at.is_reverse) > 0.)
-        add(
-          "direction",
-          [&](const Eigen::Index i) { return at.is_reverse(i); },
-          180.);
+        add("direction",
+            [&](const Eigen::Index i) { return at.is_reverse(i); });
       bool is_oblique = false;
       for (Eigen::Index i = 0; i < maker.n; ++i)
         is_oblique = is_oblique || std::abs(std::sin(at.angle(i))) > 0.05;
@@ -231,18 +197,12 @@ namespace SlipStep
         return;
       for (const double multiple : {2., 4.})
         {
-          add(
-            "angle",
-            [&](const Eigen::Index i) {
-              return std::cos(multiple * at.angle(i));
-            },
-            90.);
-          add(
-            "angle",
-            [&](const Eigen::Index i) {
-              return std::sin(multiple * at.angle(i));
-            },
-            90.);
+          add("angle", [&](const Eigen::Index i) {
+            return std::cos(multiple * at.angle(i));
+          });
+          add("angle", [&](const Eigen::Index i) {
+            return std::sin(multiple * at.angle(i));
+          });
         }
     }
   } // namespace
@@ -253,17 +213,17 @@ namespace SlipStep
                                         const Covariates &covariates)
   {
     BasisMaker maker(covariates);
-    maker.polynomials("speed", "mm/s", logarithm(covariates.speed), true);
-    maker.polynomials("pressure", "MPa", logarithm(covariates.pressure), true);
-    maker.polynomials("path", "mm", covariates.path, false);
-    maker.polynomials("heat", "MPa mm", covariates.heat, false);
-    maker.polynomials("order of the tests", "", covariates.order, false);
+    maker.polynomials("speed", logarithm(covariates.speed), true);
+    maker.polynomials("pressure", logarithm(covariates.pressure), true);
+    maker.polynomials("path", covariates.path, false);
+    maker.polynomials("heat", covariates.heat, false);
+    maker.polynomials("order of the tests", covariates.order, false);
     add_memories(maker);
     add_steps(maker);
     add_histories(maker, comparison);
     add_directions(maker);
     // The pressure's own change, along the flanks.
-    BasisColumn flank{"flank", Eigen::VectorXd::Zero(maker.n), 0., 0., ""};
+    BasisColumn flank{"flank", Eigen::VectorXd::Zero(maker.n)};
     for (const ComparedTest &test : comparison.tests)
       for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
         {

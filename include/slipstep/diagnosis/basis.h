@@ -15,10 +15,6 @@ namespace SlipStep
   {
     std::string     covariate; ///< "speed"
     Eigen::VectorXd friction;  ///< change, per unit
-    /// Where it is felt.
-    double      from = 0.;
-    double      to   = 0.;
-    std::string unit;
   };
 
   /// Smooth functions of every covariate that varies, times friction.
