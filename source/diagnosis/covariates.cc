@@ -268,6 +268,7 @@ namespace SlipStep
            name == "order of the tests" ? covariates.order :
            name == "direction"          ? covariates.is_reverse :
            name == "angle"              ? covariates.angle :
+           name == "position"           ? covariates.position :
            name == "flank"              ? covariates.since_start :
            name == "unloading"          ? covariates.unloading :
            name == "change of pressure" ? covariates.pressure_change :
@@ -365,6 +366,7 @@ namespace SlipStep
     for (Eigen::VectorXd *values : {&result.speed,
                                     &result.pressure,
                                     &result.path,
+                                    &result.position,
                                     &result.since_start,
                                     &result.rest,
                                     &result.since_rest,
@@ -401,6 +403,7 @@ namespace SlipStep
               result.speed(k)        = rows.speed[row];
               result.pressure(k)     = tests[t].rows.pressure[row];
               result.path(k)         = rows.path[row];
+              result.position(k)     = tests[t].rows.displacement[row];
               result.since_start(k)  = rows.since_start[row];
               result.rest(k)         = rows.rest[row];
               result.since_rest(k)   = rows.since_rest[row];

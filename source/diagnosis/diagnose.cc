@@ -101,6 +101,7 @@ namespace SlipStep
       result.p_conditions    = judgement.gap.p_conditions;
       result.p_replicates    = judgement.gap.p_replicates;
       result.p_together      = judgement.gap.p_together;
+      result.p_track         = judgement.gap.p_track;
       result.excess          = judgement.gap.excess;
       result.verdict         = judgement.verdict;
       result.withdrawn       = judgement.withdrawn;

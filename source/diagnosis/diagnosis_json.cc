@@ -148,6 +148,7 @@ namespace SlipStep
               {"p_conditions", diagnosis.p_conditions},
               {"p_replicates", diagnosis.p_replicates},
               {"p_together", diagnosis.p_together},
+              {"p_track", diagnosis.p_track},
               {"excess", diagnosis.excess},
               {"rms_percent", percent(diagnosis.shrink.fitted_before)},
               {"noise_floor_percent", percent(diagnosis.shrink.noise_floor)}};

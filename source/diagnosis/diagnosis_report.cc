@@ -312,6 +312,7 @@ namespace SlipStep
         {"… between conditions", chance(diagnosis.p_conditions)},
         {"… as what replicates share", chance(diagnosis.p_replicates)},
         {"… as all of these at once", chance(diagnosis.p_together)},
+        {"… as waves along the track", chance(diagnosis.p_track)},
         {"chance of what remains", chance(diagnosis.remainder_p)},
         {"seed", std::to_string(diagnosis.seed)},
         {"hash of the data",

@@ -375,6 +375,8 @@ namespace SlipStep
 
   std::string range_text(const Localisation &where)
   {
+    if (where.covariate == "position")
+      return "position, in waves of " + ends_text(where);
     return where.from == 0. && where.to == 0. ?
              where.covariate :
              where.covariate + " " + ends_text(where);
@@ -390,6 +392,7 @@ namespace SlipStep
       {"path", "after a path of"},
       {"slip since start", "after a start, at a slip of"},
       {"rest", "after rests of"},
+      {"position", "along the track, in waves of"},
       {"heat", "after recent frictional work of"},
       {"angle", "at angles of"},
       {"rate of pressure", "while the pressure changes by"},

@@ -1,5 +1,6 @@
 #include <slipstep/diagnosis/basis.h>
 #include <slipstep/diagnosis/score.h>
+#include <slipstep/diagnosis/track_waves.h>
 
 #include <Eigen/Dense>
 
@@ -353,12 +354,17 @@ namespace SlipStep
     result.p_together = saturated.p;
     result.p_replicates =
       chance_of_agreement(comparison, model.residual, null_draws);
+    const TrackWave track =
+      find_track_wave(comparison, covariates, model, null_draws);
+    result.p_track    = track.p;
+    result.wavelength = track.wavelength;
     // Bonferroni, with most of the chance given to what has a name.
     result.p = std::min({1.,
                          1.5 * result.p_smooth,
                          12. * result.p_waves,
                          12. * result.p_conditions,
                          12. * result.p_together,
+                         12. * result.p_track,
                          12. * result.p_replicates});
     return result;
   }

@@ -1,6 +1,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <slipstep/diagnosis/basis.h>
+#include <slipstep/diagnosis/track_waves.h>
 #include <slipstep/diagnosis/where.h>
 
 #include <algorithm>
@@ -170,6 +171,37 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // The clearest wave along the track.
+    void add_track_wave(const Workspace           &workspace,
+                        const Model               &base,
+                        const GapTest             &gap,
+                        std::vector<Localisation> &result)
+    {
+      if (gap.p_track > workspace.level)
+        return;
+      const ScoreTest::Together together =
+        ScoreTest(workspace.comparison,
+                  base,
+                  workspace.null_draws,
+                  track_waves(workspace.comparison,
+                              workspace.covariates,
+                              {gap.wavelength}))
+          .together();
+      Localisation place;
+      place.covariate = "position";
+      place.unit      = "mm";
+      place.share =
+        gap.excess > 0. ? std::min(1., together.excess / gap.excess) : 1.;
+      place.from = place.to = gap.wavelength;
+      find_members(workspace, together.explained, place);
+      result.push_back(place);
+    }
+  } // namespace
+
+
+
   std::vector<Localisation>
   localise(const Workspace &workspace, const Model &base, const GapTest &gap)
   {
@@ -206,6 +238,7 @@ namespace SlipStep
         find_members(workspace, together.explained, place);
         result.push_back(place);
       }
+    add_track_wave(workspace, base, gap, result);
     std::stable_sort(result.begin(),
                      result.end(),
                      [](const Localisation &a, const Localisation &b) {

@@ -77,6 +77,7 @@ TEST(DiagnosisJson, TheBlocksAreTheDocumentedOnes)
                "p_conditions",
                "p_replicates",
                "p_together",
+               "p_track",
                "excess",
                "rms_percent",
                "noise_floor_percent"});

@@ -1,4 +1,5 @@
 #include <slipstep/diagnosis/score.h>
+#include <slipstep/diagnosis/track_waves.h>
 
 #include <gtest/gtest.h>
 
@@ -113,4 +114,81 @@ TEST(ChanceOfAgreement, WithoutReplicatesThereIsNone)
                         Eigen::VectorXd::Ones(comparison.n_rows()),
                         draw_null(comparison, known(comparison), 99, 1)),
     1.);
+}
+
+
+
+namespace
+{
+  // Three tests over the same 2.4 mm, and a model with one parameter that
+  // scales friction, which leaves noise and a wave along the track.
+  struct Track
+  {
+    Comparison comparison = two_and_one();
+    Covariates covariates;
+    RowMatrix  null = draw_null(comparison, known(comparison), 199, 1);
+
+    Track()
+    {
+      covariates.position.resize(comparison.n_rows());
+      for (const ComparedTest &test : comparison.tests)
+        for (Eigen::Index i = 0; i < test.size; ++i)
+          covariates.position(test.begin + i) = 0.01 * i;
+      covariates.friction = comparison.measured;
+    }
+
+    TrackWave find(const std::uint64_t seed,
+                   const double        strength,
+                   const double        wavelength) const
+    {
+      RowMatrix wave(comparison.n_rows(), 2);
+      for (Eigen::Index i = 0; i < wave.rows(); ++i)
+        wave.row(i) << strength * 0.1 *
+                         std::sin(0.7 + 2. * M_PI * covariates.position(i) /
+                                          wavelength),
+          0.1;
+      comparison.whiten(wave);
+      Model model;
+      model.residual =
+        wave.col(0) + draw_null(comparison, known(comparison), 1, seed).col(0);
+      model.derivatives = wave.col(1);
+      return find_track_wave(comparison, covariates, model, null);
+    }
+  };
+} // namespace
+
+
+
+TEST(TrackWaves, NoiseHasItsChance)
+{
+  const Track  track;
+  unsigned int n_alarms = 0;
+  for (unsigned int seed = 10; seed < 110; ++seed)
+    n_alarms += track.find(seed, 0., 1.).p <= 0.1;
+  EXPECT_LE(n_alarms, 22u);
+  EXPECT_GE(n_alarms, 1u);
+}
+
+
+
+TEST(TrackWaves, AreSeenWithTheirLength)
+{
+  const Track track;
+  for (const double wavelength : {0.1, 0.29, 0.61})
+    {
+      const TrackWave found = track.find(3, 0.01, wavelength);
+      EXPECT_LE(found.p, 0.01) << wavelength;
+      // Half a wave apart over 2.4 mm.
+      EXPECT_NEAR(2.4 / found.wavelength, 2.4 / wavelength, 0.5);
+    }
+}
+
+
+
+TEST(TrackWaves, WithoutMotionThereAreNone)
+{
+  Track track;
+  track.covariates.position.setConstant(1.);
+  EXPECT_TRUE(track_wavelengths(track.comparison, track.covariates).empty());
+  EXPECT_EQ(track.find(3, 0.01, 0.3).p, 1.);
 }

@@ -211,6 +211,7 @@ namespace SyntheticDiagnosis
     result.p_waves        = 0.6;
     result.p_conditions   = 0.37;
     result.p_replicates   = 0.52;
+    result.p_track        = 0.83;
     const double infinity = std::numeric_limits<double>::infinity();
     const double none     = std::nan("");
     result.candidates     = {

@@ -34,6 +34,7 @@ namespace SlipStep
     Eigen::VectorXd speed;    ///< of the load point [mm/s], 0 at rest
     Eigen::VectorXd pressure; ///< [MPa]
     Eigen::VectorXd path;     ///< [mm], since the beginning of the test
+    Eigen::VectorXd position; ///< displacement along the first axis [mm]
     /// Slip since the last start, stop or reversal [mm].
     Eigen::VectorXd since_start;
     /// Duration of the last rest [s], 0 before any.

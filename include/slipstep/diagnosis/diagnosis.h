@@ -204,7 +204,7 @@ namespace SlipStep
     bool   has_gap  = false;
     double gap_p    = 1.;
     double p_smooth = 1., p_waves = 1., p_conditions = 1., p_replicates = 1.,
-           p_together                = 1.;
+           p_together = 1., p_track = 1.;
     double                    excess = 0.; ///< of the objective
     std::vector<Localisation> where;       ///< most first
 

@@ -91,15 +91,18 @@ namespace SlipStep
   /// Whether anything is missing.
   struct GapTest
   {
-    double p            = 1.; ///< of all five, Bonferroni
+    double p            = 1.; ///< of all six, Bonferroni
     double p_smooth     = 1.; ///< largest score of covariates and candidates
     double p_waves      = 1.; ///< slow waves within tests
     double p_conditions = 1.; ///< between conditions
     double p_together   = 1.; ///< all of these at once
     double p_replicates = 1.; ///< what replicates have in common
+    double p_track      = 1.; ///< waves along the track
     /// What a model with anything at all could explain, beyond chance.
     double          excess = 0.;
     Eigen::VectorXd explained; ///< that part of the residual, whitened
+    /// Of the clearest wave along the track [mm], 0 if none could be seen.
+    double wavelength = 0.;
   };
 
   /// The chance that replicates agree as much in what a model leaves: their

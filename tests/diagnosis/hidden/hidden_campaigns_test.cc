@@ -1,3 +1,5 @@
+#include <slipstep/diagnosis/where.h>
+
 #include <tests/diagnosis/hidden/trial.h>
 
 #include <gtest/gtest.h>
@@ -293,6 +295,23 @@ TEST(HiddenStrength, OfHealingIsInsideItsInterval)
   ASSERT_EQ(trial.named, std::vector<std::string>{"healing"});
   EXPECT_EQ(trial.n_intervals, 1u);
   EXPECT_EQ(trial.n_inside, 1u);
+}
+
+
+
+// Half a per cent of friction in waves of 1.04 mm, of which no other statistic
+// sees anything.
+TEST_F(CampaignFolder, WaveAlongTheTrackIsTold)
+{
+  plant(CampaignClass::outside, 115);
+  const Judgement judgement = judged();
+  EXPECT_EQ(name_of(judgement.verdict), "unnamed");
+  EXPECT_LE(judgement.gap.p_track, 0.002);
+  const std::vector<Localisation> where =
+    localise(*prepared.workspace, prepared.base, judgement.gap);
+  ASSERT_FALSE(where.empty());
+  EXPECT_EQ(where[0].covariate, "position");
+  EXPECT_NEAR(where[0].from, 1.0418, 0.03);
 }
 
 

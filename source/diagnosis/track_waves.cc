@@ -1,0 +1,118 @@
+#include <deal.II/base/numbers.h>
+
+#include <slipstep/diagnosis/track_waves.h>
+#include <slipstep/experiment/test_rows.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace SlipStep
+{
+  using dealii::numbers::PI;
+
+  namespace
+  {
+    constexpr unsigned int n_shifts = 4;
+
+    // From the row before in the same test, or to the next one [mm].
+    Eigen::VectorXd distances(const Comparison &comparison,
+                              const Covariates &covariates)
+    {
+      Eigen::VectorXd result = Eigen::VectorXd::Zero(comparison.n_rows());
+      for (const ComparedTest &test : comparison.tests)
+        for (Eigen::Index i = 1; i < test.size; ++i)
+          if (i != Eigen::Index(test.n_bins()))
+            {
+              const Eigen::Index row = test.begin + i;
+              result(row)            = std::abs(covariates.position(row) -
+                                     covariates.position(row - 1));
+              result(row - 1)        = std::max(result(row - 1), result(row));
+            }
+      return result;
+    }
+
+
+
+    // Of most tests; few may go much farther [mm].
+    double usual_track(const Comparison &comparison,
+                       const Covariates &covariates)
+    {
+      std::vector<double> tracks;
+      for (const ComparedTest &test : comparison.tests)
+        {
+          const auto x = covariates.position.segment(test.begin, test.size);
+          if (x.maxCoeff() > x.minCoeff())
+            tracks.push_back(x.maxCoeff() - x.minCoeff());
+        }
+      return tracks.empty() ? 0. : median(tracks);
+    }
+  } // namespace
+
+
+
+  std::vector<double> track_wavelengths(const Comparison &comparison,
+                                        const Covariates &covariates)
+  {
+    // More of them would cost more than they find.
+    constexpr double most_waves = 32.;
+
+    const double        track = usual_track(comparison, covariates);
+    std::vector<double> result;
+    if (!(track > 0.))
+      return result;
+    // A wave between two of these is an eighth out of step at the ends.
+    for (double n_waves = 2.; n_waves <= most_waves; n_waves += 0.5)
+      result.push_back(track / n_waves);
+    return result;
+  }
+
+
+
+  std::vector<Direction> track_waves(const Comparison          &comparison,
+                                     const Covariates          &covariates,
+                                     const std::vector<double> &wavelengths)
+  {
+    constexpr double least_rows_per_wave = 4.;
+
+    const Eigen::VectorXd  distance = distances(comparison, covariates);
+    std::vector<Direction> result;
+    for (const double wavelength : wavelengths)
+      for (unsigned int k = 0; k < n_shifts; ++k)
+        {
+          Direction direction;
+          direction.friction = covariates.friction;
+          for (Eigen::Index i = 0; i < direction.friction.size(); ++i)
+            direction.friction(i) *=
+              distance(i) * least_rows_per_wave > wavelength ?
+                0. :
+                std::cos(PI * (2. * covariates.position(i) / wavelength -
+                               double(k) / n_shifts));
+          result.push_back(direction);
+        }
+    return result;
+  }
+
+
+
+  TrackWave find_track_wave(const Comparison &comparison,
+                            const Covariates &covariates,
+                            const Model      &model,
+                            const RowMatrix  &null_draws)
+  {
+    const std::vector<double> wavelengths =
+      track_wavelengths(comparison, covariates);
+    if (wavelengths.empty())
+      return {};
+    const ScoreTest test(comparison,
+                         model,
+                         null_draws,
+                         track_waves(comparison, covariates, wavelengths));
+    const auto      clearest = std::max_element(test.scores.begin(),
+                                           test.scores.end(),
+                                           [](const Score &a, const Score &b) {
+                                             return a.value < b.value;
+                                           });
+    return {test.family_p(clearest->value),
+            wavelengths[(clearest - test.scores.begin()) / n_shifts]};
+  }
+} // namespace SlipStep
