@@ -137,21 +137,14 @@ namespace SlipStep
   Comparison::difference(Simulator                 &simulator,
                          const std::vector<double> &scaled) const
   {
-    const Campaign     &campaign = simulator.campaign;
-    std::vector<double> rows(campaign.n_residuals());
-    try
-      {
-        simulator.residuals(scaled, rows.data());
-      }
-    catch (const InputError &)
-      {
-        return {};
-      }
-    catch (const RunError &)
-      {
-        throw_if_stopped();
-        return {};
-      }
+    const Campaign &campaign = simulator.campaign;
+    const auto      rows     = if_possible([&]() {
+      std::vector<double> residuals(campaign.n_residuals());
+      simulator.residuals(scaled, residuals.data());
+      return residuals;
+    });
+    if (rows.empty())
+      return {};
     Eigen::VectorXd result(n_rows());
     const double   *begin = rows.data();
     for (std::size_t i = 0; i < tests.size(); ++i)

@@ -102,6 +102,29 @@ namespace SlipStep
 
 
 
+    // How strong the hats are in the correction that explains most.
+    Eigen::VectorXd smooth_corrections(const Workspace           &workspace,
+                                       const Model               &base,
+                                       const Eigen::VectorXd     &x,
+                                       const std::vector<double> &knots)
+    {
+      std::vector<Direction> directions(n_knots);
+      for (unsigned int k = 0; k < n_knots; ++k)
+        directions[k].friction =
+          x.unaryExpr([&](const double value) {
+             return std::isfinite(value) ? hat(knots, k, value) : 0.;
+           })
+            .cwiseProduct(workspace.covariates.friction);
+      Eigen::VectorXd result =
+        ScoreTest(workspace.comparison, base, workspace.null_draws, directions)
+          .mixture(0.01);
+      // What is the same everywhere belongs to the coefficients.
+      result.array() -= result.mean();
+      return result.cwiseMax(-0.9).cwiseMin(3.);
+    }
+
+
+
     std::optional<Correction> correct_along(const Workspace   &workspace,
                                             const Model       &base,
                                             const Judgement   &judgement,
@@ -113,49 +136,27 @@ namespace SlipStep
       const std::vector<double> knots = knots_of(covariate->x);
       if (knots.empty())
         return {};
-      std::vector<Direction> directions(n_knots);
-      for (unsigned int k = 0; k < n_knots; ++k)
-        directions[k].friction =
-          covariate->x
-            .unaryExpr([&](const double x) {
-              return std::isfinite(x) ? hat(knots, k, x) : 0.;
-            })
-            .cwiseProduct(workspace.covariates.friction);
-      const ScoreTest test(workspace.comparison,
-                           base,
-                           workspace.null_draws,
-                           directions);
-      Eigen::VectorXd corrections = test.mixture(0.01);
-      // What is the same everywhere belongs to the coefficients.
-      corrections.array() -= corrections.mean();
-      corrections = corrections.cwiseMax(-0.9).cwiseMin(3.);
-
       Correction result;
       result.covariate = covariate->key;
-      result.formula   = formula_of(knots, corrections);
+      result.formula =
+        formula_of(knots,
+                   smooth_corrections(workspace, base, covariate->x, knots));
       Formula formula;
       formula.effect   = "expression";
       formula.settings = {{"Friction/expression/Covariate", result.covariate},
                           {"Friction/expression/Formula", result.formula},
                           {"Friction/expression/From", number(knots.front())},
                           {"Friction/expression/To", number(knots.back())}};
-      try
-        {
-          result.model = make_model(workspace.start,
-                                    {{"expression", formula}},
-                                    base.values(),
-                                    workspace.tests,
-                                    &base);
-        }
-      catch (const InputError &)
-        {
-          return {};
-        }
-      catch (const RunError &)
-        {
-          throw_if_stopped();
-          return {};
-        }
+      const auto model = if_possible([&]() -> std::optional<Model> {
+        return make_model(workspace.start,
+                          {{"expression", formula}},
+                          base.values(),
+                          workspace.tests,
+                          &base);
+      });
+      if (!model.has_value())
+        return {};
+      result.model = *model;
       if (!workspace.comparison.fit(result.model, 0.05))
         return {};
       const GapTest after =

@@ -354,67 +354,96 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    Covariates zeros(const Eigen::Index n)
+    {
+      Covariates result;
+      result.phase.resize(n);
+      for (Eigen::VectorXd *values : {&result.speed,
+                                      &result.pressure,
+                                      &result.path,
+                                      &result.position,
+                                      &result.since_start,
+                                      &result.rest,
+                                      &result.since_rest,
+                                      &result.angle,
+                                      &result.is_reverse,
+                                      &result.heat,
+                                      &result.order,
+                                      &result.axis,
+                                      &result.unloading,
+                                      &result.pressure_rate,
+                                      &result.pressure_change,
+                                      &result.speed_change})
+        *values = Eigen::VectorXd::Zero(n);
+      return result;
+    }
+
+
+
+    // Of one test at every row: the simulated friction of the row's bin.
+    std::vector<double> friction_at_rows(const ComparedTest    &test,
+                                         const Eigen::VectorXd &friction)
+    {
+      const std::size_t   n_bins = test.n_bins();
+      std::vector<double> result;
+      for (std::size_t i = 0; i < n_bins; ++i)
+        result.resize(test.borders[i + 1] - test.borders[0],
+                      test.series.size() == 1 ?
+                        friction(test.begin + i) :
+                        std::hypot(friction(test.begin + i),
+                                   friction(test.begin + n_bins + i)));
+      return result;
+    }
+
+
+
+    // Row k of those compared is this row of a test.
+    void copy_row(const MeasuredTest &test,
+                  const TestRows     &rows,
+                  const std::size_t   row,
+                  const Eigen::Index  k,
+                  Covariates         &covariates)
+    {
+      covariates.speed(k)       = rows.speed[row];
+      covariates.pressure(k)    = test.pressure[row];
+      covariates.path(k)        = rows.path[row];
+      covariates.position(k)    = test.displacement[row];
+      covariates.since_start(k) = rows.since_start[row];
+      covariates.rest(k)        = rows.rest[row];
+      covariates.since_rest(k)  = rows.since_rest[row];
+      covariates.angle(k)       = rows.angle[row];
+      covariates.is_reverse(k) =
+        rows.speed[row] > 0. && std::cos(rows.angle[row]) < -0.5 ? 1. : 0.;
+      covariates.heat(k)  = rows.heat[row];
+      covariates.order(k) = order_of(test);
+      covariates.phase[k] = rows.phase[row];
+    }
+  } // namespace
+
+
+
   Covariates find_covariates(const Comparison                &comparison,
                              const std::vector<CampaignTest> &tests,
                              const Eigen::VectorXd           &friction,
                              const double elastic_slip_per_pressure)
   {
-    const Eigen::Index n = comparison.n_rows();
-    Covariates         result;
-    result.phase.resize(n);
-    result.friction = friction;
-    for (Eigen::VectorXd *values : {&result.speed,
-                                    &result.pressure,
-                                    &result.path,
-                                    &result.position,
-                                    &result.since_start,
-                                    &result.rest,
-                                    &result.since_rest,
-                                    &result.angle,
-                                    &result.is_reverse,
-                                    &result.heat,
-                                    &result.order,
-                                    &result.axis,
-                                    &result.unloading,
-                                    &result.pressure_rate})
-      *values = Eigen::VectorXd::Zero(n);
+    Covariates result = zeros(comparison.n_rows());
+    result.friction   = friction;
     for (std::size_t t = 0; t < tests.size(); ++t)
       {
-        const ComparedTest &test   = comparison.tests[t];
-        const std::size_t   n_bins = test.n_bins();
-        // At every row the friction of the bin.
-        std::vector<double> rows_friction;
-        for (std::size_t i = 0; i < n_bins; ++i)
-          for (std::size_t row = test.borders[i]; row < test.borders[i + 1];
-               ++row)
-            rows_friction.push_back(
-              test.series.size() == 1 ?
-                friction(test.begin + i) :
-                std::hypot(friction(test.begin + i),
-                           friction(test.begin + n_bins + i)));
-        const TestRows rows =
-          RowReader(tests[t].rows, rows_friction, elastic_slip_per_pressure)
-            .read();
+        const ComparedTest &test = comparison.tests[t];
+        const TestRows      rows = RowReader(tests[t].rows,
+                                        friction_at_rows(test, friction),
+                                        elastic_slip_per_pressure)
+                                .read();
         for (std::size_t s = 0; s < test.series.size(); ++s)
-          for (std::size_t i = 0; i < n_bins; ++i)
+          for (std::size_t i = 0; i < test.n_bins(); ++i)
             {
-              const Eigen::Index k   = test.begin + s * n_bins + i;
-              const std::size_t  row = middle_row(test, i);
-              result.speed(k)        = rows.speed[row];
-              result.pressure(k)     = tests[t].rows.pressure[row];
-              result.path(k)         = rows.path[row];
-              result.position(k)     = tests[t].rows.displacement[row];
-              result.since_start(k)  = rows.since_start[row];
-              result.rest(k)         = rows.rest[row];
-              result.since_rest(k)   = rows.since_rest[row];
-              result.angle(k)        = rows.angle[row];
-              result.is_reverse(k) =
-                rows.speed[row] > 0. && std::cos(rows.angle[row]) < -0.5 ? 1. :
-                                                                           0.;
-              result.heat(k)  = rows.heat[row];
-              result.order(k) = order_of(tests[t].rows);
-              result.axis(k)  = s;
-              result.phase[k] = rows.phase[row];
+              const Eigen::Index k = test.begin + s * test.n_bins() + i;
+              copy_row(tests[t].rows, rows, middle_row(test, i), k, result);
+              result.axis(k) = s;
             }
       }
     follow_pressure(comparison, tests, result);
@@ -426,8 +455,6 @@ namespace SlipStep
         result.speed_change =
           lagging_change(comparison, result.path, result.speed, length);
       }
-    else
-      result.pressure_change = result.speed_change = Eigen::VectorXd::Zero(n);
     return result;
   }
 

@@ -109,76 +109,86 @@ namespace SlipStep
     // Below this share of the friction, greatest over the rows, nothing but
     // round-off and time steps are seen.
     constexpr double least_change = 1e-5;
+
+
+
+    // What the catalogue would change, without scores yet.
+    View find_directions(const Workspace &workspace, const Model &model)
+    {
+      const std::vector<Candidate> candidates =
+        make_candidates(model.simulator->with(model.scaled), workspace.range);
+      std::vector<std::vector<Direction>> found(candidates.size());
+      std::vector<std::string>            failures(candidates.size());
+      side_by_side(candidates.size(), [&](const std::size_t c) {
+        Model own     = model;
+        own.simulator = std::make_shared<Simulator>(*model.simulator);
+        for (std::size_t f = 0; f < candidates[c].formulas.size(); ++f)
+          {
+            const std::string failure =
+              add_directions(workspace, own, candidates[c], c, f, found[c]);
+            if (!failure.empty())
+              failures[c] = failure;
+          }
+      });
+      View view;
+      view.candidates.resize(candidates.size());
+      for (std::size_t c = 0; c < candidates.size(); ++c)
+        {
+          for (const Direction &direction : found[c])
+            if (direction.friction.cwiseAbs().maxCoeff() >
+                least_change * workspace.range.typical_friction)
+              view.directions.push_back(direction);
+          view.candidates[c].candidate = candidates[c];
+          if (found[c].empty())
+            view.candidates[c].failure = failures[c];
+        }
+      return view;
+    }
+
+
+
+    void see(const Direction &direction,
+             const Score     &score,
+             const double     typical_friction,
+             CandidateView   &seen)
+    {
+      keep_best(seen.ways, {direction, score});
+      if (score.free_length > 0.)
+        seen.minimum_detectable =
+          std::min(seen.minimum_detectable,
+                   seen_deviations * score.deviation / score.free_length *
+                     direction.friction.cwiseAbs().maxCoeff() /
+                     typical_friction);
+    }
   } // namespace
 
 
 
-  View look(Workspace &workspace, const Model &model)
+  View look(const Workspace &workspace, const Model &model)
   {
-    const std::vector<Candidate> candidates =
-      make_candidates(model.simulator->with(model.scaled), workspace.range);
-    std::vector<std::vector<Direction>> found(candidates.size());
-    std::vector<std::string>            failures(candidates.size());
-    side_by_side(candidates.size(), [&](const std::size_t c) {
-      Model own     = model;
-      own.simulator = std::make_shared<Simulator>(*model.simulator);
-      for (std::size_t f = 0; f < candidates[c].formulas.size(); ++f)
-        {
-          const std::string failure =
-            add_directions(workspace, own, candidates[c], c, f, found[c]);
-          if (!failure.empty())
-            failures[c] = failure;
-        }
-    });
-    View view;
-    for (const auto &directions : found)
-      for (const Direction &direction : directions)
-        if (direction.friction.cwiseAbs().maxCoeff() >
-            least_change * workspace.range.typical_friction)
-          view.directions.push_back(direction);
-    view.candidates.resize(candidates.size());
-    for (std::size_t c = 0; c < candidates.size(); ++c)
-      {
-        view.candidates[c].candidate = candidates[c];
-        if (found[c].empty())
-          view.candidates[c].failure = failures[c];
-      }
+    View view = find_directions(workspace, model);
     if (view.directions.empty())
       return view;
-
     const ScoreTest scores(workspace.comparison,
                            model,
                            workspace.null_draws,
                            view.directions);
     for (std::size_t d = 0; d < view.directions.size(); ++d)
-      {
-        const Direction &direction = view.directions[d];
-        const Score     &score     = scores.scores[d];
-        CandidateView   &seen      = view.candidates[direction.candidate];
-        keep_best(seen.ways, {direction, score});
-        if (score.free_length > 0.)
-          seen.minimum_detectable =
-            std::min(seen.minimum_detectable,
-                     seen_deviations * score.deviation / score.free_length *
-                       direction.friction.cwiseAbs().maxCoeff() /
-                       workspace.range.typical_friction);
-      }
+      see(view.directions[d],
+          scores.scores[d],
+          workspace.range.typical_friction,
+          view.candidates[view.directions[d].candidate]);
+    const auto is_better = [](const auto &a, const auto &b) {
+      return a.score.value > b.score.value;
+    };
     for (CandidateView &seen : view.candidates)
       {
-        std::stable_sort(seen.ways.begin(),
-                         seen.ways.end(),
-                         [](const auto &a, const auto &b) {
-                           return a.score.value > b.score.value;
-                         });
+        std::stable_sort(seen.ways.begin(), seen.ways.end(), is_better);
         if (!seen.ways.empty())
           seen.score = seen.ways.front().score;
         seen.p = scores.family_p(seen.score.value);
       }
-    std::stable_sort(view.candidates.begin(),
-                     view.candidates.end(),
-                     [](const CandidateView &a, const CandidateView &b) {
-                       return a.score.value > b.score.value;
-                     });
+    std::stable_sort(view.candidates.begin(), view.candidates.end(), is_better);
     return view;
   }
 

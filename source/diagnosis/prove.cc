@@ -36,39 +36,25 @@ namespace SlipStep
                               const bool                 plan)
       {
         constexpr std::size_t most_steps = 5000;
-        try
-          {
-            Simulator         simulator(*model.simulator);
-            const Parameters &parameters = simulator.with(scaled);
-            const FrictionLaw law(parameters);
-            const Machine     machine(parameters);
-            if (plan)
-              replay.plan(law,
-                          machine,
-                          model.campaign->search_tolerance,
-                          most_steps);
-            Replay::Curve curve;
-            replay.simulate(law, machine, curve);
-            const std::vector<double> x =
-              replay.at(curve.friction, motion.time);
-            const std::vector<double> y =
-              motion.displacement_y.empty() ?
-                std::vector<double>() :
-                replay.at(curve.friction_y, motion.time);
-            Eigen::VectorXd result(x.size() + y.size());
-            for (std::size_t i = 0; i < x.size(); ++i)
-              result(i) = x[i];
-            for (std::size_t i = 0; i < y.size(); ++i)
-              result(x.size() + i) = y[i];
-            return result;
-          }
-        catch (const InputError &)
-          {}
-        catch (const RunError &)
-          {
-            throw_if_stopped();
-          }
-        return {};
+        return if_possible([&]() {
+          Simulator         simulator(*model.simulator);
+          const Parameters &parameters = simulator.with(scaled);
+          const FrictionLaw law(parameters);
+          const Machine     machine(parameters);
+          if (plan)
+            replay.plan(law,
+                        machine,
+                        model.campaign->search_tolerance,
+                        most_steps);
+          Replay::Curve curve;
+          replay.simulate(law, machine, curve);
+          std::vector<double> both = replay.at(curve.friction, motion.time);
+          if (!motion.displacement_y.empty())
+            for (const double y : replay.at(curve.friction_y, motion.time))
+              both.push_back(y);
+          return Eigen::VectorXd(
+            Eigen::Map<const Eigen::VectorXd>(both.data(), both.size()));
+        });
       }
 
       // What one standard deviation of each combination of the parameters
@@ -203,33 +189,26 @@ namespace SlipStep
     {
       const Formula &formula = candidate.formulas.front();
       const Shape   &shape   = formula.shapes[formula.shapes.size() / 2];
-      try
-        {
-          Model model =
-            make_model(workspace.start,
-                       with_part(base, candidate, 0),
-                       merged(base.values(), shape.values(worthwhile_strength)),
-                       workspace.tests,
-                       &base);
-          // The effect stays; what these tests show of it, the others take
-          // away again.
-          std::vector<bool> held;
-          for (const FitParameter &parameter : model.campaign->fitted)
-            held.push_back(std::any_of(formula.parameters.begin(),
-                                       formula.parameters.end(),
-                                       [&](const CandidateParameter &own) {
-                                         return own.path == parameter.path;
-                                       }));
-          if (workspace.comparison.fit(model, 1., {}, held))
-            return model;
-        }
-      catch (const InputError &)
-        {}
-      catch (const RunError &)
-        {
-          throw_if_stopped();
-        }
-      return {};
+      return if_possible([&]() -> std::optional<Model> {
+        Model model =
+          make_model(workspace.start,
+                     with_part(base, candidate, 0),
+                     merged(base.values(), shape.values(worthwhile_strength)),
+                     workspace.tests,
+                     &base);
+        // The effect stays; what these tests show of it, the others take away
+        // again.
+        std::vector<bool> held;
+        for (const FitParameter &parameter : model.campaign->fitted)
+          held.push_back(std::any_of(formula.parameters.begin(),
+                                     formula.parameters.end(),
+                                     [&](const CandidateParameter &own) {
+                                       return own.path == parameter.path;
+                                     }));
+        if (workspace.comparison.fit(model, 1., {}, held))
+          return model;
+        return {};
+      });
     }
 
 

@@ -17,6 +17,15 @@ namespace SlipStep
 
 
 
+    std::optional<Model> fitted(const Workspace &workspace, Model model)
+    {
+      return workspace.comparison.fit(model, precision) ?
+               std::make_optional(std::move(model)) :
+               std::nullopt;
+    }
+
+
+
     // With the effect at a strength, less if that cannot be simulated.
     std::optional<Model> fit_from(const Workspace &workspace,
                                   const Model     &model,
@@ -27,25 +36,19 @@ namespace SlipStep
     {
       const Shape &shape =
         candidate.formulas[direction.formula].shapes[direction.shape];
-      for (unsigned int attempt = 0; attempt < 2; ++attempt, strength *= 0.1)
-        try
-          {
-            Model result =
-              make_model(workspace.start,
-                         with_part(model, candidate, direction.formula),
-                         merged(values, shape.values(strength)),
-                         workspace.tests,
-                         &model);
-            if (workspace.comparison.fit(result, precision))
-              return result;
-          }
-        catch (const InputError &)
-          {}
-        catch (const RunError &)
-          {
-            throw_if_stopped();
-          }
-      return {};
+      std::optional<Model> result;
+      for (unsigned int attempt = 0; attempt < 2 && !result.has_value();
+           ++attempt, strength *= 0.1)
+        result = if_possible([&]() {
+          return fitted(
+            workspace,
+            make_model(workspace.start,
+                       with_part(model, candidate, direction.formula),
+                       merged(values, shape.values(strength)),
+                       workspace.tests,
+                       &model));
+        });
+      return result;
     }
 
 
@@ -177,23 +180,14 @@ namespace SlipStep
       std::vector<Part> parts = model.parts;
       parts.erase(parts.begin() + part);
       ++workspace.n_refits;
-      try
-        {
-          Model result = make_model(
-            workspace.start, parts, model.values(), workspace.tests, &model);
-          // The model that it is compared with is not weak in what is missing
-          // here.
-          result.simulator->correct(result.scaled, correction_share);
-          if (workspace.comparison.fit(result, precision))
-            return result;
-        }
-      catch (const InputError &)
-        {}
-      catch (const RunError &)
-        {
-          throw_if_stopped();
-        }
-      return {};
+      return if_possible([&]() {
+        Model result = make_model(
+          workspace.start, parts, model.values(), workspace.tests, &model);
+        // The model that it is compared with is not weak in what is missing
+        // here.
+        result.simulator->correct(result.scaled, correction_share);
+        return fitted(workspace, std::move(result));
+      });
     }
 
 
@@ -438,8 +432,50 @@ namespace SlipStep
 
 
 
-  // By one step of Gauss and Newton from the optimum of all conditions; by a
-  // fit of its own where that goes far.
+  namespace
+  {
+    // A model as fitted to all conditions but one: by one step of Gauss and
+    // Newton from the optimum of all, by a fit of its own where that goes far.
+    Model fit_without(const Comparison &comparison,
+                      const Model      &model,
+                      const std::size_t condition)
+    {
+      Eigen::MatrixXd   derivatives = model.derivatives;
+      Eigen::VectorXd   residual    = model.residual;
+      std::vector<bool> left_out;
+      for (const ComparedTest &test : comparison.tests)
+        {
+          left_out.push_back(test.condition == condition);
+          if (!left_out.back())
+            continue;
+          derivatives.middleRows(test.begin, test.size).setZero();
+          residual.segment(test.begin, test.size).setZero();
+        }
+      Model result     = model;
+      result.simulator = std::make_shared<Simulator>(*model.simulator);
+      const Eigen::MatrixXd curvature = derivatives.transpose() * derivatives;
+      const Eigen::VectorXd step =
+        curvature.completeOrthogonalDecomposition().solve(
+          derivatives.transpose() * residual);
+      bool is_near = true;
+      for (std::size_t i = 0; i < result.scaled.size(); ++i)
+        {
+          const double slope =
+            natural_slope(model.campaign->fitted[i], model.scaled[i]);
+          is_near          = is_near && std::abs(step(i)) * slope < 0.5;
+          result.scaled[i] = std::clamp(result.scaled[i] + step(i), 0., 1.);
+        }
+      if (!is_near)
+        {
+          result.scaled = model.scaled;
+          comparison.fit(result, 1., left_out);
+        }
+      return result;
+    }
+  } // namespace
+
+
+
   std::vector<double> left_out_squares(const Workspace &workspace,
                                        const Model     &model,
                                        Eigen::VectorXd *differences)
@@ -455,36 +491,7 @@ namespace SlipStep
     if (is_one)
       return std::vector<double>(comparison.tests.size(), none);
     side_by_side(comparison.conditions.size(), [&](const std::size_t c) {
-      Eigen::MatrixXd   derivatives = model.derivatives;
-      Eigen::VectorXd   residual    = model.residual;
-      std::vector<bool> left_out;
-      for (const ComparedTest &test : comparison.tests)
-        {
-          left_out.push_back(test.condition == c);
-          if (!left_out.back())
-            continue;
-          derivatives.middleRows(test.begin, test.size).setZero();
-          residual.segment(test.begin, test.size).setZero();
-        }
-      Model other     = model;
-      other.simulator = std::make_shared<Simulator>(*model.simulator);
-      const Eigen::MatrixXd curvature = derivatives.transpose() * derivatives;
-      const Eigen::VectorXd step =
-        curvature.completeOrthogonalDecomposition().solve(
-          derivatives.transpose() * residual);
-      bool is_near = true;
-      for (std::size_t i = 0; i < other.scaled.size(); ++i)
-        {
-          const double slope =
-            natural_slope(model.campaign->fitted[i], model.scaled[i]);
-          is_near         = is_near && std::abs(step(i)) * slope < 0.5;
-          other.scaled[i] = std::clamp(other.scaled[i] + step(i), 0., 1.);
-        }
-      if (!is_near)
-        {
-          other.scaled = model.scaled;
-          comparison.fit(other, 1., left_out);
-        }
+      const Model           other = fit_without(comparison, model, c);
       const Eigen::VectorXd difference =
         comparison.difference(*other.simulator, other.scaled);
       if (difference.size() == 0)
@@ -492,15 +499,15 @@ namespace SlipStep
       RowMatrix whitened = difference;
       comparison.whiten(whitened);
       for (std::size_t t = 0; t < comparison.tests.size(); ++t)
-        if (left_out[t])
-          {
-            const ComparedTest &test = comparison.tests[t];
-            squares[t] =
-              whitened.middleRows(test.begin, test.size).squaredNorm();
-            if (differences != nullptr)
-              differences->segment(test.begin, test.size) =
-                difference.segment(test.begin, test.size);
-          }
+        {
+          const ComparedTest &test = comparison.tests[t];
+          if (test.condition != c)
+            continue;
+          squares[t] = whitened.middleRows(test.begin, test.size).squaredNorm();
+          if (differences != nullptr)
+            differences->segment(test.begin, test.size) =
+              difference.segment(test.begin, test.size);
+        }
     });
     return squares;
   }

@@ -128,6 +128,24 @@ namespace SlipStep
                    const std::vector<CampaignTest> &tests,
                    const Model                     *like = nullptr);
 
+  /// What @p attempt returns; nothing if it asks for a model that cannot be made
+  /// or simulated.
+  template <class Attempt>
+  auto if_possible(const Attempt &attempt) -> decltype(attempt())
+  {
+    try
+      {
+        return attempt();
+      }
+    catch (const InputError &)
+      {}
+    catch (const RunError &)
+      {
+        throw_if_stopped();
+      }
+    return {};
+  }
+
   /// How much smaller the errors of the steps are by which a model's own are
   /// taken out, see Simulator::correct(): what is left is of second order, and
   /// far below the noise.

@@ -60,7 +60,7 @@ namespace SlipStep
     std::vector<Direction>     directions;
   };
 
-  View look(Workspace &workspace, const Model &model);
+  View look(const Workspace &workspace, const Model &model);
 
   /// Directions of the covariates, and of the candidates seen from a model.
   std::vector<Direction> smooth_directions(const Workspace &workspace,
