@@ -44,19 +44,23 @@ namespace SlipStep
         if (!(high - low > (is_logarithmic ? 0.05 : 1e-6 * std::abs(high))))
           return;
         for (unsigned int degree = 1; degree <= 3; ++degree)
-          {
-            BasisColumn column{name, Eigen::VectorXd::Zero(n)};
-            for (Eigen::Index i = 0; i < n; ++i)
-              if (std::isfinite(x(i)))
-                {
-                  const double t     = 2. * (x(i) - low) / (high - low) - 1.;
-                  column.friction(i) = covariates.friction(i) *
-                                       (degree == 1 ? t :
-                                        degree == 2 ? 1.5 * t * t - 0.5 :
-                                                      t * (2.5 * t * t - 1.5));
-                }
-            add(column);
-          }
+          factor(name, [&](const Eigen::Index i) {
+            const double t = 2. * (x(i) - low) / (high - low) - 1.;
+            return !std::isfinite(x(i)) ? 0. :
+                   degree == 1          ? t :
+                   degree == 2          ? 1.5 * t * t - 0.5 :
+                                          t * (2.5 * t * t - 1.5);
+          });
+      }
+
+      // Friction times factor(row), unless that is nothing.
+      template <class Factor>
+      void factor(const std::string &name, const Factor &factor)
+      {
+        BasisColumn column{name, Eigen::VectorXd(n)};
+        for (Eigen::Index i = 0; i < n; ++i)
+          column.friction(i) = covariates.friction(i) * factor(i);
+        add(column);
       }
 
       void add(const BasisColumn &column)
@@ -88,38 +92,25 @@ namespace SlipStep
       const Covariates &at     = maker.covariates;
       const double      length = largest(at.path);
       // After a rest, a function of how long it was, forgotten by slip.
-      if (largest(at.rest) > 0.)
-        for (const double share : {0.01, 0.1, 1.})
-          {
-            BasisColumn column{"rest", Eigen::VectorXd::Zero(maker.n)};
-            for (Eigen::Index i = 0; i < maker.n; ++i)
-              if (at.rest(i) > 0. && at.speed(i) > 0.)
-                column.friction(i) =
-                  at.friction(i) * std::log1p(at.rest(i)) *
-                  std::exp(-at.since_start(i) / (share * length));
-            maker.add(column);
-          }
+      for (const double share : {0.01, 0.1, 1.})
+        maker.factor("rest", [&](const Eigen::Index i) {
+          return at.rest(i) > 0. && at.speed(i) > 0. ?
+                   std::log1p(at.rest(i)) *
+                     std::exp(-at.since_start(i) / (share * length)) :
+                   0.;
+        });
       // Since every start.
       for (const double share : {0.003, 0.03, 0.3})
-        {
-          BasisColumn column{"slip since start",
-                             Eigen::VectorXd::Zero(maker.n)};
-          for (Eigen::Index i = 0; i < maker.n; ++i)
-            if (at.speed(i) > 0.)
-              column.friction(i) =
-                at.friction(i) *
-                std::exp(-at.since_start(i) / (share * length));
-          maker.add(column);
-        }
+        maker.factor("slip since start", [&](const Eigen::Index i) {
+          return at.speed(i) > 0. ?
+                   std::exp(-at.since_start(i) / (share * length)) :
+                   0.;
+        });
       // Since the beginning of the test.
       for (const double share : {0.01, 0.1})
-        {
-          BasisColumn column{"path", Eigen::VectorXd::Zero(maker.n)};
-          for (Eigen::Index i = 0; i < maker.n; ++i)
-            column.friction(i) =
-              at.friction(i) * std::exp(-at.path(i) / (share * length));
-          maker.add(column);
-        }
+        maker.factor("path", [&](const Eigen::Index i) {
+          return std::exp(-at.path(i) / (share * length));
+        });
     }
 
 
@@ -166,13 +157,11 @@ namespace SlipStep
       for (unsigned int k = 0; k < n_places; ++k)
         {
           place /= ratio;
-          BasisColumn column{"path", Eigen::VectorXd::Zero(maker.n)};
-          for (Eigen::Index i = 0; i < maker.n; ++i)
-            column.friction(i) =
-              at.friction(i) /
-              (1. + std::pow(place / std::max(at.path(i), 1e-3 * place),
-                             2. * sharpness));
-          maker.add(column);
+          maker.factor("path", [&](const Eigen::Index i) {
+            return 1. /
+                   (1. + std::pow(place / std::max(at.path(i), 1e-3 * place),
+                                  2. * sharpness));
+          });
         }
     }
 
@@ -180,16 +169,9 @@ namespace SlipStep
 
     void add_directions(BasisMaker &maker)
     {
-      const Covariates &at  = maker.covariates;
-      const auto        add = [&](const std::string &name, const auto &factor) {
-        BasisColumn column{name, Eigen::VectorXd::Zero(maker.n)};
-        for (Eigen::Index i = 0; i < maker.n; ++i)
-          column.friction(i) = at.friction(i) * factor(i);
-        maker.add(column);
-      };
-      if (largest(at.is_reverse) > 0.)
-        add("direction",
-            [&](const Eigen::Index i) { return at.is_reverse(i); });
+      const Covariates &at = maker.covariates;
+      maker.factor("direction",
+                   [&](const Eigen::Index i) { return at.is_reverse(i); });
       bool is_oblique = false;
       for (Eigen::Index i = 0; i < maker.n; ++i)
         is_oblique = is_oblique || std::abs(std::sin(at.angle(i))) > 0.05;
@@ -197,10 +179,10 @@ namespace SlipStep
         return;
       for (const double multiple : {2., 4.})
         {
-          add("angle", [&](const Eigen::Index i) {
+          maker.factor("angle", [&](const Eigen::Index i) {
             return std::cos(multiple * at.angle(i));
           });
-          add("angle", [&](const Eigen::Index i) {
+          maker.factor("angle", [&](const Eigen::Index i) {
             return std::sin(multiple * at.angle(i));
           });
         }
