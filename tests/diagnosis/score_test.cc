@@ -139,13 +139,14 @@ namespace
 
     TrackWave find(const std::uint64_t seed,
                    const double        strength,
-                   const double        wavelength) const
+                   const double        wavelength,
+                   const double        phase = 0.) const
     {
       RowMatrix wave(comparison.n_rows(), 2);
       for (Eigen::Index i = 0; i < wave.rows(); ++i)
         wave.row(i) << strength * 0.1 *
-                         std::sin(0.7 + 2. * M_PI * covariates.position(i) /
-                                          wavelength),
+                         std::sin(phase + 2. * M_PI * covariates.position(i) /
+                                            wavelength),
           0.1;
       comparison.whiten(wave);
       Model model;
@@ -171,15 +172,35 @@ TEST(TrackWaves, NoiseHasItsChance)
 
 
 
-TEST(TrackWaves, AreSeenWithTheirLength)
+TEST(TrackWaves, AreSeenWithTheirLengthWhereverTheyBegin)
 {
   const Track track;
   for (const double wavelength : {0.1, 0.29, 0.61})
+    for (const double phase : {0., 0.8, 1.6})
+      {
+        const TrackWave found = track.find(3, 0.01, wavelength, phase);
+        EXPECT_LE(found.p, 0.01) << wavelength << ' ' << phase;
+        // Half a wave apart over 2.4 mm.
+        EXPECT_NEAR(2.4 / found.wavelength, 2.4 / wavelength, 0.5);
+      }
+}
+
+
+
+// Rows 0.01 mm apart, of which four make a wave.
+TEST(TrackWaves, AreOnlyWhereRowsTellThem)
+{
+  Track               track;
+  const ComparedTest &far = track.comparison.tests[2];
+  track.covariates.position.segment(far.begin, far.size) *= 10.;
+  for (const Direction &wave :
+       track_waves(track.comparison, track.covariates, {0.039}))
+    EXPECT_EQ(wave.friction.norm(), 0.);
+  for (const Direction &wave :
+       track_waves(track.comparison, track.covariates, {0.1}))
     {
-      const TrackWave found = track.find(3, 0.01, wavelength);
-      EXPECT_LE(found.p, 0.01) << wavelength;
-      // Half a wave apart over 2.4 mm.
-      EXPECT_NEAR(2.4 / found.wavelength, 2.4 / wavelength, 0.5);
+      EXPECT_GT(wave.friction.head(far.begin).norm(), 0.1);
+      EXPECT_EQ(wave.friction.segment(far.begin, far.size).norm(), 0.);
     }
 }
 
