@@ -85,9 +85,10 @@ TEST(Candidates, HealingIsRecoveryOrAgeing)
 {
   Parameters start = coulomb_case();
   start.set("Diagnosis/Candidates", "healing", "test");
-  const auto formulas = [&](const std::string &effects) {
+  TestedRange range    = usual_range();
+  const auto  formulas = [&](const std::string &effects) {
     start.set("Friction/Effects", effects, "test");
-    const std::vector<Candidate> found = make_candidates(start, usual_range());
+    const std::vector<Candidate> found = make_candidates(start, range);
     std::vector<std::string>     names;
     for (const Formula &formula : found[0].formulas)
       names.push_back(formula.effect);
@@ -99,6 +100,12 @@ TEST(Candidates, HealingIsRecoveryOrAgeing)
   EXPECT_EQ(formulas("softening, healing"), (Names{"", "ageing"}));
   start.set("Friction/healing/Rate", "1e-3 1/s", "test");
   EXPECT_EQ(formulas("softening, healing"), Names());
+
+  // Without rests there is no age.
+  range.longest_rest = 0.;
+  start.set("Friction/healing/Rate", "0 1/s", "test");
+  EXPECT_EQ(formulas(""), Names());
+  EXPECT_EQ(formulas("softening"), Names{"healing"});
 }
 
 
