@@ -359,13 +359,14 @@ namespace SlipStep
     result.p_track    = track.p;
     result.wavelength = track.wavelength;
     // Bonferroni, with most of the chance given to what has a name.
+    constexpr double share = 2. / 3., share_of_others = (1. - share) / 5.;
     result.p = std::min({1.,
-                         1.5 * result.p_smooth,
-                         12. * result.p_waves,
-                         12. * result.p_conditions,
-                         12. * result.p_together,
-                         12. * result.p_track,
-                         12. * result.p_replicates});
+                         result.p_smooth / share,
+                         result.p_waves / share_of_others,
+                         result.p_conditions / share_of_others,
+                         result.p_together / share_of_others,
+                         result.p_replicates / share_of_others,
+                         result.p_track / share_of_others});
     return result;
   }
 } // namespace SlipStep

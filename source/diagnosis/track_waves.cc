@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace SlipStep
 {
@@ -14,7 +15,8 @@ namespace SlipStep
   {
     constexpr unsigned int n_shifts = 4;
 
-    // From the row before in the same test, or to the next one [mm].
+    // From the row before in the same test, or to the next one [mm]; infinite
+    // at rest.
     Eigen::VectorXd distances(const Comparison &comparison,
                               const Covariates &covariates)
     {
@@ -28,8 +30,22 @@ namespace SlipStep
                                      covariates.position(row - 1));
               result(row - 1)        = std::max(result(row - 1), result(row));
             }
-      return result;
+      return (covariates.speed.array() > 0.)
+        .select(result, std::numeric_limits<double>::infinity());
     }
+
+
+
+    double track_of(const ComparedTest &test, const Covariates &covariates)
+    {
+      const auto x = covariates.position.segment(test.begin, test.size);
+      return x.maxCoeff() - x.minCoeff();
+    }
+
+
+
+    // What is less beside the longest track is no motion along it.
+    constexpr double least_track_share = 1e-3;
 
 
 
@@ -39,11 +55,16 @@ namespace SlipStep
     {
       std::vector<double> tracks;
       for (const ComparedTest &test : comparison.tests)
-        {
-          const auto x = covariates.position.segment(test.begin, test.size);
-          if (x.maxCoeff() > x.minCoeff())
-            tracks.push_back(x.maxCoeff() - x.minCoeff());
-        }
+        tracks.push_back(track_of(test, covariates));
+      const double longest =
+        tracks.empty() ? 0. : *std::max_element(tracks.begin(), tracks.end());
+      tracks.erase(std::remove_if(tracks.begin(),
+                                  tracks.end(),
+                                  [&](const double track) {
+                                    return !(track >
+                                             least_track_share * longest);
+                                  }),
+                   tracks.end());
       return tracks.empty() ? 0. : median(tracks);
     }
   } // namespace
@@ -72,9 +93,15 @@ namespace SlipStep
                                      const Covariates          &covariates,
                                      const std::vector<double> &wavelengths)
   {
-    constexpr double least_rows_per_wave = 4.;
+    // With room for round-off.
+    constexpr double most_of_wave = 0.25 * (1. + 1e-6);
 
-    const Eigen::VectorXd  distance = distances(comparison, covariates);
+    Eigen::VectorXd distance = distances(comparison, covariates);
+    for (const ComparedTest &test : comparison.tests)
+      if (!(track_of(test, covariates) >
+            least_track_share * usual_track(comparison, covariates)))
+        distance.segment(test.begin, test.size)
+          .setConstant(std::numeric_limits<double>::infinity());
     std::vector<Direction> result;
     for (const double wavelength : wavelengths)
       for (unsigned int k = 0; k < n_shifts; ++k)
@@ -83,7 +110,7 @@ namespace SlipStep
           direction.friction = covariates.friction;
           for (Eigen::Index i = 0; i < direction.friction.size(); ++i)
             direction.friction(i) *=
-              distance(i) * least_rows_per_wave > wavelength ?
+              distance(i) > most_of_wave * wavelength ?
                 0. :
                 std::cos(PI * (2. * covariates.position(i) / wavelength -
                                double(k) / n_shifts));

@@ -189,11 +189,13 @@ namespace SlipStep
                               workspace.covariates,
                               {gap.wavelength}))
           .together();
+      if (!(together.excess > least_share_told * gap.excess))
+        return;
       Localisation place;
       place.covariate = "position";
       place.unit      = "mm";
-      place.share =
-        gap.excess > 0. ? std::min(1., together.excess / gap.excess) : 1.;
+      // The excess knows other waves only.
+      place.share = together.excess / std::max(together.excess, gap.excess);
       place.from = place.to = gap.wavelength;
       find_members(workspace, together.explained, place);
       result.push_back(place);

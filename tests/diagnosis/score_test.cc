@@ -131,6 +131,7 @@ namespace
     Track()
     {
       covariates.position.resize(comparison.n_rows());
+      covariates.speed = Eigen::VectorXd::Ones(comparison.n_rows());
       for (const ComparedTest &test : comparison.tests)
         for (Eigen::Index i = 0; i < test.size; ++i)
           covariates.position(test.begin + i) = 0.01 * i;
@@ -201,6 +202,32 @@ TEST(TrackWaves, AreOnlyWhereRowsTellThem)
     {
       EXPECT_GT(wave.friction.head(far.begin).norm(), 0.1);
       EXPECT_EQ(wave.friction.segment(far.begin, far.size).norm(), 0.);
+    }
+}
+
+
+
+// A rest is no place, and a test that trembles on the spot has no track.
+TEST(TrackWaves, AreNotAtRest)
+{
+  Track               track;
+  const ComparedTest &held = track.comparison.tests[1];
+  for (const unsigned int t : {1, 2})
+    {
+      const ComparedTest &test = track.comparison.tests[t];
+      for (Eigen::Index i = 0; i < test.size; ++i)
+        track.covariates.position(test.begin + i) = 1e-6 * (i % 2);
+    }
+  track.covariates.speed.head(100).setZero();
+  const std::vector<double> wavelengths =
+    track_wavelengths(track.comparison, track.covariates);
+  EXPECT_NEAR(wavelengths.front(), 0.5 * 2.39, 1e-12);
+  for (const Direction &wave :
+       track_waves(track.comparison, track.covariates, wavelengths))
+    {
+      EXPECT_EQ(wave.friction.head(100).norm(), 0.);
+      EXPECT_GT(wave.friction.head(held.begin).norm(), 0.1);
+      EXPECT_EQ(wave.friction.tail(n_rows * 2).norm(), 0.);
     }
 }
 
