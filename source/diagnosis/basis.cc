@@ -53,13 +53,13 @@ namespace SlipStep
           });
       }
 
-      // Friction times factor(row), unless that is nothing.
+      // Friction times of_row(row), unless that is nothing.
       template <class Factor>
-      void factor(const std::string &name, const Factor &factor)
+      void factor(const std::string &name, const Factor &of_row)
       {
         BasisColumn column{name, Eigen::VectorXd(n)};
         for (Eigen::Index i = 0; i < n; ++i)
-          column.friction(i) = covariates.friction(i) * factor(i);
+          column.friction(i) = covariates.friction(i) * of_row(i);
         add(column);
       }
 

@@ -147,7 +147,7 @@ namespace SlipStep
                           {"Friction/expression/Formula", result.formula},
                           {"Friction/expression/From", number(knots.front())},
                           {"Friction/expression/To", number(knots.back())}};
-      const auto model = if_possible([&]() -> std::optional<Model> {
+      auto model       = if_possible([&]() -> std::optional<Model> {
         return make_model(workspace.start,
                           {{"expression", formula}},
                           base.values(),
@@ -156,7 +156,7 @@ namespace SlipStep
       });
       if (!model.has_value())
         return {};
-      result.model = *model;
+      result.model = std::move(*model);
       if (!workspace.comparison.fit(result.model, 0.05))
         return {};
       const GapTest after =

@@ -77,6 +77,7 @@ namespace SlipStep
               {"share", where.share},
               {"range", {where.from, where.to}},
               {"sign", where.sign},
+              {"wavelength", where.wavelength},
               {"phases", where.phases},
               {"tests", where.tests}};
     }

@@ -344,7 +344,8 @@ figure svg { max-width: 100%; }
              std::string(
                "Explains alone: how much of the difference beyond the noise a "
                "smooth correction along this quantity would take away; the "
-               "shares overlap. The range is where it is felt most.") +
+               "shares overlap. The range, if there is one, is where it is felt "
+               "most.") +
              history_words(diagnosis));
   }
 

@@ -361,6 +361,13 @@ namespace SlipStep
 
   namespace
   {
+    std::string wave_text(const Localisation &where)
+    {
+      return plain_text(where.wavelength, 3) + " " + where.unit;
+    }
+
+
+
     /// "0.5 … 1.7 mm/s"
     std::string ends_text(const Localisation &where)
     {
@@ -375,8 +382,8 @@ namespace SlipStep
 
   std::string range_text(const Localisation &where)
   {
-    if (where.covariate == "position")
-      return "position, in waves of " + ends_text(where);
+    if (where.wavelength > 0.)
+      return where.covariate + ", in waves of " + wave_text(where);
     return where.from == 0. && where.to == 0. ?
              where.covariate :
              where.covariate + " " + ends_text(where);
@@ -392,11 +399,12 @@ namespace SlipStep
       {"path", "after a path of"},
       {"slip since start", "after a start, at a slip of"},
       {"rest", "after rests of"},
-      {"position", "along the track, in waves of"},
       {"heat", "after recent frictional work of"},
       {"angle", "at angles of"},
       {"rate of pressure", "while the pressure changes by"},
       {"order of the tests", "in the order of tests at"}};
+    if (where.wavelength > 0.)
+      return "along the track, in waves of " + wave_text(where);
     if (where.covariate == "direction")
       return where.from > 0.5 ? "where motion goes back" :
                                 "where motion goes forward";

@@ -196,7 +196,7 @@ namespace SlipStep
       place.unit      = "mm";
       // The excess knows other waves only.
       place.share = together.excess / std::max(together.excess, gap.excess);
-      place.from = place.to = gap.wavelength;
+      place.wavelength = gap.wavelength;
       find_members(workspace, together.explained, place);
       result.push_back(place);
     }

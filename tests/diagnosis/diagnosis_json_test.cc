@@ -81,9 +81,15 @@ TEST(DiagnosisJson, TheBlocksAreTheDocumentedOnes)
                "excess",
                "rms_percent",
                "noise_floor_percent"});
-  has_exactly(
-    object["where"][0],
-    {"covariate", "unit", "share", "range", "sign", "phases", "tests"});
+  has_exactly(object["where"][0],
+              {"covariate",
+               "unit",
+               "share",
+               "range",
+               "sign",
+               "wavelength",
+               "phases",
+               "tests"});
   has_exactly(object["budget"],
               {"candidates",
                "refits",

@@ -5,6 +5,8 @@
 #include <slipstep/diagnosis/candidates.h>
 #include <slipstep/diagnosis/noise.h>
 
+#include <slipstep/utilities/exceptions.h>
+
 #include <Eigen/Core>
 
 #include <memory>

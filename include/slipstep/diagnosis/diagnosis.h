@@ -65,6 +65,8 @@ namespace SlipStep
     double      to    = 0.;
     int         sign  = 0; ///< 1: measured friction is higher there
     std::vector<std::string> phases, tests; ///< most of it, largest first
+    /// Of a wave, which has no range.
+    double wavelength = 0.;
   };
 
   /// What became of an effect of the catalogue, in the order of the table.

@@ -95,13 +95,13 @@ namespace SlipStep
     double p_smooth     = 1.; ///< largest score of covariates and candidates
     double p_waves      = 1.; ///< slow waves within tests
     double p_conditions = 1.; ///< between conditions
-    double p_together   = 1.; ///< all of these at once
+    double p_together   = 1.; ///< smooth and waves at once
     double p_replicates = 1.; ///< what replicates have in common
     double p_track      = 1.; ///< waves along the track
     /// What a model with anything at all could explain, beyond chance.
     double          excess = 0.;
     Eigen::VectorXd explained; ///< that part of the residual, whitened
-    /// Of the clearest wave along the track [mm], 0 if none could be seen.
+    /// Of the clearest wave along the track [mm], 0 if nothing moves along it.
     double wavelength = 0.;
   };
 

@@ -14,7 +14,7 @@ namespace SlipStep
   {
     /// Chance of a wave of any length as clear.
     double p          = 1.;
-    double wavelength = 0.; ///< of the clearest [mm], 0 if none could be seen
+    double wavelength = 0.; ///< of the clearest [mm]; 0 if nothing moves
   };
 
   /// Wavelengths from half of the usual track downwards [mm]; none if nothing

@@ -300,18 +300,25 @@ TEST(HiddenStrength, OfHealingIsInsideItsInterval)
 
 
 // Half a per cent of friction in waves of 1.04 mm, of which no other statistic
-// sees anything.
+// sees enough for an alarm.
 TEST_F(CampaignFolder, WaveAlongTheTrackIsTold)
 {
   plant(CampaignClass::outside, 115);
   const Judgement judgement = judged();
   EXPECT_EQ(name_of(judgement.verdict), "unnamed");
   EXPECT_LE(judgement.gap.p_track, 0.002);
+  const double level = prepared.workspace->level;
+  EXPECT_GT(1.5 * judgement.gap.p_smooth, level);
+  for (const double other : {judgement.gap.p_waves,
+                             judgement.gap.p_conditions,
+                             judgement.gap.p_together,
+                             judgement.gap.p_replicates})
+    EXPECT_GT(15. * other, level);
   const std::vector<Localisation> where =
     localise(*prepared.workspace, prepared.base, judgement.gap);
   ASSERT_FALSE(where.empty());
   EXPECT_EQ(where[0].covariate, "position");
-  EXPECT_NEAR(where[0].from, 1.0418, 0.03);
+  EXPECT_NEAR(where[0].wavelength, 1.0418, 0.03);
 }
 
 
