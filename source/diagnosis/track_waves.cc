@@ -97,9 +97,10 @@ namespace SlipStep
     constexpr double most_of_wave = 0.25 * (1. + 1e-6);
 
     Eigen::VectorXd distance = distances(comparison, covariates);
+    const double    least =
+      least_track_share * usual_track(comparison, covariates);
     for (const ComparedTest &test : comparison.tests)
-      if (!(track_of(test, covariates) >
-            least_track_share * usual_track(comparison, covariates)))
+      if (!(track_of(test, covariates) > least))
         distance.segment(test.begin, test.size)
           .setConstant(std::numeric_limits<double>::infinity());
     std::vector<Direction> result;
