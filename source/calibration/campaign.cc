@@ -469,7 +469,7 @@ namespace SlipStep
   {
     const FrictionLaw law(with(scaled));
     const Machine     machine(parameters);
-    // Of first order, the steps shrink with the root of the tolerance.
+    // The steps shrink with the root of the tolerance.
     const double times_more = 10. / std::sqrt(share);
     corrections.clear();
     std::vector<Replay::Curve> found(replays.size());
@@ -484,8 +484,9 @@ namespace SlipStep
                 static_cast<std::size_t>(times_more *
                                          (100. + replays[i].n_steps())));
       found[i] = at_rows(fine.halved(), law, machine, test);
-      add(1., found[i], found[i]);
-      add(-1., at_rows(fine, law, machine, test), found[i]);
+      // Of second order: (4 halved - fine) / 3.
+      add(1. / 3., found[i], found[i]);
+      add(-1. / 3., at_rows(fine, law, machine, test), found[i]);
       add(-1., at_rows(replays[i], law, machine, test), found[i]);
     });
     corrections = std::move(found);

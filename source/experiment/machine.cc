@@ -4,6 +4,7 @@
 
 #include <boost/math/tools/roots.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -66,7 +67,7 @@ namespace SlipStep
 
   namespace
   {
-    /// A contact point at the end of a spring, in one step.
+    /// A contact point at the end of a spring, in one stage.
     ///
     /// The law leaves a share w of the elastic trial traction, f_t = w f_trial,
     /// where f_trial = f_0 + C slip. With a spring, slip = motion - c (f_t -
@@ -89,7 +90,7 @@ namespace SlipStep
         , normal_traction(normal_traction)
         , time_step(time_step)
         , elastic(law.elastic_tangent())
-        , old(point.committed().traction)
+        , old(point.stage_traction())
         , unslipped(old + elastic * motion)
         , load(unslipped + compliance * (elastic * old))
       {}
@@ -218,6 +219,51 @@ namespace SlipStep
 
 
 
+  // Of a mass, backward Euler makes a spring of stiffness K = k + m/dt^2: f_1 =
+  // f_0 + K (motion - slip).
+  ContactResponse Machine::stage(const FrictionLaw  &law,
+                                 ContactPoint       &point,
+                                 const Slider       &start,
+                                 const Tensor<1, 2> &load_point_increment,
+                                 const double        normal_traction,
+                                 const double        time_step,
+                                 Slider             &slider) const
+  {
+    ContactResponse response;
+    Tensor<1, 2>    slip = load_point_increment;
+    if (is_rigid())
+      response = point.update(law, slip, normal_traction, time_step);
+    else
+      {
+        const double k       = stiffness();
+        const double inertia = areal_mass / (time_step * time_step);
+        // A contact that opens lets a mass go at once; what it stored is lost
+        // to the law.
+        const bool         lets_go = areal_mass > 0. && normal_traction <= 0.;
+        const Tensor<1, 2> old =
+          lets_go ? Tensor<1, 2>() : point.stage_traction();
+        const Tensor<1, 2> motion =
+          areal_mass > 0. ? (start.load - old + k * load_point_increment +
+                             inertia * time_step * start.velocity) /
+                              (k + inertia) :
+                            load_point_increment;
+        const double softness =
+          areal_mass > 0. ? 1. / (k + inertia) : compliance;
+        response =
+          SpringStep(law, point, softness, motion, normal_traction, time_step)
+            .solve();
+        slip = motion - softness * (response.traction - old);
+      }
+    slider.slip     = start.slip + slip;
+    slider.velocity = slip / time_step;
+    slider.load     = areal_mass > 0. ?
+                        start.load + stiffness() * (load_point_increment - slip) :
+                        response.traction;
+    return response;
+  }
+
+
+
   MachineStep Machine::step(const FrictionLaw  &law,
                             ContactPoint       &point,
                             const Slider       &start,
@@ -225,77 +271,80 @@ namespace SlipStep
                             const double        normal_traction,
                             const double        time_step) const
   {
-    if (areal_mass > 0.)
-      return step_with_mass(
-        law, point, start, load_point_increment, normal_traction, time_step);
+    constexpr double   gamma      = TwoStages::gamma;
+    const double       old_normal = point.committed().normal_traction;
+    const Tensor<1, 2> motion     = gamma * load_point_increment;
+    Slider             first, second;
+    point.revert();
+    stage(law,
+          point,
+          start,
+          motion,
+          old_normal + gamma * (normal_traction - old_normal),
+          gamma * time_step,
+          first);
+    point.begin_second_stage(law);
+    const auto carried = [](const Tensor<1, 2> &from, const Tensor<1, 2> &to) {
+      return from + TwoStages::carry * (to - from);
+    };
+    second = {carried(start.slip, first.slip),
+              carried(start.velocity, first.velocity),
+              areal_mass > 0. ? carried(start.load, first.load) :
+                                point.stage_traction()};
 
     MachineStep result;
-    result.contact =
-      is_rigid() ?
-        point.update(law, load_point_increment, normal_traction, time_step) :
-        SpringStep(law,
-                   point,
-                   compliance,
-                   load_point_increment,
-                   normal_traction,
-                   time_step)
-          .solve();
-    const Tensor<1, 2> slip =
-      load_point_increment -
-      compliance * (result.contact.traction - point.committed().traction);
-    result.slider = {start.slip + slip,
-                     slip / time_step,
-                     result.contact.traction};
+    result.contact = stage(law,
+                           point,
+                           second,
+                           motion,
+                           normal_traction,
+                           gamma * time_step,
+                           result.slider);
+    result.work    = ((1. - gamma) * first.load + gamma * result.slider.load) *
+                  load_point_increment;
+
     // A jump of a soft machine takes no time: no step is small enough to
     // resolve it.
-    const bool jumps = load_point_increment.norm() > 0. &&
-                       slip.norm() > 1e3 * load_point_increment.norm();
-    result.error = jumps ? 0. : result.contact.error;
+    const bool jumps = !is_rigid() && areal_mass == 0. &&
+                       load_point_increment.norm() > 0. &&
+                       (result.slider.slip - start.slip).norm() >
+                         1e3 * load_point_increment.norm();
+    if (jumps)
+      return result;
+    result.error = point.error(law);
+    if (areal_mass > 0.)
+      result.error.at_end =
+        std::max(result.error.at_end,
+                 error_of_motion(start,
+                                 first,
+                                 second,
+                                 result.slider,
+                                 result.contact.d_slip.norm(),
+                                 gamma * time_step) /
+                   std::max(point.trial().strength, result.slider.load.norm()));
     return result;
   }
 
 
 
-  // With the trapezoidal rule f_1 = f_0 + K (motion - slip), K = k + 4m/dt^2.
-  //
-  // Its local error of the slip is dt^3/12 times the third derivative, for
-  // which dt^2/12 times the change of the acceleration stands; spring and
-  // contact make a force of it. Oscillations far quicker than the step change
-  // the force at most by what they are made of.
-  MachineStep Machine::step_with_mass(const FrictionLaw  &law,
-                                      ContactPoint       &point,
-                                      const Slider       &start,
-                                      const Tensor<1, 2> &load_point_increment,
-                                      const double        normal_traction,
-                                      const double        time_step) const
+  // As of the law: half of the difference that the rates of the second stage
+  // alone would make, of position and velocity. The stage itself lets a part of
+  // it through; of oscillations far quicker than it little is left.
+  double Machine::error_of_motion(const Slider &start,
+                                  const Slider &first,
+                                  const Slider &second,
+                                  const Slider &last,
+                                  const double  contact_stiffness,
+                                  const double  time_step) const
   {
-    const double k       = stiffness();
-    const double inertia = 4. * areal_mass / (time_step * time_step);
-    // A contact that opens lets go at once; what it stored is lost to the law.
-    const Tensor<1, 2> old =
-      normal_traction > 0. ? point.committed().traction : Tensor<1, 2>();
-    const Tensor<1, 2> old_force = start.load - old;
-    const Tensor<1, 2> motion    = (2. * old_force + k * load_point_increment +
-                                 inertia * time_step * start.velocity) /
-                                (k + inertia);
-
-    MachineStep result;
-    result.contact =
-      SpringStep(
-        law, point, 1. / (k + inertia), motion, normal_traction, time_step)
-        .solve();
-    const Tensor<1, 2> traction = result.contact.traction;
-    const Tensor<1, 2> slip     = motion - (traction - old) / (k + inertia);
-    result.slider               = {start.slip + slip,
-                                   2. / time_step * slip - start.velocity,
-                                   start.load + k * (load_point_increment - slip)};
-
-    const Tensor<1, 2> force     = result.slider.load - traction;
-    const double       stiffness = k + result.contact.d_slip.norm();
-    const double       resolved  = stiffness / (3. * inertia);
-    result.error                 = result.contact.error +
-                   (force - old_force).norm() * resolved / (1. + resolved);
-    return result;
+    const Tensor<1, 2> position =
+      0.5 * TwoStages::carry * time_step * (first.velocity - last.velocity);
+    const Tensor<1, 2> velocity =
+      0.5 * TwoStages::carry *
+      ((first.velocity - start.velocity) - (last.velocity - second.velocity));
+    const double all = stiffness() + contact_stiffness;
+    return all * (position + time_step * velocity).norm() /
+           (1. + all * time_step * time_step / areal_mass);
   }
 
 

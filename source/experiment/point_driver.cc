@@ -114,18 +114,17 @@ namespace SlipStep
 
         const MachineStep step =
           machine.step(law, point, slider, motion, to.pressure, time_step);
-        const ContactState &state = point.trial();
-        if (!control.accept(step.error, state.strength))
+        if (!control.accept(step.error.measure()))
           continue;
 
+        const ContactState &state = point.trial();
         // The normal stiffness is linear, so its work is what it stores.
         const double stored_before =
           std::pow(point.committed().normal_traction, 2) /
           (2. * law.normal_stiffness());
         const double stored_normal =
           std::pow(state.normal_traction, 2) / (2. * law.normal_stiffness());
-        work += stored_normal - stored_before +
-                0.5 * (slider.load + step.slider.load) * motion;
+        work += stored_normal - stored_before + step.work;
         // A contact that opens lets a spring without mass go.
         const bool is_closed = to.pressure > 0.;
         if (!is_closed && machine.mass() == 0.)

@@ -40,9 +40,6 @@ namespace SlipStep
                            motion.pressure[i - 1],
                            motion.pressure[i],
                            motion.time[i] - motion.time[i - 1]});
-    largest_pressure =
-      *std::max_element(motion.pressure.begin(), motion.pressure.end());
-
     for (std::size_t i = 0; i < intervals.size(); ++i)
       steps.push_back({i, 0., 1.});
   }
@@ -143,41 +140,17 @@ namespace SlipStep
                        const double       tolerance,
                        ContactPoint      &point,
                        Slider            &slider,
-                       Slope             &slope,
                        double            &wanted_step) const
   {
     // Least share of an interval: a jump of a soft machine takes no time.
     constexpr double least_share = 1e-9;
-    // What straight lines may err, over what a step may.
-    constexpr double times_more = 4.;
-
-    const double made =
+    const double     made =
       (step.end - step.begin) * intervals[step.interval].duration;
-    const double      scale = law.static_coefficient() * largest_pressure;
     const MachineStep tried = make(step, law, machine, slider, point);
-    const auto friction = [&](const Tensor<1, 2> &load, const double share) {
-      const Interval &now = intervals[step.interval];
-      const double    pressure =
-        now.start_pressure + share * (now.end_pressure - now.start_pressure);
-      return pressure > 0. ? load / pressure : Tensor<1, 2>();
-    };
-    const Slope now = {(friction(tried.slider.load, step.end) -
-                        friction(slider.load, step.begin)) /
-                         made,
-                       made};
-    // Of a parabola with these slopes; a new interval may begin at a corner,
-    // where a long step before it tells nothing of how fast the slope changes.
-    const double before =
-      step.begin > 0. ? slope.step : std::min(slope.step, made);
-    const bool is_looked_at =
-      step.interval >= n_before && slope.step > 0. && made > 1.5 * row_distance;
-    const double bend = is_looked_at ? (now.rate - slope.rate).norm() * made *
-                                         made / (4. * (made + before)) :
-                                       0.;
+    const bool        is_looked_at =
+      step.interval >= n_before && made > 1.5 * row_distance;
     const double error =
-      std::max(tried.error / std::max({scale, point.trial().strength, 1e-300}),
-               bend /
-                 (times_more * std::max(law.static_coefficient(), 1e-300)));
+      is_looked_at ? tried.error.measure() : tried.error.at_end;
     const double factor =
       std::isfinite(error) ?
         0.9 * std::sqrt(tolerance / std::max(error, 1e-30)) :
@@ -186,7 +159,6 @@ namespace SlipStep
       {
         wanted_step = std::max(made, wanted_step) * std::min(factor, 2.);
         slider      = tried.slider;
-        slope       = now;
         return true;
       }
     wanted_step = made * std::clamp(factor, 0.1, 0.7);
@@ -195,7 +167,6 @@ namespace SlipStep
     if (!std::isfinite(error))
       throw RunError("no time step is small enough");
     slider = tried.slider;
-    slope  = now;
     return true;
   }
 
@@ -208,7 +179,6 @@ namespace SlipStep
   {
     ContactPoint point(law);
     Slider       slider;
-    Slope        slope;
     steps.clear();
     time_list.assign(1, start_time);
     double time = start_time, wanted_step = std::numeric_limits<double>::max();
@@ -217,11 +187,7 @@ namespace SlipStep
         const double duration = intervals[i].duration;
         if (i == n_before)
           first_compared = steps.size();
-        const double first = first_step(i, law, machine);
-        wanted_step        = std::min(wanted_step, first);
-        // A corner at the end of a step is no bend.
-        if (std::isfinite(first))
-          slope = Slope();
+        wanted_step = std::min(wanted_step, first_step(i, law, machine));
         for (double begin = 0.; begin < 1.;)
           {
             const double left  = 1. - begin;
@@ -230,14 +196,8 @@ namespace SlipStep
             if (share < left && share > left / 2.)
               share = left / 2.;
             const Step step = {i, begin, share == left ? 1. : begin + share};
-            if (!attempt(step,
-                         law,
-                         machine,
-                         tolerance,
-                         point,
-                         slider,
-                         slope,
-                         wanted_step))
+            if (!attempt(
+                  step, law, machine, tolerance, point, slider, wanted_step))
               continue;
             point.commit();
             steps.push_back(step);

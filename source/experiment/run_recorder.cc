@@ -1,5 +1,7 @@
 #include <slipstep/experiment/run_recorder.h>
 
+#include <slipstep/experiment/stability.h>
+
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/utilities/exceptions.h>
 
@@ -75,6 +77,9 @@ namespace SlipStep
       }
     if (!is_writer)
       return;
+    instabilities = instability_warnings(law, programme, Machine(parameters));
+    for (const std::string &text : instabilities)
+      warn(text);
     std::set<std::string> inactive = law.inactive_sections();
     inactive.insert(options.inactive_sections.begin(),
                     options.inactive_sections.end());
@@ -182,6 +187,9 @@ namespace SlipStep
     summary.steps       = history.size();
     summary.status      = reason.empty() ? "finished" : "failed";
     summary.reason      = reason;
+    if (!reason.empty())
+      for (const std::string &text : instabilities)
+        summary.reason += "; " + text;
     summarise_history(history, programme, summary);
     summary.quantities =
       evaluate_quantities(quantities, programme, history, summary.dimension);

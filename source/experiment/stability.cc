@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 #include <vector>
 
 namespace SlipStep
@@ -95,6 +97,21 @@ namespace SlipStep
 
 
 
+  double SteadySliding::quickest() const
+  {
+    return 10. * law.tangential_stiffness() * speed /
+           (law.static_coefficient() * pressure);
+  }
+
+
+
+  double SteadySliding::time_of_quickest() const
+  {
+    return relative_step / quickest();
+  }
+
+
+
   // Strength that falls with speed faster than the overstress rises has no
   // short steps that go on as before: the contact stops or jumps.
   bool SteadySliding::is_kept(const double time_step) const
@@ -167,10 +184,9 @@ namespace SlipStep
   StabilityLimit SteadySliding::limit(const double mass) const
   {
     const double infinity = std::numeric_limits<double>::infinity();
-    const double quickest = 10. * law.tangential_stiffness() * speed /
-                            (law.static_coefficient() * pressure);
-    const double ratio = std::pow(10., 0.04);
-    if (!is_kept(relative_step / quickest))
+    const double quickest = this->quickest();
+    const double ratio    = std::pow(10., 0.04);
+    if (!is_kept(time_of_quickest()))
       return {infinity, quickest};
     const Complex last = dynamic_stiffness(quickest);
     if (last.imag() < 0.)
@@ -200,5 +216,107 @@ namespace SlipStep
         loss = next;
       }
     return result;
+  }
+
+
+
+  namespace
+  {
+    // Every kind of sliding in the programme; a replayed test has too many.
+    std::vector<Loading> slides(const Programme &programme)
+    {
+      constexpr unsigned int most = 20;
+      std::vector<Loading>   result;
+      for (const Segment &segment : programme.segments())
+        {
+          const Loading &now = segment.end;
+          if (now.velocity.norm() > 0. && now.pressure > 0. &&
+              std::none_of(result.begin(),
+                           result.end(),
+                           [&](const Loading &other) {
+                             return std::abs(other.pressure - now.pressure) <=
+                                      1e-9 * now.pressure &&
+                                    (other.velocity - now.velocity).norm() <=
+                                      1e-9 * now.velocity.norm();
+                           }))
+            result.push_back(now);
+          if (result.size() == most)
+            break;
+        }
+      return result;
+    }
+
+
+
+    // The slowest and the fastest speed around one at which it is unstable.
+    std::array<double, 2> unstable_speeds(const FrictionLaw &law,
+                                          const Loading     &slide)
+    {
+      const double          speed = slide.velocity.norm();
+      const double          ratio = std::pow(10., 0.1);
+      std::array<double, 2> result{{speed, speed}};
+      for (const bool faster : {false, true})
+        for (unsigned int n = 1; n <= 60; ++n)
+          {
+            const double        factor = std::pow(ratio, faster ? n : -1. * n);
+            const SteadySliding sliding(law,
+                                        factor * slide.velocity,
+                                        slide.pressure);
+            if (!sliding.exists() || !sliding.grows_at_once())
+              break;
+            result[faster] = factor * speed;
+          }
+      return result;
+    }
+  } // namespace
+
+
+
+  std::vector<std::string> instability_warnings(const FrictionLaw &law,
+                                                const Programme   &programme,
+                                                const Machine     &machine)
+  {
+    for (const Loading &slide : slides(programme))
+      {
+        const SteadySliding sliding(law, slide.velocity, slide.pressure);
+        if (!sliding.exists())
+          continue;
+        const bool   at_once = sliding.grows_at_once();
+        const double limit   = sliding.limit(machine.mass()).stiffness;
+        const bool   jumps   = machine.mass() == 0. && !machine.is_rigid() &&
+                           machine.stiffness() < limit;
+        if (!at_once && !jumps && std::isfinite(limit))
+          continue;
+
+        std::ostringstream text;
+        text << std::setprecision(3) << "sliding at " << slide.velocity.norm()
+             << " mm/s under " << slide.pressure << " MPa has no stable branch";
+        std::string effects;
+        for (const std::string &name : law.weakening_effects(sliding.state()))
+          effects += (effects.empty() ? "" : ", ") + name;
+        if (at_once)
+          {
+            const auto speeds = unstable_speeds(law, slide);
+            text << ": friction falls with speed"
+                 << (effects.empty() ? "" : " (" + effects + ")") << " between "
+                 << speeds[0] << " and " << speeds[1]
+                 << " mm/s, more than the contact's own stiffness holds, so "
+                    "that it sticks and jumps and the time steps get very "
+                    "short. A memory length (effect ageing), a viscosity "
+                    "(viscous, overstress) or other speeds help";
+          }
+        else if (std::isfinite(limit))
+          text << ": the machine's stiffness of " << machine.stiffness()
+               << " MPa/mm is below the critical " << limit
+               << ", so that it jumps. A stiffer machine or a machine mass "
+                  "helps";
+        else
+          text << ": friction falls"
+               << (effects.empty() ? "" : " (" + effects + ")")
+               << " faster than the contact's own tangential stiffness holds. "
+                  "A larger tangential stiffness or a softer fall helps";
+        return {text.str()};
+      }
+    return {};
   }
 } // namespace SlipStep

@@ -14,6 +14,8 @@ namespace SlipStep
   {
     const char *const equal_steps_key =
       "Time stepping/Equal steps per statement";
+    const char *const most_steps_key = "Time stepping/Most steps per statement";
+    const char *const least_step_key = "Time stepping/Least step";
 
     // The largest number of the series not above the wanted one.
     double round_down(const double wanted)
@@ -29,12 +31,15 @@ namespace SlipStep
   {
     parameters.declare(
       "Time stepping/Tolerance",
-      "5e-5",
+      "5e-4",
       Quantity(Dimension::number, 1e-14, 1.),
-      "Error of the friction force that one step may make, relative to the "
-      "force at full slip, as estimated by the friction law. Between 1e-14 and "
-      "1, no unit; at 1 practically every step is accepted, which leaves their "
-      "number to the other keys.");
+      "Largest difference, in one step, between the friction force by the "
+      "method of second order that makes the step and by one of first order; "
+      "also of strength, coefficient of friction and normal ratio. Relative to "
+      "the present strength. A straight line from row to row may be off by four "
+      "times as much. The error of the result is less, and proportional to it. "
+      "Between 1e-14 and 1, no unit; at 1 practically every step is accepted, "
+      "which leaves their number to the other keys.");
     parameters.declare(
       "Time stepping/Least steps per statement",
       "10",
@@ -47,6 +52,19 @@ namespace SlipStep
       Quantity(Dimension::number, 1e-6, 1e6),
       "Slip in the first step of a slide, relative to the elastic slip at which "
       "the static friction is reached. Between 1e-6 and 1e6, no unit.");
+    parameters.declare(
+      most_steps_key,
+      "100000",
+      dealii::Patterns::Integer(1, 1000000000),
+      "Number of steps, tried ones included, after which a statement of the "
+      "programme is given up and the run fails; a 'follow' may have as many more "
+      "as its test has rows. 1 or more.");
+    parameters.declare(
+      least_step_key,
+      "1e-13",
+      Quantity(Dimension::number, 0., 1.),
+      "Least step, relative to the duration of its statement: where a smaller "
+      "one is needed, the run fails. Between 0 and 1, no unit.");
     parameters.declare(
       equal_steps_key,
       "0",
@@ -77,9 +95,10 @@ namespace SlipStep
     , first_slip(parameters.number("Time stepping/First slip"))
     , least_steps(parameters.integer("Time stepping/Least steps per statement"))
     , equal_steps(parameters.integer(equal_steps_key))
+    , most_steps(parameters.integer(most_steps_key))
+    , least_step(parameters.number(least_step_key))
     , elastic_slip_per_pressure(law.static_coefficient() /
                                 law.tangential_stiffness())
-    , nominal_strength(law.static_coefficient() * programme.largest_pressure())
   {
     // What was set later goes before, so that a study can change the mode.
     for (const std::string &key : idle_keys(parameters))
@@ -123,13 +142,19 @@ namespace SlipStep
     const double   speed    = now.end.velocity.norm();
     const double   pressure = std::max(now.start.pressure, now.end.pressure);
     double         end_of_statement = now.end_time;
+    rows_of_statement               = 0;
     for (std::size_t i = segment;
          i < programme.segments().size() &&
          programme.segments()[i].statement == now.statement;
          ++i)
-      end_of_statement = programme.segments()[i].end_time;
-    largest_step = (end_of_statement - now.start_time) /
-                   (equal_steps > 0 ? equal_steps : least_steps);
+      {
+        end_of_statement = programme.segments()[i].end_time;
+        ++rows_of_statement;
+      }
+    const double duration = end_of_statement - now.start_time;
+    largest_step  = duration / (equal_steps > 0 ? equal_steps : least_steps);
+    smallest_step = least_step * duration;
+    steps_of_statement = 0;
 
     double wanted = largest_step;
     if (equal_steps == 0 && speed > 0. && pressure > 0.)
@@ -163,12 +188,33 @@ namespace SlipStep
 
 
 
+  // A run has an end.
+  void StepControl::count_step()
+  {
+    const Segment &now = programme.segments()[segment];
+    if (++steps_of_statement <= most_steps + rows_of_statement)
+      return;
+    std::ostringstream message;
+    message << "Statement " << now.statement + 1
+            << " of the programme takes more than "
+            << most_steps + rows_of_statement << " time steps ("
+            << most_steps_key << "): at t = " << std::setprecision(6) << end
+            << " s they are " << std::setprecision(2) << step_size()
+            << " s long";
+    throw RunError(message.str());
+  }
+
+
+
   // A step that the clock can hardly resolve is no step.
   void StepControl::shrink(const double wanted_step, const std::string &reason)
   {
     ++rejected;
-    const double resolution = 8. * std::numeric_limits<double>::epsilon() *
-                              programme.segments()[segment].end_time;
+    count_step();
+    const double resolution =
+      std::max(smallest_step,
+               8. * std::numeric_limits<double>::epsilon() *
+                 programme.segments()[segment].end_time);
     if (!(wanted_step > resolution))
       {
         std::ostringstream message;
@@ -181,40 +227,30 @@ namespace SlipStep
 
 
 
-  double StepControl::relative_error(const double error,
-                                     const double strength) const
-  {
-    return error / std::max({strength, nominal_strength, 1e-300});
-  }
-
-
-
   // Written so that an undefined error is refused, too.
-  bool StepControl::would_accept(const double error,
-                                 const double strength) const
+  bool StepControl::would_accept(const double error) const
   {
     const double allowed =
       equal_steps > 0 ? std::numeric_limits<double>::max() : 1.5 * tolerance;
-    return relative_error(error, strength) <= allowed;
+    return error <= allowed;
   }
 
 
 
-  bool StepControl::accept(const double error, const double strength)
+  bool StepControl::accept(const double error)
   {
-    const double step = step_size();
-    const double ideal =
-      0.9 *
-      std::sqrt(tolerance / std::max(relative_error(error, strength), 1e-30));
-    if (!would_accept(error, strength))
+    const double step  = step_size();
+    const double ideal = 0.9 * std::sqrt(tolerance / std::max(error, 1e-30));
+    if (!would_accept(error))
       {
         shrink(step * std::max(0.2, std::min(ideal, 0.7)),
-               "the friction law asks for a smaller one than the clock "
-               "resolves");
+               std::string("the friction law asks for less than ") +
+                 least_step_key + " or the clock's resolution");
         return false;
       }
 
     ++accepted;
+    count_step();
     begin = end;
     if (begin >= programme.segments()[segment].end_time)
       {

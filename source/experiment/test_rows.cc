@@ -321,21 +321,49 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // How far values that are mostly constant have been rounded; 0 if they are
+    // constant, or ramps and jumps between constants. Rounding makes small
+    // steps that stand alone or go back.
+    double rounding(const std::vector<double> &values)
+    {
+      constexpr std::size_t least_number  = 4;
+      constexpr double      largest_share = 0.02; // of the largest value
+      const auto            step          = [&](const std::size_t i) {
+        return i > 0 && i < values.size() ? values[i] - values[i - 1] : 0.;
+      };
+      std::vector<double> alone;
+      std::size_t         n_steps = 0;
+      double              largest = 0.;
+      for (std::size_t i = 1; i < values.size(); ++i)
+        {
+          largest = std::max(largest, std::abs(values[i]));
+          if (step(i) == 0.)
+            continue;
+          ++n_steps;
+          if (step(i - 1) * step(i) <= 0. && step(i) * step(i + 1) <= 0.)
+            alone.push_back(std::abs(step(i)));
+        }
+      if (alone.size() < least_number || 2 * alone.size() < n_steps)
+        return 0.;
+      const double size = median(std::move(alone));
+      return size <= largest_share * largest ? size : 0.;
+    }
+  } // namespace
+
+
+
   double noise_level(const std::vector<double> &values)
   {
-    std::vector<double> bends, steps;
+    std::vector<double> bends;
     for (std::size_t i = 1; i + 1 < values.size(); ++i)
       bends.push_back(std::abs(values[i - 1] - 2. * values[i] + values[i + 1]));
-    for (std::size_t i = 1; i < values.size(); ++i)
-      if (values[i] != values[i - 1])
-        steps.push_back(std::abs(values[i] - values[i - 1]));
 
     // For normal deviates the median of the absolute value is 0.6745 sigma, and
     // the second difference has the variance 6 sigma^2.
     const double from_bends = median(std::move(bends)) / 0.6745 / std::sqrt(6.);
-    if (from_bends > 0. || steps.empty())
-      return from_bends;
-    // Mostly constant: rounded to steps, uniformly distributed within one.
-    return median(std::move(steps)) / std::sqrt(12.);
+    // Rounded to steps, values are uniformly distributed within one.
+    return from_bends > 0. ? from_bends : rounding(values) / std::sqrt(12.);
   }
 } // namespace SlipStep

@@ -3,6 +3,14 @@
 
 namespace SlipStep
 {
+  StageStart::StageStart(const ContactState &state)
+    : state(state)
+    , path_start(state.traction)
+    , path_base(state.traction)
+  {}
+
+
+
   ContactPoint::ContactPoint(const FrictionLaw &law)
     : ContactPoint(law.initial_state())
   {}
@@ -11,8 +19,10 @@ namespace SlipStep
 
   ContactPoint::ContactPoint(const ContactState &state)
     : committed_state(state)
-    , trial_state(state)
-  {}
+    , start(state)
+  {
+    last.end = state;
+  }
 
 
 
@@ -22,7 +32,41 @@ namespace SlipStep
                        const double                normal_traction,
                        const double                time_step)
   {
-    return law.update(
-      committed_state, slip_increment, normal_traction, time_step, trial_state);
+    last.response =
+      law.update(start, slip_increment, normal_traction, time_step, last.end);
+    last.slip_increment = slip_increment;
+    last.time_step      = time_step;
+    return last.response;
+  }
+
+
+
+  void ContactPoint::begin_second_stage(const FrictionLaw &law)
+  {
+    first = last;
+    start = law.second_stage(committed_state, first);
+  }
+
+
+
+  StepError ContactPoint::error(const FrictionLaw &law) const
+  {
+    return law.step_error(committed_state, first, start, last);
+  }
+
+
+
+  void ContactPoint::commit()
+  {
+    committed_state = last.end;
+    start           = StageStart(committed_state);
+  }
+
+
+
+  void ContactPoint::revert()
+  {
+    last.end = committed_state;
+    start    = StageStart(committed_state);
   }
 } // namespace SlipStep

@@ -20,15 +20,17 @@ namespace SlipStep
   // everything that follows from the slip, with derivatives.
   struct FrictionLaw::LocalSystem
   {
-    LocalSystem(const ContactState &start,
-                const double        time_step,
-                const double        normal_traction)
-      : start(start)
+    LocalSystem(const StageStart &stage,
+                const double      time_step,
+                const double      normal_traction)
+      : stage(stage)
+      , start(stage.state)
       , time_step(time_step)
       , normal_traction(normal_traction)
       , coefficient(start.coefficient)
     {}
 
+    const StageStart   &stage;
     const ContactState &start;
     const double        time_step;
     const double        normal_traction;
@@ -172,6 +174,19 @@ namespace SlipStep
 
 
 
+  double FrictionLaw::strength_of(const SlipStepData &step) const
+  {
+    double factor = 1., sum = 0.;
+    for (const StrengthEffect *effect : strength_effects)
+      {
+        factor *= effect->strength_factor(step).value;
+        sum += effect->additive_strength(step).value;
+      }
+    return step.normal_traction * step.coefficient * factor + sum;
+  }
+
+
+
   // tau_y = f_n mu G_1 G_2 ... + c_1 + c_2 + ... The derivative with respect to
   // slip becomes the total one: mu, the slip rate and the friction work change
   // with it.
@@ -217,12 +232,12 @@ namespace SlipStep
   {
     if (!depends_on_rate)
       return local.start.strength;
-    LocalSystem  at_rest(local.start,
+    LocalSystem  at_rest(local.stage,
                         local.time_step,
                         local.start.normal_traction);
-    const double norm = local.start.traction.norm();
+    const double norm = local.stage.path_start.norm();
     if (norm > 0.)
-      at_rest.direction = local.start.traction / norm;
+      at_rest.direction = local.stage.path_start / norm;
     evolve_strength(at_rest);
     return at_rest.strength;
   }
@@ -251,14 +266,33 @@ namespace SlipStep
 
 
 
-  // While r falls below r_s, r_s falls with it. A step that first unloads and
-  // then reloads therefore starts its slip from the smallest ratio on its
-  // elastic path. Along the path traction and strength are linear in s in
-  // [0, 1]; r = |a + s b| / (c + s d) is quasi-convex there, and the sign of
-  // its derivative is that of a linear function of s.
-  void FrictionLaw::start_ratio(const Tensor<1, 2> &traction_increment,
-                                LocalSystem        &local) const
+  // Along an elastic path traction a + s b and strength c + s d are linear in s
+  // in [0, 1]; their ratio is quasi-convex there, and the sign of its
+  // derivative is that of a linear function of s.
+  double FrictionLaw::smallest_ratio(const Tensor<1, 2> &a,
+                                     const Tensor<1, 2> &b,
+                                     const double        c,
+                                     const double        end_strength,
+                                     double             &s)
   {
+    const double d       = end_strength - c;
+    const double slope_0 = (a * b) * c - d * (a * a);
+    const double slope_1 = slope_0 + (b * b) * c - d * (a * b);
+    s = slope_0 >= 0. ? 0. : slope_1 > 0. ? slope_0 / (slope_0 - slope_1) : 1.;
+    return (a + s * b).norm() / (c + s * d);
+  }
+
+
+
+  // While r falls below r_s, r_s falls with it. A stage that first unloads and
+  // then reloads therefore starts its slip from the smallest ratio on its
+  // elastic path.
+  void FrictionLaw::start_ratio(const double       start_strength,
+                                const LocalSystem &end,
+                                LocalSystem       &local) const
+  {
+    local.d_start_ratio_d_trial    = Tensor<1, 2>();
+    local.d_start_ratio_d_strength = 0.;
     if (normal_ratio == &neutral)
       {
         local.start_ratio = 1.;
@@ -267,20 +301,16 @@ namespace SlipStep
     local.start_ratio = local.start.normal_ratio;
     if (local.start.normal_traction <= 0.)
       return;
-    const Tensor<1, 2> &a       = local.start.traction;
-    const Tensor<1, 2> &b       = traction_increment;
-    const double        c       = strength_at_rest(local);
-    const double        d       = local.strength - c;
-    const double        slope_0 = (a * b) * c - d * (a * a);
-    const double        slope_1 = slope_0 + (b * b) * c - d * (a * b);
-
-    if (slope_0 >= 0.)
+    const Tensor<1, 2> &a = local.stage.path_start;
+    const Tensor<1, 2>  b = local.trial - local.stage.path_base;
+    double              s;
+    const double        smallest =
+      smallest_ratio(a, b, start_strength, end.strength, s);
+    if (s == 0.)
       return;
-    const double       s = (slope_1 > 0. ? slope_0 / (slope_0 - slope_1) : 1.);
     const Tensor<1, 2> traction = a + s * b;
-    const double       strength = c + s * d;
     const double       norm     = traction.norm();
-    const double       smallest = norm / strength;
+    const double       strength = (1. - s) * start_strength + s * end.strength;
     if (smallest < local.start_ratio)
       {
         local.start_ratio = smallest;
@@ -288,31 +318,114 @@ namespace SlipStep
         if (norm > 0.)
           local.d_start_ratio_d_trial = s * traction / (norm * strength);
         local.d_start_ratio_d_strength     = -s * smallest / strength;
-        local.d_trial_strength_d_normal    = local.d_strength.d_normal;
-        local.d_trial_strength_d_direction = local.d_strength.d_direction;
+        local.d_trial_strength_d_normal    = end.d_strength.d_normal;
+        local.d_trial_strength_d_direction = end.d_strength.d_direction;
       }
   }
 
 
 
-  // The slip in the step is sought by way of the traction that it leaves,
-  // |f_t| = |f_trial| - alpha_t * slip: of the two this one keeps its digits
-  // when a step is far longer than the elastic slip. At |f_t| = |f_trial| the
-  // residual is negative, at 0 it is positive. Strength that falls quickly with
-  // slip makes it have several roots; one in the middle, where it grows with
-  // the traction, is no equilibrium that lasts.
-  void FrictionLaw::solve(LocalSystem &local) const
+  // No slip in this stage.
+  void FrictionLaw::stick(LocalSystem &local) const
   {
-    const double largest = local.trial_norm;
-    // The ratio changes little from step to step; a new contact is on its way
-    // to full slip.
-    double expected_ratio =
-      std::max(local.start.loading_ratio, local.start_ratio);
-    if (expected_ratio < 1e-3)
-      expected_ratio = 1.;
-    const double guess =
-      std::min(expected_ratio * local.strength, (1. - 1e-3) * largest);
+    local.traction    = local.trial_norm;
+    local.slip        = 0.;
+    local.coefficient = local.start.coefficient;
+    evolve_coefficient(local);
+    evolve_strength(local);
+    local.ratio = local.trial_norm / local.strength;
+    start_ratio(strength_at_rest(local), local, local);
+  }
 
+
+
+  // Strength that falls with slip or with speed lets a contact stick or slide
+  // under the same traction. One that slides goes on as long as it can: the
+  // root of its branch, from where it would slip at the rate that it has.
+  // Returns whether there is one. That the strength grows when the slip comes
+  // to rest does not count as unloading then.
+  bool FrictionLaw::slide_on(LocalSystem &local) const
+  {
+    const double largest = local.trial_norm / alpha_t;
+    const double slip =
+      std::min(local.start.slip_rate * local.time_step, (1. - 1e-3) * largest);
+    if (!(slip > 0.))
+      return false;
+    // The strength on the elastic path, with memories as they are.
+    constexpr double moment = 1e-9; // of the time step
+    LocalSystem      at_rate(local.stage,
+                        moment * local.time_step,
+                        local.normal_traction);
+    at_rate.direction = local.direction;
+    at_rate.slip      = moment * local.start.slip_rate * local.time_step;
+    evolve_coefficient(at_rate);
+    evolve_strength(at_rate);
+    start_ratio(local.start.strength, at_rate, local);
+    evaluate(local.trial_norm - alpha_t * slip, local);
+    if (local.flow.value > 0.)
+      return follow_branch(local);
+    const double upper = local.traction;
+    solve(0., upper, std::min(local.ratio * local.strength, upper), local);
+    return true;
+  }
+
+
+
+  // From sticking on, the first root is next to where the contact was before.
+  void FrictionLaw::leave_sticking(LocalSystem &local) const
+  {
+    const double largest = local.trial_norm / alpha_t;
+    double       upper   = local.trial_norm;
+    for (double slip = 1e-12 * largest; slip < largest; slip *= 4.)
+      {
+        const double lower = local.trial_norm - alpha_t * slip;
+        evaluate(lower, local);
+        if (local.flow.value >= 0.)
+          return solve(lower, upper, lower, local);
+        upper = lower;
+      }
+    solve(0., upper, upper / 2., local);
+  }
+
+
+
+  // Newton's method towards less slip, from a residual that is too large; the
+  // branch ends where the residual grows no more with slip, or where slip
+  // cannot be told from none.
+  bool FrictionLaw::follow_branch(LocalSystem &local) const
+  {
+    for (unsigned int iteration = 0; iteration < 100; ++iteration)
+      {
+        const double slip = local.slip, lower = local.traction;
+        if (!(local.d_residual > 0.) || alpha_t * slip <= 1e-15 * lower)
+          return false;
+        const double change = local.flow.value / local.d_residual;
+        if (change <= 1e-13 * slip || alpha_t * change <= 1e-16 * lower)
+          return true;
+        evaluate(local.trial_norm -
+                   alpha_t * std::max(slip - change, slip / 8.),
+                 local);
+        if (local.flow.value <= 0.)
+          {
+            const double upper = local.traction;
+            solve(lower, upper, upper, local);
+            return true;
+          }
+      }
+    return false;
+  }
+
+
+
+  // The slip in the stage is sought by way of the traction that it leaves,
+  // |f_t| = |f_trial| - alpha_t * slip: of the two this one keeps its digits
+  // when a step is far longer than the elastic slip. The residual is positive
+  // at the lower bound and negative at the upper one.
+  void FrictionLaw::solve(const double lower,
+                          const double upper,
+                          const double guess,
+                          LocalSystem &local) const
+  {
     const auto residual = [&](const double traction) {
       evaluate(traction, local);
       return local.flow.value;
@@ -327,8 +440,8 @@ namespace SlipStep
             return std::make_tuple(value, -local.d_residual / alpha_t);
           },
           guess,
-          0.,
-          largest,
+          lower,
+          upper,
           45,
           iterations);
         if (iterations < most_iterations)
@@ -344,52 +457,16 @@ namespace SlipStep
     catch (const boost::math::evaluation_error &)
       {}
 
+    if (!(residual(lower) > 0.) || !(residual(upper) < 0.))
+      return;
     boost::uintmax_t iterations = 200;
     const auto       bracket    = boost::math::tools::toms748_solve(
       residual,
-      0.,
-      largest,
+      lower,
+      upper,
       boost::math::tools::eps_tolerance<double>(50),
       iterations);
     evaluate((bracket.first + bracket.second) / 2., local);
-  }
-
-
-
-  // Backward Euler's local error of the slip is half the change of its rate
-  // times the step. Of a change of size the flow rule lets only part through
-  // (nothing without overstress), of a change of direction the transverse
-  // stiffness. The error of mu is half the change of its rates.
-  double FrictionLaw::error_estimate(const LocalSystem &local) const
-  {
-    double error = 0.;
-    if (local.slip > 0.)
-      {
-        const double old_norm = local.start.traction.norm();
-        if (old_norm > 0.)
-          {
-            const Tensor<1, 2> old = local.start.traction / old_norm;
-            const Tensor<1, 2> turned =
-              local.direction - (local.direction * old) * old;
-            error += alpha_t * local.traction / local.trial_norm * 0.5 *
-                     local.slip * turned.norm();
-          }
-
-        const double d_rate =
-          local.flow.d_rate - local.flow.d_ratio * local.ratio /
-                                local.strength * local.d_strength.d_rate;
-        const double transmitted =
-          std::abs((d_rate / local.time_step) / local.d_residual);
-        error += alpha_t * transmitted * 0.5 *
-                 std::abs(local.slip - local.time_step * local.start.slip_rate);
-      }
-    const double mu_0 = local.start.coefficient, mu = local.coefficient;
-    const double d_mu =
-      0.5 * (local.slip * (coefficient_rate_per_slip(mu).value -
-                           coefficient_rate_per_slip(mu_0).value) +
-             local.time_step * (coefficient_rate_per_time(mu).value -
-                                coefficient_rate_per_time(mu_0).value));
-    return error + local.normal_traction * local.ratio * std::abs(d_mu);
   }
 
 
@@ -441,75 +518,11 @@ namespace SlipStep
 
 
 
-  ContactState FrictionLaw::initial_state() const
-  {
-    ContactState state;
-    state.coefficient  = initial_coefficient;
-    state.normal_ratio = normal_ratio->virgin_normal_ratio();
-    return state;
-  }
-
-
-
-  void FrictionLaw::complete(ContactState &state) const
-  {
-    if (state.normal_traction <= 0.)
-      {
-        state.traction        = Tensor<1, 2>();
-        state.normal_traction = state.strength = 0.;
-        state.loading_ratio = state.slip_rate = 0.;
-        state.normal_ratio = normal_ratio->virgin_normal_ratio();
-        return;
-      }
-    state.loading_ratio =
-      (state.strength > 0. ?
-         isotropic_traction(state.traction).norm() / state.strength :
-         0.);
-    if (normal_ratio == &neutral)
-      state.normal_ratio = 1.;
-    else
-      {
-        const double largest = std::min(state.loading_ratio, 1.);
-        state.normal_ratio =
-          (flow == &neutral ?
-             largest :
-             std::min(std::max(state.normal_ratio, 0.), largest));
-      }
-  }
-
-
-
-  // Slip and time each drive mu towards the value where their rate vanishes;
-  // rates fall with mu.
-  std::array<double, 2> FrictionLaw::coefficient_range() const
-  {
-    std::array<double, 2> range  = {{initial_coefficient, initial_coefficient}};
-    const auto            extend = [&range](const auto &rate_at) {
-      double lower = 0., upper = 1e3;
-      if (rate_at(lower) == 0. && rate_at(upper) == 0.)
-        return;
-      for (unsigned int bisection = 0; bisection < 200; ++bisection)
-        {
-          const double middle = (lower + upper) / 2.;
-          (rate_at(middle) > 0. ? lower : upper) = middle;
-        }
-      range[0] = std::min(range[0], lower);
-      range[1] = std::max(range[1], upper);
-    };
-    extend(
-      [&](const double mu) { return coefficient_rate_per_slip(mu).value; });
-    extend(
-      [&](const double mu) { return coefficient_rate_per_time(mu).value; });
-    return range;
-  }
-
-
-
   // With an elliptic cone f_t = P f', where f' is the traction of an isotropic
   // law. The slip that does the same work with f' is P times the true one, in
   // its elastic and in its viscoplastic part: then the latter is normal to the
   // ellipse, since that of the isotropic law is normal to its circle.
-  ContactResponse FrictionLaw::update(const ContactState &start,
+  ContactResponse FrictionLaw::update(const StageStart   &start,
                                       const Tensor<1, 2> &slip_increment,
                                       const double        normal_traction,
                                       const double        time_step,
@@ -520,9 +533,11 @@ namespace SlipStep
       return isotropic_update(
         start, slip_increment, normal_traction, time_step, end);
 
-    ContactState isotropic_start = start;
-    isotropic_start.traction     = isotropic_traction(start.traction);
-    ContactResponse response     = isotropic_update(
+    StageStart isotropic_start     = start;
+    isotropic_start.state.traction = isotropic_traction(start.state.traction);
+    isotropic_start.path_start     = isotropic_traction(start.path_start);
+    isotropic_start.path_base      = isotropic_traction(start.path_base);
+    ContactResponse response       = isotropic_update(
       isotropic_start, cone * slip_increment, normal_traction, time_step, end);
 
     response.traction = cone * response.traction;
@@ -557,50 +572,74 @@ namespace SlipStep
 
 
 
+  // Off the plane: mu goes on healing, the traction is lost.
+  void FrictionLaw::open(const LocalSystem &local, ContactState &end) const
+  {
+    end                 = local.start;
+    end.traction        = Tensor<1, 2>();
+    end.coefficient     = local.coefficient;
+    end.normal_ratio    = normal_ratio->virgin_normal_ratio();
+    end.normal_traction = end.strength = 0.;
+    end.loading_ratio = end.slip_rate = 0.;
+    end.dissipation += local.start.traction.norm_square() / (2. * alpha_t);
+    for (const StrengthEffect *effect : strength_effects)
+      effect->remember(step_data(local), end);
+  }
+
+
+
   ContactResponse
-  FrictionLaw::isotropic_update(const ContactState &start,
+  FrictionLaw::isotropic_update(const StageStart   &stage,
                                 const Tensor<1, 2> &slip_increment,
                                 const double        normal_traction,
                                 const double        time_step,
                                 ContactState       &end) const
   {
-    LocalSystem local(start, time_step, std::max(normal_traction, 0.));
-
-    // Off the plane: mu goes on healing, the traction is lost.
+    const ContactState &start = stage.state;
+    LocalSystem         local(stage, time_step, std::max(normal_traction, 0.));
     if (normal_traction <= 0.)
       {
         evolve_coefficient(local);
-        end                 = start;
-        end.traction        = Tensor<1, 2>();
-        end.coefficient     = local.coefficient;
-        end.normal_ratio    = normal_ratio->virgin_normal_ratio();
-        end.normal_traction = end.strength = 0.;
-        end.loading_ratio = end.slip_rate = 0.;
-        end.dissipation += start.traction.norm_square() / (2. * alpha_t);
-        for (const StrengthEffect *effect : strength_effects)
-          effect->remember(step_data(local), end);
+        open(local, end);
         return {};
       }
 
-    const Tensor<1, 2> traction_increment = alpha_t * slip_increment;
-    local.trial                           = start.traction + traction_increment;
-    local.trial_norm                      = local.trial.norm();
-    local.traction                        = local.trial_norm;
+    local.trial      = start.traction + alpha_t * slip_increment;
+    local.trial_norm = local.trial.norm();
     if (local.trial_norm > 0.)
       local.direction = local.trial / local.trial_norm;
 
-    evolve_coefficient(local);
-    evolve_strength(local);
-    local.ratio = local.trial_norm / local.strength;
-    start_ratio(traction_increment, local);
+    stick(local);
     // Below 1e-12 nothing can be told from zero.
-    if (local.ratio > std::max(local.start_ratio, 1e-12))
-      solve(local);
-    else if (normal_ratio != &neutral)
+    const auto must_slip = [&local]() {
+      return local.ratio > std::max(local.start_ratio, 1e-12);
+    };
+    bool slides = false;
+    if (start.slip_rate > 0. && (depends_on_rate || !must_slip()))
+      {
+        slides = slide_on(local);
+        if (!slides)
+          stick(local);
+      }
+    if (!slides && must_slip() && depends_on_rate && start.slip_rate == 0.)
+      leave_sticking(local);
+    else if (!slides && must_slip())
+      {
+        // The ratio changes little from step to step; a new contact is on its
+        // way to full slip.
+        double expected = std::max(start.loading_ratio, local.start_ratio);
+        if (expected < 1e-3)
+          expected = 1.;
+        solve(0.,
+              local.trial_norm,
+              std::min(expected * local.strength,
+                       (1. - 1e-3) * local.trial_norm),
+              local);
+      }
+    else if (!slides && normal_ratio != &neutral)
       local.normal_ratio.value = local.ratio;
 
     ContactResponse response = linearise(local);
-    response.error           = error_estimate(local);
     response.slips           = local.slip > 0.5 * slip_increment.norm();
 
     end.traction        = response.traction;

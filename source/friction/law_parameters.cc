@@ -156,6 +156,7 @@ namespace SlipStep
                 dynamic_cast<const StrengthEffect *>(active.back().get()))
             {
               strength_effects.push_back(effect);
+              strength_names.push_back(name);
               depends_on_rate = depends_on_rate || effect->depends_on_rate();
             }
         }
@@ -180,6 +181,7 @@ namespace SlipStep
                             "must be 'static' or a number greater than 0");
         initial_coefficient = coefficient.value(initial) * basis.scale;
       }
+    range_of_coefficient = find_coefficient_range();
   }
 
 

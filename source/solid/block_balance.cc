@@ -29,32 +29,42 @@ namespace SlipStep
   // plus the motion of the frame. A face that is held in space moves against
   // the frame, and its reactions do none.
   template <int dim>
-  void Block<dim>::add_external_work()
+  double Block<dim>::work_of_stage()
   {
-    const Tensor<1, 2> motion = loading.displacement - old_loading.displacement;
+    const Tensor<1, 2> motion = loading.displacement - stage_frame;
     Tensor<1, dim>     frame_motion;
     for (unsigned int i = 0; i < dim - 1; ++i)
       frame_motion[parameters.tangential_axis(i)] = motion[i];
     double work = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       for (const auto dof : supported_dofs[d])
-        work += 0.5 * (old_unbalanced(dof) + unbalanced(dof)) *
-                (solution(dof) - old_solution(dof) + frame_motion[d]);
-    external_work += Utilities::MPI::sum(work, communicator);
-    old_unbalanced = unbalanced;
+        work += unbalanced(dof) *
+                (solution(dof) - stage_solution(dof) + frame_motion[d]);
+    work = Utilities::MPI::sum(work, communicator);
 
-    forces = constant_load;
-    forces.add((old_loading.pressure + loading.pressure) / 2.,
+    forces = 0.;
+    forces.add(constant_share,
+               constant_load,
+               loading.pressure,
                unit_pressure_load);
-    external_work += forces * solution - forces * old_solution;
-    external_work += sum_by_component(forces) * frame_motion;
+    return work + forces * solution - forces * stage_solution +
+           sum_by_component(forces) * frame_motion;
+  }
 
+
+
+  template <int dim>
+  void Block<dim>::check_balance_of_forces()
+  {
     // Global balance: elastic forces have no resultant, so contact forces are
     // the loads plus all reactions; `unbalanced` holds nothing but reactions.
     const double normal_load =
       std::abs(sum_by_component(contact_forces)[parameters.normal_axis()]);
     forces = contact_forces;
-    forces.add(-1., constant_load, -loading.pressure, unit_pressure_load);
+    forces.add(-constant_share,
+               constant_load,
+               -loading.pressure,
+               unit_pressure_load);
     for (const auto &line : homogeneous_constraints.get_lines())
       if (line.entries.empty() &&
           dof_handler.locally_owned_dofs().is_element(line.index))
@@ -74,7 +84,10 @@ namespace SlipStep
   {
     forces = unbalanced;
     forces -= contact_forces;
-    forces.add(1., constant_load, loading.pressure, unit_pressure_load);
+    forces.add(constant_share,
+               constant_load,
+               loading.pressure,
+               unit_pressure_load);
     return 0.5 * (forces * solution);
   }
 

@@ -114,8 +114,7 @@ namespace SlipStep
             data.unknowns.push_back(
               old_solution.get_partitioner()->global_to_local(dof));
         }
-    for (const Vector *vector :
-         {&old_solution, &older_solution, &old_unbalanced})
+    for (const Vector *vector : {&old_solution, &older_solution})
       {
         Vector ghosted(*vector);
         ghosted.update_ghost_values();
@@ -236,8 +235,7 @@ namespace SlipStep
       contact_face_of.emplace(contact.cell_faces()[i].cell->id(), i);
 
     const unsigned int            n_q     = contact.quadrature().size();
-    const std::array<Vector *, 3> vectors = {
-      {&old_solution, &older_solution, &old_unbalanced}};
+    const std::array<Vector *, 3> vectors = {{&old_solution, &older_solution}};
     for (Vector *vector : vectors)
       *vector = 0.;
     PreconditionerOrigin<dim> origin;

@@ -173,9 +173,7 @@ namespace SlipStep
 
 
   // Equilibrium on a new mesh under the loads at the beginning of the step, in
-  // a time too short for anything that takes time. It tells the reactions with
-  // which the work of the next step begins. If it cannot be found, those of the
-  // state as it is serve as well.
+  // a time too short for anything that takes time.
   template <int dim>
   bool Block<dim>::find_equilibrium_at_start()
   {
@@ -184,16 +182,13 @@ namespace SlipStep
     const auto        norms   = residual_norms;
     const std::string message = failure;
     loading                   = old_loading;
-    trial_step                = 1e-6 * control.step_size();
+    stage_time                = 1e-6 * control.step_size();
+    stage_solution            = old_solution;
+    stage_frame               = old_loading.displacement;
+    constant_share            = 1.;
     solution                  = old_solution;
     impose_displacements();
-    const bool is_found = solve_step();
-    if (!is_found)
-      {
-        solution = old_solution;
-        compute_residual();
-      }
-    old_unbalanced               = unbalanced;
+    const bool is_found          = solve_stage();
     loading                      = end;
     std::tie(n_newton, n_linear) = newton;
     residual_norms               = norms;

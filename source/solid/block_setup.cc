@@ -78,7 +78,7 @@ namespace SlipStep
                            &unit_pressure_load,
                            &contact_forces,
                            &unbalanced,
-                           &old_unbalanced,
+                           &stage_solution,
                            &forces,
                            &right_hand_side})
       vector->reinit(solution);

@@ -117,7 +117,6 @@ namespace SlipStep
 
             const ContactResponse response =
               point.point.update(law, slip, f_n, time_step);
-            point.error   = response.error;
             point.slips   = response.slips;
             point.force   = Tensor<1, dim>();
             point.tangent = Tensor<2, dim>();
@@ -140,6 +139,57 @@ namespace SlipStep
               }
           }
       }
+  }
+
+
+
+  template <int dim>
+  void ContactFace<dim>::begin_second_stage()
+  {
+    for (CellFace &cell_face : faces)
+      for (QuadraturePoint &point : cell_face.points)
+        point.point.begin_second_stage(law);
+  }
+
+
+
+  template <int dim>
+  double ContactFace<dim>::step_error(const MPI_Comm &communicator) const
+  {
+    // What a single point may err, over what the mean may; points weaker than
+    // a share of the mean do not matter.
+    constexpr double times_more  = 10.;
+    constexpr double least_share = 0.1;
+
+    const auto strength_of = [](const QuadraturePoint &point) {
+      return std::max(point.point.trial().strength,
+                      point.point.committed().strength);
+    };
+    std::array<double, 4> sums{};
+    for (const CellFace &cell_face : faces)
+      for (const QuadraturePoint &point : cell_face.points)
+        {
+          const double    weight = point.JxW * strength_of(point);
+          const StepError error  = point.point.error(law);
+          sums[0] += weight * error.at_end;
+          sums[1] += weight * error.of_line;
+          sums[2] += weight;
+          sums[3] += weight > 0. ? point.JxW : 0.;
+        }
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        communicator,
+                        ArrayView<double>(sums.data(), sums.size()));
+    if (!(sums[2] > 0.))
+      return 0.;
+
+    double worst = 0.;
+    for (const CellFace &cell_face : faces)
+      for (const QuadraturePoint &point : cell_face.points)
+        if (strength_of(point) > least_share * sums[2] / sums[3])
+          worst = std::max(worst, point.point.error(law).at_end);
+    worst = Utilities::MPI::max(worst, communicator);
+    return std::max(StepError{sums[0] / sums[2], sums[1] / sums[2]}.measure(),
+                    worst / times_more);
   }
 
 
@@ -233,7 +283,7 @@ namespace SlipStep
   ContactTotals ContactFace<dim>::totals(const MPI_Comm &communicator) const
   {
     ContactTotals          totals;
-    std::array<double, 12> sums{};
+    std::array<double, 11> sums{};
     // Maxima of (r, r_s, mu) and of their negatives.
     std::array<double, 6> maxima;
     maxima.fill(std::numeric_limits<double>::lowest());
@@ -241,7 +291,7 @@ namespace SlipStep
       for (const QuadraturePoint &point : cell_face.points)
         {
           const ContactState &state = point.point.trial();
-          sums[6] += point.JxW * state.dissipation;
+          sums[5] += point.JxW * state.dissipation;
           if (state.normal_traction <= 0.)
             continue;
           const double load = point.JxW * state.normal_traction;
@@ -249,10 +299,9 @@ namespace SlipStep
           sums[1] += point.JxW * state.traction[0];
           sums[2] += point.JxW * state.traction[1];
           sums[3] += point.JxW * state.strength;
-          sums[4] += point.JxW * point.error;
-          sums[5] += point.JxW;
-          sums[7] += point.slips ? point.JxW : 0.;
-          sums[8] +=
+          sums[4] += point.JxW;
+          sums[6] += point.slips ? point.JxW : 0.;
+          sums[7] +=
             point.JxW * (state.normal_traction * state.normal_traction /
                            (2. * law.normal_stiffness()) +
                          law.stored_energy(state.traction));
@@ -260,7 +309,7 @@ namespace SlipStep
             {state.loading_ratio, state.normal_ratio, state.coefficient}};
           for (unsigned int i = 0; i < 3; ++i)
             {
-              sums[9 + i] += load * ratios[i];
+              sums[8 + i] += load * ratios[i];
               maxima[2 * i]     = std::max(maxima[2 * i], ratios[i]);
               maxima[2 * i + 1] = std::max(maxima[2 * i + 1], -ratios[i]);
             }
@@ -276,17 +325,16 @@ namespace SlipStep
     totals.tangential_load[0] = sums[1];
     totals.tangential_load[1] = sums[2];
     totals.limit_load         = sums[3];
-    totals.error              = sums[4];
-    totals.area               = sums[5];
-    totals.dissipated         = sums[6];
-    totals.slip_area          = sums[7];
-    totals.stored             = sums[8];
+    totals.area               = sums[4];
+    totals.dissipated         = sums[5];
+    totals.slip_area          = sums[6];
+    totals.stored             = sums[7];
     if (totals.normal_load > 0.)
       {
         std::array<Spread *, 3> spreads = {
           {&totals.loading_ratio, &totals.normal_ratio, &totals.coefficient}};
         for (unsigned int i = 0; i < 3; ++i)
-          *spreads[i] = {sums[9 + i] / totals.normal_load,
+          *spreads[i] = {sums[8 + i] / totals.normal_load,
                          -maxima[2 * i + 1],
                          maxima[2 * i]};
       }

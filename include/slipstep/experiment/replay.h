@@ -96,13 +96,6 @@ namespace SlipStep
       double      end;
     };
 
-    /// How friction changed in the step before.
-    struct Slope
-    {
-      dealii::Tensor<1, 2> rate;      ///< [1/s]
-      double               step = 0.; ///< its length [s], 0: there was none
-    };
-
     void add_lead_in(const MeasuredTest &motion, const double length);
 
     /// Time after which a step in this interval ends, infinite if the motion
@@ -117,7 +110,6 @@ namespace SlipStep
                  const double       tolerance,
                  ContactPoint      &point,
                  Slider            &slider,
-                 Slope             &slope,
                  double            &wanted_step) const;
 
     MachineStep make(const Step        &step,
@@ -131,7 +123,6 @@ namespace SlipStep
     std::size_t         n_before = 0;
     double              start_time;
     double              row_distance;
-    double              largest_pressure = 0.;
     std::vector<Step>   steps;
     std::size_t         first_compared = 0; ///< of the steps
     std::vector<double> time_list;

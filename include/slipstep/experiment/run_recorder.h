@@ -91,10 +91,12 @@ namespace SlipStep
     const ResourceUsage                   start;
     ResourceUsage                         earlier; ///< sessions
     std::vector<std::string>              warnings;
-    HistoryWriter                         writer;
-    std::vector<HistoryRow>               history;
-    Progress                              progress;
-    WorkEstimate                          work;
+    /// What may make steps short or a run fail.
+    std::vector<std::string> instabilities;
+    HistoryWriter            writer;
+    std::vector<HistoryRow>  history;
+    Progress                 progress;
+    WorkEstimate             work;
   };
 } // namespace SlipStep
 

@@ -1,9 +1,13 @@
 #ifndef slipstep_experiment_stability_h
 #define slipstep_experiment_stability_h
 
+#include <slipstep/experiment/machine.h>
+#include <slipstep/experiment/programme.h>
 #include <slipstep/friction/law.h>
 
 #include <complex>
+#include <string>
+#include <vector>
 
 namespace SlipStep
 {
@@ -69,8 +73,21 @@ namespace SlipStep
     /// @param mass per area [MPa s^2/mm]
     StabilityLimit limit(const double mass) const;
 
+    /// Whether even the quickest disturbances grow, which the contact bears
+    /// elastically: then no machine holds it.
+    bool grows_at_once() const
+    {
+      return !is_kept(time_of_quickest()) ||
+             dynamic_stiffness(quickest()).imag() < 0.;
+    }
+
   private:
     void find_steady_state();
+
+    /// The largest angular frequency that matters [1/s].
+    double quickest() const;
+
+    double time_of_quickest() const;
 
     /// Whether a step of this length [s] goes on as before.
     bool is_kept(const double time_step) const;
@@ -82,6 +99,15 @@ namespace SlipStep
     ContactState               steady;
     bool                       is_steady = false;
   };
+
+  /// Warnings, in words, of slides of a programme that neither the contact's
+  /// own stiffness nor the machine holds, since friction falls with speed: at
+  /// which speeds sliding has no stable branch, by which effects, and what
+  /// helps. Empty if there are none. Sliding that a machine with a mass makes a
+  /// motion is none.
+  std::vector<std::string> instability_warnings(const FrictionLaw &law,
+                                                const Programme   &programme,
+                                                const Machine     &machine);
 } // namespace SlipStep
 
 #endif

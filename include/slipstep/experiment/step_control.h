@@ -12,8 +12,8 @@ namespace SlipStep
   /// Chooses the time steps of a programme from the error that the friction law
   /// estimates, for a contact point and for the block alike.
   ///
-  /// The estimate of a backward Euler step grows with the square of the step,
-  /// so the next step is step * sqrt(tolerance / error), within limits. Steps
+  /// The estimate grows with the square of the step, so the next step is
+  /// step * sqrt(tolerance / error), within limits. Steps
   /// end exactly at the borders of the programme's segments; after a border the
   /// step starts anew, small enough for the elastic part of the contact. Steps
   /// are taken from a fixed series of numbers (ten per decade), so that
@@ -64,16 +64,14 @@ namespace SlipStep
     bool is_first_of_statement() const;
 
     /// What accept() would answer.
-    bool would_accept(const double error, const double strength) const;
+    bool would_accept(const double error) const;
 
-    /// Judge a step by the estimated error of the friction traction: go on to
-    /// the next and return true, or ask for the same again, smaller, and return
+    /// Judge a step by its estimated error, StepError::measure(): go on to the
+    /// next and return true, or ask for the same again, smaller, and return
     /// false.
-    /// @param error mean over the contact [MPa]
-    /// @param strength mean tau_y [MPa]. The error counts relative to it, or to
-    ///   the static friction at the largest pressure of the programme if that
-    ///   is more: in the first touch there is no scale yet.
-    bool accept(const double error, const double strength);
+    /// @throws RunError if the statement takes too many steps, or too small
+    /// ones
+    bool accept(const double error);
 
     /// The step could not be made: try a smaller one.
     /// @throws RunError with @p reason if it is too small already
@@ -95,13 +93,13 @@ namespace SlipStep
     void serialize(Archive &archive, const unsigned int)
     {
       archive &segment &begin &end &largest_step &first_step &full_step
-        &first_of_segment &accepted &rejected;
+        &first_of_segment &accepted &rejected &smallest_step &steps_of_statement
+          &rows_of_statement;
     }
 
   private:
-    double relative_error(const double error, const double strength) const;
-
     void start_segment();
+    void count_step();
     void plan(const double wanted_step);
     void shrink(const double wanted_step, const std::string &reason);
 
@@ -110,8 +108,9 @@ namespace SlipStep
     const double       first_slip;
     const unsigned int least_steps;
     const unsigned int equal_steps; ///< per statement, 0 for adaptive ones
+    const unsigned int most_steps;  ///< per statement
+    const double       least_step;  ///< relative to the statement
     const double       elastic_slip_per_pressure;
-    const double       nominal_strength;
 
     std::size_t  segment          = 0;
     double       begin            = 0.;
@@ -122,6 +121,9 @@ namespace SlipStep
     bool         first_of_segment = true;
     unsigned int accepted         = 0;
     unsigned int rejected         = 0;
+    double       smallest_step    = 0.;
+    unsigned int steps_of_statement = 0; ///< tried
+    unsigned int rows_of_statement  = 0; ///< of a test that is followed
   };
 } // namespace SlipStep
 

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <array>
 
 namespace SlipStep
@@ -25,7 +26,7 @@ namespace SlipStep
     double coefficient = 0.;
     /// Viscoplastic slip path, the integral of lambda [mm].
     double slip_path = 0.;
-    /// Viscoplastic slip rate lambda in the step just made [mm/s].
+    /// Viscoplastic slip rate lambda at the end of the step [mm/s].
     double slip_rate = 0.;
     /// Energy dissipated per area [MPa mm].
     double dissipation = 0.;
@@ -60,7 +61,7 @@ namespace SlipStep
     }
   };
 
-  /// What a step of a contact point answers, with its exact linearisation.
+  /// What a stage of a contact point answers, with its exact linearisation.
   struct ContactResponse
   {
     /// Tangential traction [MPa].
@@ -69,19 +70,60 @@ namespace SlipStep
     dealii::Tensor<2, 2> d_slip;
     /// d traction / d normal traction [1].
     dealii::Tensor<1, 2> d_normal;
-    /// Estimated error of the tangential traction made in this step [MPa].
-    double error = 0.;
     /// Whether more of the slip increment was viscoplastic than elastic.
     bool slips = false;
   };
 
+  /// Estimated error of a step, relative to the present strength.
+  struct StepError
+  {
+    /// Of traction, mu, r_s and strength, which the memories make, at the end
+    /// of the step.
+    double at_end = 0.;
+    /// Of the straight line from the beginning of the step to its end.
+    double of_line = 0.;
+
+    /// What the tolerance of a step is compared with: a line, of which the
+    /// error does not add up, may err four times as much.
+    double measure() const
+    {
+      return std::max(at_end, of_line / 4.);
+    }
+  };
+
   class FrictionLaw;
+
+  /// Where an implicit stage starts.
+  struct StageStart
+  {
+    StageStart() = default;
+
+    /// The first stage of a step.
+    explicit StageStart(const ContactState &state);
+
+    ContactState state;
+    /// Where the elastic path begins on which the smallest r is looked for
+    /// [MPa], and what of the trial traction is counted from there: the
+    /// traction, in the second stage less what slip will take.
+    dealii::Tensor<1, 2> path_start, path_base;
+  };
+
+  /// One stage that has been made.
+  struct StageRecord
+  {
+    ContactState         end;
+    ContactResponse      response;
+    dealii::Tensor<1, 2> slip_increment; ///< [mm]
+    double               time_step = 0.; ///< [s]
+  };
 
   /// One point of the contact face: a committed state and a trial state.
   ///
-  /// update() always starts from the committed state, so it can be repeated as
+  /// A step has two stages (TwoStages): update() makes the first,
+  /// begin_second_stage() goes on from it, update() makes the second. update()
+  /// always starts from the beginning of its stage, so it can be repeated as
   /// often as an iteration needs; commit() accepts the last update, revert()
-  /// forgets it.
+  /// forgets the step. With one stage only the step is one of backward Euler.
   class ContactPoint
   {
   public:
@@ -93,26 +135,25 @@ namespace SlipStep
     /// Continue from a known state.
     explicit ContactPoint(const ContactState &state);
 
-    /// Make one step.
-    /// @param slip_increment slip in the contact plane [mm] since the committed
-    ///   state
-    /// @param normal_traction f_n at the end of the step [MPa]; not positive
-    ///   means open
-    /// @param time_step [s], greater than 0
+    /// Make a stage.
+    /// @param slip_increment slip in the contact plane [mm] since the beginning
+    ///   of the stage
+    /// @param normal_traction f_n at its end [MPa]; not positive means open
+    /// @param time_step of the stage [s], greater than 0
     ContactResponse update(const FrictionLaw          &law,
                            const dealii::Tensor<1, 2> &slip_increment,
                            const double                normal_traction,
                            const double                time_step);
 
-    void commit()
-    {
-      committed_state = trial_state;
-    }
+    /// Let further updates be of the second stage.
+    void begin_second_stage(const FrictionLaw &law);
 
-    void revert()
-    {
-      trial_state = committed_state;
-    }
+    /// Estimated error of a step of two stages, as FrictionLaw::step_error().
+    StepError error(const FrictionLaw &law) const;
+
+    void commit();
+
+    void revert();
 
     const ContactState &committed() const
     {
@@ -121,19 +162,28 @@ namespace SlipStep
 
     const ContactState &trial() const
     {
-      return trial_state;
+      return last.end;
+    }
+
+    /// Traction with which the present stage starts [MPa].
+    const dealii::Tensor<1, 2> &stage_traction() const
+    {
+      return start.state.traction;
     }
 
     /// Both states, for boost::serialization.
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &committed_state &trial_state;
+      archive &committed_state &last.end;
+      if (Archive::is_loading::value)
+        start = StageStart(committed_state);
     }
 
   private:
     ContactState committed_state;
-    ContactState trial_state;
+    StageStart   start;       ///< of the present stage
+    StageRecord  first, last; ///< first stage, stage made last
   };
 } // namespace SlipStep
 

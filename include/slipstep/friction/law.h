@@ -2,6 +2,7 @@
 #define slipstep_friction_law_h
 
 #include <slipstep/friction/effect.h>
+#include <slipstep/friction/two_stages.h>
 
 #include <array>
 #include <ostream>
@@ -24,9 +25,11 @@ namespace SlipStep
   /// r_s = 1) and falls with r, and mu evolves with slip and time (Softening,
   /// Healing).
   ///
-  /// update() integrates one step by backward Euler: the traction stays along
-  /// its elastic trial, which leaves one scalar unknown, the slip in the step,
-  /// bracketed by 0 and |f_trial| / alpha_t. With Anisotropy this holds in the
+  /// update() makes one implicit stage (TwoStages) by backward Euler: the
+  /// traction stays along its elastic trial, which leaves one scalar unknown,
+  /// the slip in the stage, bracketed by 0 and |f_trial| / alpha_t. Strength
+  /// that falls with slip or speed gives it several roots; the one that goes on
+  /// as the contact did before is taken. With Anisotropy this holds in the
   /// metric of its ellipse, in which |f_t|, lambda and the slip path are then
   /// measured, and alpha_t is the stiffness along the first axis. Immutable:
   /// one law serves all points.
@@ -42,13 +45,38 @@ namespace SlipStep
     /// State of a point that has not been loaded yet.
     ContactState initial_state() const;
 
-    /// One step from @p start; the result depends on the arguments only.
-    /// @param[out] end state at the end of the step
-    ContactResponse update(const ContactState         &start,
+    /// One stage from @p start; the result depends on the arguments only.
+    /// @param[out] end state at the end of the stage
+    ContactResponse update(const StageStart           &start,
                            const dealii::Tensor<1, 2> &slip_increment,
                            const double                normal_traction,
                            const double                time_step,
                            ContactState               &end) const;
+
+    /// A step of backward Euler: one stage from a state.
+    ContactResponse update(const ContactState         &start,
+                           const dealii::Tensor<1, 2> &slip_increment,
+                           const double                normal_traction,
+                           const double                time_step,
+                           ContactState               &end) const
+    {
+      return update(
+        StageStart(start), slip_increment, normal_traction, time_step, end);
+    }
+
+    /// Where the second stage starts after the first of a step from @p start.
+    StageStart second_stage(const ContactState &start,
+                            const StageRecord  &first) const;
+
+    /// How far two stages are from one: the estimated error of a step, seen by
+    /// traction, mu, r_s and the memories, of which the last count as much as
+    /// they change the strength.
+    /// @param start of the step
+    /// @param second where its second stage started
+    StepError step_error(const ContactState &start,
+                         const StageRecord  &first,
+                         const StageStart   &second,
+                         const StageRecord  &last) const;
 
     /// Make a state consistent that comes from averaging or interpolating
     /// others: r follows from traction and strength, r_s obeys r_s <= r (and
@@ -63,7 +91,10 @@ namespace SlipStep
 
     /// The smallest and the largest mu that can be reached from the initial
     /// one.
-    std::array<double, 2> coefficient_range() const;
+    const std::array<double, 2> &coefficient_range() const
+    {
+      return range_of_coefficient;
+    }
 
     double normal_stiffness() const ///< alpha_n [MPa/mm]
     {
@@ -107,6 +138,17 @@ namespace SlipStep
       return flow->steady_ratio(speed);
     }
 
+    /// Names of the active effects by which a contact in steady sliding gets
+    /// weaker when it slips faster.
+    std::vector<std::string>
+    weakening_effects(const ContactState &steady) const;
+
+    /// Whether the traction depends on how fast the contact slips.
+    bool is_rate_dependent() const
+    {
+      return flow != &neutral || depends_on_rate;
+    }
+
     /// Names of the active effects, in the order of the catalogue.
     const std::vector<std::string> &effects() const
     {
@@ -119,22 +161,52 @@ namespace SlipStep
   private:
     struct LocalSystem;
 
-    ContactResponse isotropic_update(const ContactState         &start,
+    // A stage.
+    ContactResponse isotropic_update(const StageStart           &start,
                                      const dealii::Tensor<1, 2> &slip_increment,
                                      const double  normal_traction,
                                      const double  time_step,
                                      ContactState &end) const;
-
+    void            open(const LocalSystem &local, ContactState &end) const;
     SlipStepData    step_data(const LocalSystem &local) const;
     double          strength_at_rest(const LocalSystem &local) const;
-    void            start_ratio(const dealii::Tensor<1, 2> &traction_increment,
-                                LocalSystem                &local) const;
+    void            stick(LocalSystem &local) const;
+    void            start_ratio(const double       start_strength,
+                                const LocalSystem &end,
+                                LocalSystem       &local) const;
+    static double   smallest_ratio(const dealii::Tensor<1, 2> &traction,
+                                   const dealii::Tensor<1, 2> &increment,
+                                   const double                strength,
+                                   const double                end_strength,
+                                   double                     &where);
+    double          strength_of(const SlipStepData &step) const;
     void            evolve_coefficient(LocalSystem &local) const;
     void            evolve_strength(LocalSystem &local) const;
     void            evaluate(const double traction, LocalSystem &local) const;
-    void            solve(LocalSystem &local) const;
-    double          error_estimate(const LocalSystem &local) const;
+    bool            slide_on(LocalSystem &local) const;
+    bool            follow_branch(LocalSystem &local) const;
+    void            leave_sticking(LocalSystem &local) const;
+    void            solve(const double lower,
+                          const double upper,
+                          const double guess,
+                          LocalSystem &local) const;
     ContactResponse linearise(const LocalSystem &local) const;
+
+    // A step of two stages.
+    double error_of_traction(const ContactState &start,
+                             const StageRecord  &first,
+                             const StageRecord  &last) const;
+    double error_of_coefficient(const ContactState &start,
+                                const StageRecord  &first,
+                                const StageStart   &second,
+                                const StageRecord  &last) const;
+    double error_of_memories(const ContactState &start,
+                             const StageRecord  &last) const;
+    double error_of_normal_ratio(const ContactState &start,
+                                 const StageRecord  &first,
+                                 const StageRecord  &last) const;
+
+    dealii::Tensor<1, 2> direction_of(const ContactState &state) const;
 
     dealii::Tensor<1, 2>
     slip_direction(const dealii::Tensor<1, 2> &direction) const;
@@ -143,15 +215,19 @@ namespace SlipStep
 
     Rate coefficient_rate_per_slip(const double coefficient) const;
     Rate coefficient_rate_per_time(const double coefficient) const;
+    std::array<double, 2> find_coefficient_range() const;
 
     const double     alpha_n;
     const double     alpha_t;
     CoefficientBasis basis;
     double           initial_coefficient;
 
+    std::array<double, 2> range_of_coefficient;
+
     std::vector<std::string>             names;
     std::vector<std::unique_ptr<Effect>> active;
     std::vector<const StrengthEffect *>  strength_effects; ///< of those
+    std::vector<std::string>             strength_names;
 
     /// Owners of the exclusive slots; the neutral effect where there is none.
     const Effect *normal_ratio = &neutral;

@@ -154,9 +154,12 @@ namespace SlipStep
     bool        find_equilibrium_at_start();
 
     // One time step.
+    bool        make_step();
+    void        begin_stage(const double end_time, const double time_step);
+    bool        finish_stage(const double weight);
     void        predict();
     void        impose_displacements();
-    bool        solve_step();
+    bool        solve_stage();
     double      compute_residual();
     bool        only_round_off_is_left() const;
     double      linear_tolerance(const double norm) const;
@@ -171,7 +174,8 @@ namespace SlipStep
                        const unsigned int           n_files);
 
     // What an accepted step did to the energy and to the balance of forces.
-    void                   add_external_work();
+    double                 work_of_stage();
+    void                   check_balance_of_forces();
     dealii::Tensor<1, dim> sum_by_component(const Vector &forces) const;
     double                 elastic_energy();
     void                   check_contact(const ContactTotals &totals);
@@ -217,15 +221,21 @@ namespace SlipStep
     Vector      solution;
     Vector      old_solution;
     Vector      older_solution;
-    double      old_step   = 0.;
-    double      trial_step = 0.; // [s]
+    double      old_step = 0.;
     Loading     old_loading, loading;
+
+    // The present stage of the step: where it starts, how long it takes [s],
+    // and which share of the constant loads acts at its end.
+    Vector               stage_solution;
+    dealii::Tensor<1, 2> stage_frame;
+    double               stage_time     = 0.;
+    double               constant_share = 1.;
+    double               trial_work     = 0.; // of the step [N mm]
 
     // Newton's method.
     Vector              contact_forces; // not constrained
     Vector              unbalanced; // internal - external forces, all supports
     Vector              forces;     // scratch
-    Vector              old_unbalanced; // of the last accepted step
     Vector              right_hand_side;
     double              force_scale = 0.;
     std::vector<double> residual_norms;

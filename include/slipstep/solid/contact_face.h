@@ -26,7 +26,6 @@ namespace SlipStep
     double               normal_load = 0.; ///< [N]
     dealii::Tensor<1, 2> tangential_load;  ///< [N]
     double               limit_load = 0.;  ///< integral of tau_y [N]
-    double               error      = 0.;  ///< estimated, of the load [N]
     double               area       = 0.;  ///< in contact [mm^2]
     double               slip_area  = 0.;  ///< [mm^2]
     double               dissipated = 0.;  ///< [N mm]
@@ -50,18 +49,17 @@ namespace SlipStep
     struct QuadraturePoint
     {
       ContactPoint           point;
-      dealii::Point<dim>     position;   ///< undeformed [mm]
-      double                 JxW = 0.;   ///< [mm^2]
-      dealii::Tensor<1, dim> force;      ///< per area [MPa]
-      dealii::Tensor<2, dim> tangent;    ///< d force / d displacement [MPa/mm]
-      double                 error = 0.; ///< of the tangential traction [MPa]
+      dealii::Point<dim>     position; ///< undeformed [mm]
+      double                 JxW = 0.; ///< [mm^2]
+      dealii::Tensor<1, dim> force;    ///< per area [MPa]
+      dealii::Tensor<2, dim> tangent;  ///< d force / d displacement [MPa/mm]
       bool                   slips = false;
 
       /// All but position and weight, for boost::serialization.
       template <class Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &point &force &tangent &error &slips;
+        archive &point &force &tangent &slips;
       }
     };
 
@@ -77,19 +75,28 @@ namespace SlipStep
     /// Put fresh contact points on the locally owned part of the face.
     void reinit(const dealii::DoFHandler<dim> &dof_handler);
 
-    /// Evaluate the law everywhere, from the committed states.
-    /// @param displacement at the end of the step, ghosted [mm]
+    /// Evaluate the law everywhere, from where the stage begins.
+    /// @param displacement at the end of the stage, ghosted [mm]
     /// @param old_displacement at its beginning, ghosted [mm]
-    /// @param frame_increment motion of the frame in the step [mm]
-    /// @param time_step [s]
+    /// @param frame_increment motion of the frame in the stage [mm]
+    /// @param time_step of the stage [s]
     void update(const Vector               &displacement,
                 const Vector               &old_displacement,
                 const dealii::Tensor<1, 2> &frame_increment,
                 const double                time_step);
 
+    /// Let further updates be of the second stage of the step.
+    void begin_second_stage();
+
+    /// Estimated error of the step of two stages just made, relative to the
+    /// strength, as StepError::measure(). It is that of the mean, or a part of
+    /// that of the worst point among those that bear a load, so that a narrow
+    /// front counts, too.
+    double step_error(const MPI_Comm &communicator) const;
+
     void commit();
 
-    /// Forget the last update.
+    /// Forget the step.
     void revert();
 
     /// Put a point back into an earlier state; position and weight stay.

@@ -1,0 +1,225 @@
+#include <slipstep/friction/law.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace SlipStep
+{
+  using dealii::Tensor;
+
+  // What the steps of two stages add to the stages of law.cc.
+
+  namespace
+  {
+    // What two rates mean for the end of a step: the method of second order
+    // takes shares of both, the one of first order the last alone. Half of the
+    // difference is the error of backward Euler where the rate changes evenly.
+    constexpr double share = 0.5 * TwoStages::carry;
+
+    double carried(const double start, const double first)
+    {
+      return start + TwoStages::carry * (first - start);
+    }
+
+    double slip_of(const StageRecord &stage)
+    {
+      return stage.end.slip_rate * stage.time_step;
+    }
+  } // namespace
+
+
+
+  // Of the traction of an isotropic law, along which that one slips.
+  Tensor<1, 2> FrictionLaw::direction_of(const ContactState &state) const
+  {
+    const Tensor<1, 2> traction = isotropic_traction(state.traction);
+    const double       norm     = traction.norm();
+    return norm > 0. ? traction / norm : traction;
+  }
+
+
+
+  // Traction, path and energy go on straight; r_s and the memories as they do
+  // with the slip rate of the first stage.
+  StageStart FrictionLaw::second_stage(const ContactState &start,
+                                       const StageRecord  &first) const
+  {
+    const double  slip      = slip_of(first);
+    const double  more      = (TwoStages::carry - 1.) * slip;
+    const double  more_time = (TwoStages::carry - 1.) * first.time_step;
+    StageStart    result(first.end);
+    ContactState &state = result.state;
+
+    const double coefficient =
+      carried(start.coefficient, first.end.coefficient);
+    state.coefficient =
+      std::clamp(coefficient,
+                 std::min(range_of_coefficient[0], start.coefficient),
+                 std::max(range_of_coefficient[1], start.coefficient));
+
+    const Tensor<1, 2> direction = direction_of(first.end);
+    const SlipStepData rest      = {first.end,
+                                    more_time,
+                                    first.end.normal_traction,
+                                    more,
+                               is_anisotropic ? slip_direction(direction) :
+                                                     direction,
+                                    first.end.coefficient,
+                                    isotropic_traction(first.end.traction).norm() *
+                                      more};
+    for (const StrengthEffect *effect : strength_effects)
+      effect->remember(rest, state);
+    if (first.end.normal_traction <= 0.)
+      return result;
+
+    state.slip_path   = first.end.slip_path + more;
+    state.dissipation = carried(start.dissipation, first.end.dissipation);
+    state.traction +=
+      (TwoStages::carry - 1.) * (first.end.traction - start.traction);
+    if (slip > 0.)
+      state.normal_ratio =
+        normal_ratio->normal_ratio_after_slip(state.normal_ratio, more).value;
+    result.path_base = first.end.traction - alpha_t * more * cone * direction;
+    return result;
+  }
+
+
+
+  StepError FrictionLaw::step_error(const ContactState &start,
+                                    const StageRecord  &first,
+                                    const StageStart   &second,
+                                    const StageRecord  &last) const
+  {
+    StepError error;
+    error.at_end = error_of_coefficient(start, first, second, last);
+
+    const ContactState &end = last.end;
+    if (!(end.normal_traction > 0.))
+      {
+        // When it came off the plane is known to a part of the step only.
+        const ContactState &closed =
+          first.end.strength > 0. ? first.end : start;
+        if (closed.strength > 0.)
+          error.at_end =
+            std::max(error.at_end,
+                     share * closed.traction.norm() * closed.slip_rate *
+                       last.time_step /
+                       (end.dissipation +
+                        closed.strength * closed.strength / (2. * alpha_t)));
+        return error;
+      }
+
+    error.at_end =
+      std::max({error.at_end,
+                error_of_traction(start, first, last) / end.strength,
+                error_of_memories(start, last),
+                error_of_normal_ratio(start, first, last)});
+
+    // A parabola through three points is farthest from its chord in the middle.
+    if (start.normal_traction > 0. && first.end.normal_traction > 0.)
+      {
+        const auto friction = [](const ContactState &state) {
+          return state.traction / state.normal_traction;
+        };
+        constexpr double gamma   = TwoStages::gamma;
+        constexpr double highest = 0.25 / (gamma * (1. - gamma));
+        error.of_line            = highest *
+                        (friction(first.end) - (1. - gamma) * friction(start) -
+                         gamma * friction(end))
+                          .norm() *
+                        end.normal_traction / end.strength;
+      }
+    return error;
+  }
+
+
+
+  // Of what the rates of slip differ, stiffness and flow rule let a part
+  // through. A contact that slips when a step begins and sticks when its first
+  // stage ends has slipped in between, which no stage sees; without a rate
+  // effect slip stops at once.
+  double FrictionLaw::error_of_traction(const ContactState &start,
+                                        const StageRecord  &first,
+                                        const StageRecord  &last) const
+  {
+    const auto slip = [&](const ContactState &state) {
+      return inverse_cone * (state.slip_rate * direction_of(state));
+    };
+    const Tensor<1, 2> change = slip(last.end) - slip(first.end);
+    double             error =
+      share * last.time_step * (last.response.d_slip * change).norm();
+    if (is_rate_dependent() && start.normal_traction > 0.)
+      error = std::max(
+        error,
+        0.5 * first.time_step *
+          (first.response.d_slip * (slip(first.end) - slip(start))).norm());
+    return error;
+  }
+
+
+
+  double FrictionLaw::error_of_coefficient(const ContactState &start,
+                                           const StageRecord  &first,
+                                           const StageStart   &second,
+                                           const StageRecord  &last) const
+  {
+    const double mu = last.end.coefficient;
+    const double slope =
+      1. - slip_of(last) * coefficient_rate_per_slip(mu).derivative -
+      last.time_step * coefficient_rate_per_time(mu).derivative;
+    return share *
+           std::abs((mu - second.state.coefficient) -
+                    (first.end.coefficient - start.coefficient)) /
+           (slope * mu);
+  }
+
+
+
+  // The strength that the last rates alone, over the whole step, would make.
+  double FrictionLaw::error_of_memories(const ContactState &start,
+                                        const StageRecord  &last) const
+  {
+    if (strength_effects.empty())
+      return 0.;
+    const ContactState &end       = last.end;
+    const double        time_step = last.time_step / TwoStages::gamma;
+    const double        slip      = end.slip_rate * time_step;
+    const Tensor<1, 2>  direction = direction_of(end);
+    const double        strength =
+      strength_of({start,
+                   time_step,
+                   end.normal_traction,
+                   slip,
+                   is_anisotropic ? slip_direction(direction) : direction,
+                   end.coefficient,
+                   isotropic_traction(end.traction).norm() * slip});
+    return 0.5 * std::abs(strength - end.strength) / end.strength;
+  }
+
+
+
+  // r_s that the last slip rate alone, over the whole step and its elastic
+  // path, would make.
+  double FrictionLaw::error_of_normal_ratio(const ContactState &start,
+                                            const StageRecord  &first,
+                                            const StageRecord  &last) const
+  {
+    const ContactState &end = last.end;
+    if (normal_ratio == &neutral || !(end.slip_rate > 0.) ||
+        !(start.strength > 0.))
+      return 0.;
+    const Tensor<1, 2> path =
+      alpha_t *
+      (cone * (TwoStages::carry * first.slip_increment + last.slip_increment));
+    double       where;
+    const double smallest = smallest_ratio(isotropic_traction(start.traction),
+                                           path,
+                                           start.strength,
+                                           end.strength,
+                                           where);
+    const NormalRatio one_stage = normal_ratio->normal_ratio_after_slip(
+      std::min(start.normal_ratio, smallest),
+      end.slip_rate * last.time_step / TwoStages::gamma);
+    return 0.5 * std::abs(one_stage.value - end.normal_ratio);
+  }
+} // namespace SlipStep
