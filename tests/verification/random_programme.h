@@ -114,6 +114,7 @@ namespace SlipStep::Testing
     Dice     dice;
     Settings list;
     double   static_coefficient = 0.;
+    double   largest_length     = 20.; ///< of a slide [mm]
     bool     has_heating        = false;
   };
 
@@ -287,8 +288,12 @@ namespace SlipStep::Testing
   inline void RandomProgramme::draw_machine()
   {
     if (dice.happens(0.2))
-      set("Loading/Machine stiffness",
-          text(dice.logarithmic(1., 1e3)) + " MPa/mm");
+      {
+        set("Loading/Machine stiffness",
+            text(dice.logarithmic(2., 2e3)) + " MPa/mm");
+        // A soft one takes many steps if it sticks and slips.
+        largest_length = 2.;
+      }
   }
 
 
@@ -301,10 +306,10 @@ namespace SlipStep::Testing
              text(dice.logarithmic(0.01, 100.)) + " s";
     if (kind < 0.3)
       return "hold " + text(dice.logarithmic(0.01, 1e4)) + " s";
-    const std::string sign      = dice.happens(0.35) ? "-" : "";
-    std::string       statement = "slide " + sign +
-                            text(dice.logarithmic(1e-4, 1e2)) + " mm/s for " +
-                            text(dice.logarithmic(1e-3, 20.)) + " mm";
+    const std::string sign = dice.happens(0.35) ? "-" : "";
+    std::string       statement =
+      "slide " + sign + text(dice.logarithmic(1e-4, 1e2)) + " mm/s for " +
+      text(dice.logarithmic(1e-3, largest_length)) + " mm";
     if (dice.happens(0.3))
       statement += " at " + text(dice.uniform(-180., 180.)) + " deg";
     return statement;

@@ -31,6 +31,7 @@ namespace
     std::vector<std::string> complaints;
     std::size_t              steps         = 0;
     bool                     is_given_up   = false; ///< with a RunError
+    bool                     is_endless    = false; ///< too many steps
     double                   peak          = 0.;
     double                   balance_error = 0.;
     HistoryRow               last;
@@ -79,7 +80,9 @@ namespace
     std::map<std::string, unsigned int> complained;
   };
 
-  Outcome run(const Settings &settings, const double tolerance)
+  Outcome run(const Settings   &settings,
+              const double      tolerance,
+              const std::size_t steps_allowed)
   {
     Parameters parameters = point_parameters(settings);
     parameters.set("Time stepping/Tolerance", exact_text(tolerance), "test");
@@ -97,8 +100,8 @@ namespace
           programme,
           StepControl(parameters, programme, law),
           [&](const HistoryRow &row) {
-            if (++outcome.steps > most_steps)
-              throw std::length_error("more steps than allowed");
+            if (++outcome.steps > steps_allowed)
+              throw std::length_error("does not end");
             check(row, outcome);
             outcome.peak =
               std::max(outcome.peak, std::hypot(row.friction, row.friction_y));
@@ -112,7 +115,7 @@ namespace
       }
     catch (const std::length_error &)
       {
-        outcome.complaints.push_back("does not end");
+        outcome.is_endless = true;
       }
     summarise_history({outcome.last}, programme, summary);
     outcome.balance_error = summary.balance_error;
@@ -120,30 +123,43 @@ namespace
   }
 
   /// Whether the contact cannot slide steadily at some speed up to one of the
-  /// programme, all of which it goes through.
+  /// programme, all of which it goes through. (No law drawn here lacks a steady
+  /// state but for an instability.)
   bool is_unstable(const Settings &settings)
   {
-    const Parameters  parameters = point_parameters(settings);
-    const FrictionLaw law(parameters);
-    const double      stiffness = Machine(parameters).stiffness();
+    const Parameters     parameters = point_parameters(settings);
+    const FrictionLaw    law(parameters);
+    const double         stiffness = Machine(parameters).stiffness();
+    std::vector<Loading> seen;
     for (const Segment &segment : parse_programme(parameters).segments())
-      if (segment.end.velocity.norm() > 0. && segment.end.pressure > 0.)
-        for (double share = 1.; share > 1e-7; share /= 10.)
+      {
+        const Loading &now = segment.end;
+        if (now.velocity.norm() == 0. || now.pressure == 0. ||
+            std::any_of(seen.begin(), seen.end(), [&](const Loading &other) {
+              return other.pressure == now.pressure &&
+                     (other.velocity - now.velocity).norm() <
+                       1e-9 * now.velocity.norm();
+            }))
+          continue;
+        seen.push_back(now);
+        for (double share = 1.; share > 1e-4; share /= 30.)
           {
             const SteadySliding sliding(law,
-                                        share * segment.end.velocity,
-                                        segment.end.pressure);
-            if (sliding.exists() && !(sliding.limit(0.).stiffness < stiffness))
+                                        share * now.velocity,
+                                        now.pressure);
+            if (!sliding.exists() || !(sliding.limit(0.).stiffness < stiffness))
               return true;
           }
+      }
     return false;
   }
 
   struct Tally
   {
-    unsigned int n = 0, given_up = 0, unstable = 0, unbalanced = 0,
-                 sensitive = 0;
-    std::size_t steps      = 0;
+    unsigned int n = 0, given_up = 0, not_refined = 0, unstable = 0,
+                 unbalanced   = 0;
+    std::size_t steps         = 0;
+    double      worst_balance = 0.;
   };
 
   void complain(const std::uint64_t    seed,
@@ -153,41 +169,43 @@ namespace
     ADD_FAILURE() << "seed " << seed << ": " << what << "\n" << programme.prm();
   }
 
-  void check_sensitivity(const std::uint64_t    seed,
-                         const RandomProgramme &programme,
-                         const Outcome         &outcome,
-                         Tally                 &tally)
+  /// What a run with a smaller tolerance says otherwise; nothing if that is
+  /// little.
+  std::string sensitivity(const RandomProgramme &programme,
+                          const Outcome         &outcome)
   {
-    const Outcome finer = run(programme.settings(), default_tolerance / 10.);
+    const Outcome finer =
+      run(programme.settings(), default_tolerance / 10., 4 * most_steps);
     if (finer.is_given_up)
-      return;
+      return "";
     const double friction =
       std::hypot(finer.last.friction - outcome.last.friction,
                  finer.last.friction_y - outcome.last.friction_y) /
       std::max(finer.peak, 1e-300);
+    // A point that hardly slips has little to dissipate.
     const double energy =
       std::abs(finer.last.dissipated_energy - outcome.last.dissipated_energy) /
-      std::max(finer.last.dissipated_energy, 1e-300);
-    if (finer.complaints.empty() && friction <= 0.01 && energy <= 0.01)
-      return;
-    if (is_unstable(programme.settings()))
-      {
-        ++tally.unstable;
-        return;
-      }
-    ++tally.sensitive;
+      std::max(finer.last.dissipated_energy + finer.last.stored_energy, 1e-300);
     std::ostringstream what;
-    what << "a smaller tolerance changes friction by " << friction
-         << " and energy by " << energy;
+    if (finer.is_endless)
+      what << "a smaller tolerance makes it endless";
+    else if (!(friction <= 0.01 && energy <= 0.01))
+      what << "a smaller tolerance changes friction by " << friction
+           << " and energy by " << energy;
     for (const std::string &complaint : finer.complaints)
-      what << ", " << complaint;
-    complain(seed, programme, what.str());
+      what << (what.str().empty() ? "" : ", ") << complaint
+           << " with a smaller tolerance";
+    return what.str();
   }
 
-  void check(const std::uint64_t seed, Tally &tally)
+  // Sticking and slipping on the nanometres that the contact is elastic for can
+  // take any number of steps, and what it ends with is an instant.
+  void
+  check(const std::uint64_t seed, const std::size_t steps_refined, Tally &tally)
   {
     const RandomProgramme programme(seed);
-    const Outcome outcome = run(programme.settings(), default_tolerance);
+    const Outcome         outcome =
+      run(programme.settings(), default_tolerance, most_steps);
     ++tally.n;
     tally.steps += outcome.steps;
     for (const std::string &complaint : outcome.complaints)
@@ -197,10 +215,23 @@ namespace
         ++tally.given_up;
         return;
       }
-    if (outcome.balance_error > 0.01)
-      ++tally.unbalanced;
-    if (outcome.complaints.empty())
-      check_sensitivity(seed, programme, outcome, tally);
+    if (outcome.steps > steps_refined && !outcome.is_endless)
+      {
+        ++tally.not_refined;
+        return;
+      }
+    const std::string what =
+      outcome.is_endless ? "does not end" : sensitivity(programme, outcome);
+    if (!what.empty() && is_unstable(programme.settings()))
+      ++tally.unstable;
+    else if (!what.empty())
+      complain(seed, programme, what);
+    else if (outcome.balance_error > 0.01)
+      {
+        ++tally.unbalanced;
+        tally.worst_balance =
+          std::max(tally.worst_balance, outcome.balance_error);
+      }
   }
 } // namespace
 
@@ -209,8 +240,11 @@ namespace
 TEST(RandomProgrammes, end_and_make_sense)
 {
   std::uint64_t first = 0, end = default_number;
+  // A run of more steps is not made again with a smaller tolerance.
+  std::size_t steps_refined = 5000;
   if (const char *text = std::getenv("SLIPSTEP_RANDOM_PROGRAMMES"))
     {
+      steps_refined           = most_steps;
       const std::string range = text;
       const std::size_t colon = range.find(':');
       first = colon == std::string::npos ? 0 : std::stoul(range);
@@ -219,14 +253,16 @@ TEST(RandomProgrammes, end_and_make_sense)
     }
   Tally tally;
   for (std::uint64_t seed = first; seed < end; ++seed)
-    check(seed, tally);
+    check(seed, steps_refined, tally);
   std::printf(
-    "%u programmes, %zu steps; given up: %u; energy out of balance by "
-    "more than 1 %%: %u; unstable: %u; sensitive: %u\n",
+    "%u programmes, %zu steps; given up: %u; not refined: %u; "
+    "unstable: %u; energy out of balance by more than 1 %%: %u, at most "
+    "by %.1f %%\n",
     tally.n,
     tally.steps,
     tally.given_up,
-    tally.unbalanced,
+    tally.not_refined,
     tally.unstable,
-    tally.sensitive);
+    tally.unbalanced,
+    100. * tally.worst_balance);
 }
