@@ -4,6 +4,8 @@
 #include "point_run.h"
 #include "reference_contact.h"
 
+#include <deal.II/base/numbers.h>
+
 #include <boost/math/special_functions/expint.hpp>
 
 #include <gtest/gtest.h>
@@ -36,14 +38,14 @@ TEST(ReferenceContact, first_slip_without_rate_effect)
                       {"Friction/Static coefficient", "0.1"},
                       {"Friction/subloading/Form", form},
                       {"Loading/Programme",
-                       "press 5 MPa in 1 s; slide 1 um/s for 20 um"}},
+                       "press 5 MPa in 1 s; slide 1 um/s for 30 um"}},
                      1e-10);
       for (const double r : {0.001, 0.01, 0.1, 0.5, 0.9, 0.99})
         {
           const double slip =
-            form == "log" ?
-              boost::math::expint(1, -std::log(r)) / u :
-              -2. / (M_PI * u) * std::log(std::cos(M_PI * r / 2.));
+            form == "log" ? boost::math::expint(1, -std::log(r)) / u :
+                            -2. / (dealii::numbers::PI * u) *
+                              std::log(std::cos(dealii::numbers::PI * r / 2.));
           const double s      = r * mu * f_n / alpha + slip;
           const auto   answer = reference.at(1. + s / speed);
           EXPECT_NEAR(answer.friction[0] / mu, r, 1e-9) << form << r;
@@ -121,8 +123,8 @@ TEST(ReferenceContact, traction_turns_on_the_ellipse)
                   {"Friction/anisotropy/Ratio", "0.6"},
                   {"Loading/Programme",
                    "press 5 MPa in 1 s; slide 1 mm/s for 1 mm at 40 deg"}});
-  const double x    = std::cos(40. * M_PI / 180.),
-               y    = 0.6 * std::sin(40. * M_PI / 180.);
+  const double x    = std::cos(40. * dealii::numbers::PI / 180.),
+               y    = 0.6 * std::sin(40. * dealii::numbers::PI / 180.);
   const auto answer = reference.at(2.);
   EXPECT_NEAR(answer.friction[0], 0.1 * x / std::hypot(x, y), 1e-8);
   EXPECT_NEAR(answer.friction[1], 0.06 * y / std::hypot(x, y), 1e-8);
@@ -172,4 +174,40 @@ TEST(ReferenceContact, its_own_error_is_small)
       ASSERT_NEAR(a.friction[1], b.friction[1], 1e-9) << t;
       ASSERT_NEAR(a.dissipation, b.dissipation, 1e-8) << t;
     }
+}
+
+
+
+TEST(ReferenceContact, the_law_in_tiny_steps_agrees)
+{
+  // In all of its steps the law itself comes to the same, if they are short
+  // enough from the first on.
+  const Parameters parameters = point_parameters(
+    {{"Friction/Effects",
+      "subloading, overstress, softening, healing, heating, viscous, anisotropy"},
+     {"Friction/healing/Rate", "1e-3"},
+     {"Friction/healing/Steepness", "50"},
+     {"Friction/heating/Cooling time", "2 s"},
+     {"Friction/viscous/Drag", "0.05"},
+     {"Friction/anisotropy/Ratio", "0.7"},
+     {"Friction/anisotropy/Angle", "20 deg"},
+     {"Time stepping/Least steps per statement", "1000"},
+     {"Time stepping/First slip", "1e-3"},
+     {"Loading/Programme",
+      "press 5 MPa in 1 s; slide 1 mm/s for 1 mm; hold 5 s; slide -0.1 mm/s for "
+      "0.5 mm at 30 deg; press 8 MPa in 1 s; slide 0.1 mm/s for 0.5 mm"}});
+  const ReferenceContact reference(parameters, parse_programme(parameters));
+  double                 friction = 0., energy = 0., peak = 0.;
+  for (const HistoryRow &row : point_history(parameters, 1e-7))
+    {
+      const auto answer = reference.at(row.time);
+      friction          = std::max(friction,
+                          std::hypot(answer.friction[0] - row.friction,
+                                     answer.friction[1] - row.friction_y));
+      energy =
+        std::max(energy, std::abs(answer.dissipation - row.dissipated_energy));
+      peak = std::max(peak, std::hypot(row.friction, row.friction_y));
+    }
+  EXPECT_LT(friction / peak, 1e-4);
+  EXPECT_LT(energy / reference.at(17.).dissipation, 1e-4);
 }
