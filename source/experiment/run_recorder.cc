@@ -93,10 +93,11 @@ namespace SlipStep
           HistoryWriter(file,
                         summary.case_name +
                           (options.label.empty() ? "" : ", " + options.label),
+                        law.memories(),
                         probes);
         return;
       }
-    writer            = HistoryWriter(file, resumed->history.bytes);
+    writer = HistoryWriter(file, resumed->history.bytes, law.memories());
     history           = read_history(file);
     double share_done = 0.;
     for (const HistoryRow &row : history)

@@ -43,6 +43,11 @@ namespace SlipStep
             0.;
       }
 
+      virtual std::vector<double ContactState::*> memories() const override
+      {
+        return {&ContactState::contact_age};
+      }
+
       static void declare(Parameters &parameters)
       {
         parameters.declare("Friction/ageing/Growth",

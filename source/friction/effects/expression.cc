@@ -159,6 +159,13 @@ namespace SlipStep
             step.normal_traction > 0. ? hold_time(step).value : 0.;
       }
 
+      virtual std::vector<double ContactState::*> memories() const override
+      {
+        if (covariate == "hold time")
+          return {&ContactState::hold_time};
+        return {};
+      }
+
       static void declare(Parameters &parameters)
       {
         parameters.declare(
