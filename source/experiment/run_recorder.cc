@@ -47,6 +47,21 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    std::string way_to_shorter_steps(const Parameters &parameters)
+    {
+      const bool by_tolerance = StepControl::idle_keys(parameters).empty();
+      const std::string key   = by_tolerance ?
+                                  "Time stepping/Tolerance" :
+                                  "Time stepping/Equal steps per statement";
+      return (by_tolerance ? "a smaller " : "more ") + key + " than " +
+             parameters.text(key);
+    }
+  } // namespace
+
+
+
   RunRecorder::RunRecorder(const Parameters         &parameters,
                            const RunOptions         &options,
                            const std::string        &command,
@@ -57,6 +72,7 @@ namespace SlipStep
     : options(options)
     , programme(programme)
     , is_writer(is_writer)
+    , shorter_steps(way_to_shorter_steps(parameters))
     , quantities(parse_quantities(parameters, programme))
     , start(ResourceUsage::now())
     , progress(options.quiet || !is_writer, options.label)
@@ -186,6 +202,12 @@ namespace SlipStep
     summarise_history(history, programme, summary);
     summary.quantities =
       evaluate_quantities(quantities, programme, history, summary.dimension);
+    const std::string missing = summary.missing_energy();
+    if (!missing.empty())
+      summary.warnings.push_back(
+        missing +
+        ": the time steps are too long, and friction may be wrong, too; " +
+        shorter_steps + " may help");
     if (!is_writer)
       return;
     if (reason.empty())
