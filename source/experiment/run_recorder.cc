@@ -113,12 +113,11 @@ namespace SlipStep
                         probes);
         return;
       }
-    writer = HistoryWriter(file, resumed->history.bytes, law.memories());
-    history           = read_history(file);
-    double share_done = 0.;
+    writer  = HistoryWriter(file, resumed->history.bytes, law.memories());
+    history = read_history(file);
     for (const HistoryRow &row : history)
-      share_done = work.share_done(row.time);
-    progress.start_at(share_done);
+      work.share_done(row.time);
+    work.resume();
   }
 
 
@@ -180,7 +179,10 @@ namespace SlipStep
       text << std::round(1e3 * row.displacement) / 1e3 << " mm";
     if (!note.empty())
       text << ", " << note;
-    progress.update(work.share_done(row.time), text.str());
+    const double share_done = work.share_done(row.time);
+    progress.update(share_done,
+                    text.str(),
+                    work.time_left(row.time, progress.time_spent()));
   }
 
 
@@ -200,14 +202,14 @@ namespace SlipStep
     summary.status      = reason.empty() ? "finished" : "failed";
     summary.reason      = reason;
     summarise_history(history, programme, summary);
-    summary.quantities =
-      evaluate_quantities(quantities, programme, history, summary.dimension);
     const std::string missing = summary.missing_energy();
     if (!missing.empty())
       summary.warnings.push_back(
         missing +
         ": the time steps are too long, and friction may be wrong, too; " +
         shorter_steps + " may help");
+    summary.quantities =
+      evaluate_quantities(quantities, programme, history, summary.dimension);
     if (!is_writer)
       return;
     if (reason.empty())
