@@ -29,16 +29,17 @@ namespace SlipStep
   /// The machine that moves a contact point: a spring in series, the same in
   /// all directions of the contact plane, and a mass between the two.
   ///
-  /// The programme moves the load point at the far end of the spring by U; the
-  /// mass m (per area of contact) and with it the contact slips by u, resisted
-  /// by the traction of the friction law:
-  /// \f[ m \ddot u = k (U - u) - f_t. \f]
+  /// The programme moves the load point at the far end of the spring by u_d;
+  /// the mass m (per area of contact) and with it the contact slips by g,
+  /// resisted by the traction of the friction law:
+  /// \f[ m \ddot g = k (u_d - g) - f_t. \f]
   /// That belongs to the experiment: the friction law knows nothing of it.
   ///
   /// The trapezoidal rule integrates the motion of the mass, with f_t from the
   /// law's own implicit step,
-  /// \f[ m\,\frac{v_1-v_0}{\Delta t} = \frac{F_0+F_1}{2}, \quad
-  ///     u_1-u_0 = \Delta t\,\frac{v_0+v_1}{2}, \quad F = k(U-u)-f_t. \f]
+  /// \f[ m\,\frac{\dot g_1-\dot g_0}{\Delta t} = \frac{F_0+F_1}{2}, \quad
+  ///     g_1-g_0 = \Delta t\,\frac{\dot g_0+\dot g_1}{2}, \quad
+  ///     F = k(u_d-g)-f_t. \f]
   /// Multiplied by one another these say that kinetic energy and spring change
   /// by exactly the work of load point and traction: nothing but the law takes
   /// energy out, however long the steps. For the law, a step with mass is one
@@ -52,7 +53,7 @@ namespace SlipStep
   public:
     static void declare_parameters(Parameters &parameters);
 
-    /// A rigid machine, of which U = u.
+    /// A rigid machine, of which u_d = g.
     Machine() = default;
 
     /// @throws InputError, also for a mass that nothing springy moves
