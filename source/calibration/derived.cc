@@ -2,8 +2,7 @@
 
 #include <slipstep/calibration/derived.h>
 #include <slipstep/calibration/fit_parameter.h>
-
-#include <muParser.h>
+#include <slipstep/utilities/formula.h>
 
 #include <cmath>
 #include <iomanip>
@@ -71,16 +70,17 @@ namespace SlipStep
 
   double evaluate(const Derived &derived, const Parameters &parameters)
   {
-    double value = std::numeric_limits<double>::quiet_NaN();
+    const std::string text  = with_numbers(derived, parameters);
+    double            value = std::numeric_limits<double>::quiet_NaN();
     try
       {
-        mu::Parser parser;
-        parser.SetExpr(with_numbers(derived, parameters));
-        value = parser.Eval();
+        // First as it is written, for a mark at the right place.
+        check_formula(derived.formula);
+        value = ParsedFormula(text)();
       }
-    catch (const mu::ParserError &error)
+    catch (const InputError &error)
       {
-        reject(derived, parameters, error.GetMsg());
+        reject(derived, parameters, error.what());
       }
     if (!std::isfinite(value))
       reject(derived, parameters, "the value is not finite");

@@ -2,6 +2,7 @@
 
 #include <slipstep/utilities/csv.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <string>
@@ -71,7 +72,8 @@ namespace SlipStep
         number("external_work_Nmm", &Row::external_work),
         number("step_s", &Row::step_size),
         count("newton_iterations", &Row::newton_iterations),
-        count("linear_iterations", &Row::linear_iterations)};
+        count("linear_iterations", &Row::linear_iterations),
+        number("slip_mm", &Row::slip)};
       return all;
     }
 
@@ -81,15 +83,28 @@ namespace SlipStep
     {
       return "probe_" + std::to_string(i + 1);
     }
+
+    std::size_t index_of(const ContactMemory &memory)
+    {
+      const auto all = ContactState::memories();
+      return std::find_if(all.begin(),
+                          all.end(),
+                          [&memory](const ContactMemory &other) {
+                            return other.value == memory.value;
+                          }) -
+             all.begin();
+    }
   } // namespace
 
 
 
-  HistoryWriter::HistoryWriter(const std::filesystem::path    &file,
-                               const std::string              &name,
-                               const std::vector<std::string> &probes)
+  HistoryWriter::HistoryWriter(const std::filesystem::path      &file,
+                               const std::string                &name,
+                               const std::vector<ContactMemory> &memories,
+                               const std::vector<std::string>   &probes)
     : out(file)
     , file(file)
+    , memories(memories)
   {
     if (!out)
       throw InputError(file.string() + ": this file cannot be written");
@@ -102,6 +117,8 @@ namespace SlipStep
         out << separator << column.name;
         separator = ",";
       }
+    for (const ContactMemory &memory : memories)
+      out << ',' << memory.name;
     for (std::size_t i = 0; i < probes.size(); ++i)
       out << ',' << probe_name(i);
     out << '\n' << std::flush;
@@ -113,9 +130,11 @@ namespace SlipStep
 
 
 
-  HistoryWriter::HistoryWriter(const std::filesystem::path &file,
-                               const std::uintmax_t         bytes)
+  HistoryWriter::HistoryWriter(const std::filesystem::path      &file,
+                               const std::uintmax_t              bytes,
+                               const std::vector<ContactMemory> &memories)
     : file(file)
+    , memories(memories)
     , size(bytes)
   {
     std::error_code error;
@@ -138,6 +157,8 @@ namespace SlipStep
         line += column.number ? exact_text(column.number(values)) :
                                 std::to_string(column.count(values));
       }
+    for (const ContactMemory &memory : memories)
+      line += ',' + exact_text(row.memories[index_of(memory)]);
     for (const double probe : row.probes)
       line += ',' + exact_text(probe);
     out << line << '\n' << std::flush;
@@ -163,13 +184,20 @@ namespace SlipStep
     std::vector<std::string> probes;
     for (std::size_t i = 0; i < most_probes; ++i)
       probes.push_back(probe_name(i));
-    const CsvTable table(file, names, probes);
+    std::vector<std::string> others = probes;
+    for (const ContactMemory &memory : ContactState::memories())
+      others.emplace_back(memory.name);
+    const CsvTable table(file, names, others);
 
     std::vector<HistoryRow> history(table.size());
     for (const std::string &probe : probes)
       if (table.has(probe))
         for (std::size_t row = 0; row < history.size(); ++row)
           history[row].probes.push_back(table[probe][row]);
+    for (const ContactMemory &memory : ContactState::memories())
+      if (table.has(memory.name))
+        for (std::size_t row = 0; row < history.size(); ++row)
+          history[row].memories[index_of(memory)] = table[memory.name][row];
     for (const Column &column : columns())
       {
         const std::vector<double> &values = table[column.name];

@@ -355,6 +355,10 @@ namespace SlipStep
     for (const RunResults &run : results)
       if (run.summary.status == "failed")
         text += "  " + run_name(run) + ": failed: " + run.summary.reason + "\n";
+    for (const RunResults &run : results)
+      if (!run.summary.missing_energy().empty())
+        text += "  " + run_name(run) +
+                ": warning: " + run.summary.missing_energy() + "\n";
     for (const std::string &problem : problems)
       text += "  " + problem + "\n";
     return text;

@@ -2,16 +2,11 @@
 
 #include <slipstep/utilities/units.h>
 
-#include <deal.II/base/function_parser.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <iostream>
 #include <limits>
-#include <map>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -34,39 +29,6 @@ namespace SlipStep
       return parse_quantity(has_unit ? text : text + " mm/min",
                             Dimension::speed,
                             true);
-    }
-
-    double evaluate(const dealii::FunctionParser<1> &formula,
-                    const double                     speed)
-    {
-      return formula.value(dealii::Point<1>(speed * mm_min));
-    }
-    /// Give @p formula its text. @return what is wrong with it, or ""
-    std::string fault_of(dealii::FunctionParser<1> &formula,
-                         const std::string         &text)
-    {
-      // deal.II prints what the parser says instead of throwing it.
-      std::ostringstream said;
-      std::streambuf    *terminal = std::cerr.rdbuf(said.rdbuf());
-      std::string        fault;
-      try
-        {
-          formula.initialize("V", text, std::map<std::string, double>());
-          // Parsing happens at the first evaluation.
-          if (!std::isfinite(evaluate(formula, 1. / mm_min)))
-            fault = "not a finite number at V = 1";
-        }
-      catch (const std::exception &)
-        {
-          const std::string message = said.str();
-          const auto        begin   = message.find('<');
-          const auto        end     = message.find('>', begin);
-          fault                     = end == std::string::npos ?
-                                        "cannot be read" :
-                                        message.substr(begin + 1, end - begin - 1);
-        }
-      std::cerr.rdbuf(terminal);
-      return fault.substr(0, fault.find_last_not_of(". ") + 1);
     }
   } // namespace
 
@@ -120,12 +82,19 @@ namespace SlipStep
     const std::string text = parameters.text(key);
     if (text.empty())
       return;
-    formula                 = std::make_shared<dealii::FunctionParser<1>>();
-    const std::string fault = fault_of(*formula, text);
-    if (!fault.empty())
-      parameters.reject(key,
-                        fault + "; expected is a formula of the speed V in "
-                                "mm/min, e.g. 0.0042*log(V) + 0.1");
+    try
+      {
+        formula = std::make_shared<const ParsedFormula>(text, "V");
+        if (!std::isfinite((*formula)(1.)))
+          throw InputError("not a finite number at V = 1");
+      }
+    catch (const InputError &error)
+      {
+        parameters.reject(key,
+                          "expected is a formula of the speed V in mm/min, "
+                          "e.g. 0.0042*log(V) + 0.1: " +
+                            std::string(error.what()));
+      }
   }
 
 
@@ -139,7 +108,7 @@ namespace SlipStep
 
   double Reference::kinetic(const double speed) const
   {
-    return exists() ? evaluate(*formula, speed) :
+    return exists() ? (*formula)(speed * mm_min) :
                       std::numeric_limits<double>::quiet_NaN();
   }
 

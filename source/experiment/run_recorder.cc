@@ -49,6 +49,21 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    std::string way_to_shorter_steps(const Parameters &parameters)
+    {
+      const bool by_tolerance = StepControl::idle_keys(parameters).empty();
+      const std::string key   = by_tolerance ?
+                                  "Time stepping/Tolerance" :
+                                  "Time stepping/Equal steps per statement";
+      return (by_tolerance ? "a smaller " : "more ") + key + " than " +
+             parameters.text(key);
+    }
+  } // namespace
+
+
+
   RunRecorder::RunRecorder(const Parameters         &parameters,
                            const RunOptions         &options,
                            const std::string        &command,
@@ -59,6 +74,7 @@ namespace SlipStep
     : options(options)
     , programme(programme)
     , is_writer(is_writer)
+    , shorter_steps(way_to_shorter_steps(parameters))
     , quantities(parse_quantities(parameters, programme))
     , start(ResourceUsage::now())
     , progress(options.quiet || !is_writer, options.label)
@@ -98,15 +114,15 @@ namespace SlipStep
           HistoryWriter(file,
                         summary.case_name +
                           (options.label.empty() ? "" : ", " + options.label),
+                        law.memories(),
                         probes);
         return;
       }
-    writer            = HistoryWriter(file, resumed->history.bytes);
-    history           = read_history(file);
-    double share_done = 0.;
+    writer  = HistoryWriter(file, resumed->history.bytes, law.memories());
+    history = read_history(file);
     for (const HistoryRow &row : history)
-      share_done = work.share_done(row.time);
-    progress.start_at(share_done);
+      work.share_done(row.time);
+    work.resume();
   }
 
 
@@ -168,7 +184,10 @@ namespace SlipStep
       text << std::round(1e3 * row.displacement) / 1e3 << " mm";
     if (!note.empty())
       text << ", " << note;
-    progress.update(work.share_done(row.time), text.str());
+    const double share_done = work.share_done(row.time);
+    progress.update(share_done,
+                    text.str(),
+                    work.time_left(row.time, progress.time_spent()));
   }
 
 
@@ -191,6 +210,12 @@ namespace SlipStep
       for (const std::string &text : instabilities)
         summary.reason += "; " + text;
     summarise_history(history, programme, summary);
+    const std::string missing = summary.missing_energy();
+    if (!missing.empty())
+      summary.warnings.push_back(
+        missing +
+        ": the time steps are too long, and friction may be wrong, too; " +
+        shorter_steps + " may help");
     summary.quantities =
       evaluate_quantities(quantities, programme, history, summary.dimension);
     if (!is_writer)

@@ -36,7 +36,7 @@ namespace SlipStep
         return state.traction[i];
       if (i == 2)
         return state.coefficient;
-      return state.*ContactState::memories()[i - 3];
+      return state.*ContactState::memories()[i - 3].value;
     }
 
     std::array<double, n_states> components(ContactState state)

@@ -214,7 +214,7 @@ namespace SlipStep
   std::string study_tables(const std::vector<StudyCurve> &curves)
   {
     std::ostringstream    out;
-    std::set<std::string> failures;
+    std::set<std::string> problems;
     for (const StudyCurve &curve : curves)
       {
         const bool is_time = curve.kind == StudySequence::Kind::time_step;
@@ -229,8 +229,11 @@ namespace SlipStep
             table.add_value("value", point.value);
             table.add_value("error", point.error);
             if (!is_finished(point.summary))
-              failures.insert("  " + point.label +
+              problems.insert("  " + point.label +
                               " failed: " + point.summary.reason + "\n");
+            if (!point.summary.missing_energy().empty())
+              problems.insert("  " + point.label + ": warning: " +
+                              point.summary.missing_energy() + "\n");
           }
         for (const std::string column : {"unknowns", "steps"})
           {
@@ -273,8 +276,8 @@ namespace SlipStep
         table.write_text(out);
       }
     // Once, not for every quantity.
-    out << (failures.empty() ? "" : "\n");
-    for (const std::string &failure : failures)
+    out << (problems.empty() ? "" : "\n");
+    for (const std::string &failure : problems)
       out << failure;
     return out.str();
   }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <limits>
 
@@ -318,6 +319,19 @@ namespace SlipStep
                                 are_close(slide.speed, s.speed) &&
                                 are_close(slide.pressure, s.pressure);
                        });
+  }
+
+
+
+  std::string Summary::missing_energy() const
+  {
+    if (!(balance_error > 0.01))
+      return "";
+    char share[32];
+    std::snprintf(share, sizeof(share), "%.2g", 100. * balance_error);
+    return std::string(share) +
+           " % of the work is neither stored nor dissipated (balance_error in "
+           "summary.json)";
   }
 
 

@@ -13,10 +13,12 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <thread>
 
@@ -329,8 +331,19 @@ namespace SlipStep
         text += "; " + jobs[child.job].label + " " +
                 std::to_string(static_cast<int>(100. * fraction[child.job])) +
                 " %";
+      // How long those take that have not begun, nobody knows.
+      double time_left = 0.;
+      bool   is_known  = n_started == jobs.size();
+      for (const Child &child : children)
+        {
+          is_known  = is_known && std::isfinite(child.progress.time_left);
+          time_left = std::max(time_left, child.progress.time_left);
+        }
       // All work done is announced by finish() only.
-      progress.update(std::min(sum / jobs.size(), 0.999), text);
+      progress.update(std::min(sum / jobs.size(), 0.999),
+                      text,
+                      is_known ? time_left :
+                                 std::numeric_limits<double>::quiet_NaN());
     }
 
 

@@ -652,7 +652,7 @@ namespace SlipStep
     end.slip_rate       = local.slip / time_step;
     end.dissipation     = start.dissipation + local.traction * local.slip;
     for (const auto memory : ContactState::memories())
-      end.*memory = start.*memory;
+      end.*memory.value = start.*memory.value;
     for (const StrengthEffect *effect : strength_effects)
       effect->remember(step_data(local), end);
     return response;

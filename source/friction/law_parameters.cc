@@ -186,6 +186,24 @@ namespace SlipStep
 
 
 
+  std::vector<ContactMemory> FrictionLaw::memories() const
+  {
+    std::vector<ContactMemory> used;
+    for (const ContactMemory &memory : ContactState::memories())
+      if (std::any_of(strength_effects.begin(),
+                      strength_effects.end(),
+                      [&memory](const StrengthEffect *effect) {
+                        const auto written = effect->memories();
+                        return std::find(written.begin(),
+                                         written.end(),
+                                         memory.value) != written.end();
+                      }))
+        used.push_back(memory);
+    return used;
+  }
+
+
+
   std::set<std::string> FrictionLaw::inactive_sections() const
   {
     std::set<std::string> sections;

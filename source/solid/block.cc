@@ -373,6 +373,8 @@ namespace SlipStep
     row.external_work     = external_work;
     row.newton_iterations = n_newton;
     row.linear_iterations = n_linear;
+    row.slip              = totals.slip;
+    row.memories          = totals.memories;
 
     older_solution = old_solution;
     old_solution   = solution;

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 
 namespace SlipStep
 {
@@ -85,29 +86,31 @@ namespace SlipStep
 
 
 
-    // Names and values of what is shown on the contact face.
-    const std::vector<std::string> contact_names = {"pressure_MPa",
-                                                    "traction_x_MPa",
-                                                    "traction_y_MPa",
-                                                    "slip_mm",
-                                                    "r",
-                                                    "r_s",
-                                                    "mu",
-                                                    "slips"};
-
-    template <int dim>
-    std::array<double, 8>
-    contact_values(const typename ContactFace<dim>::QuadraturePoint &point)
+    // Names and values of what is shown on the contact face: the same on all
+    // ranks.
+    struct FaceField
     {
-      const ContactState &state = point.point.committed();
-      return {{state.normal_traction,
-               state.traction[0],
-               state.traction[1],
-               state.slip_path,
-               state.loading_ratio,
-               state.normal_ratio,
-               state.coefficient,
-               point.slips ? 1. : 0.}};
+      std::string                                 name;
+      std::function<double(const ContactState &)> value;
+    };
+
+    std::vector<FaceField> face_fields(const FrictionLaw &law)
+    {
+      using State                   = ContactState;
+      std::vector<FaceField> fields = {
+        {"pressure_MPa", [](const State &s) { return s.normal_traction; }},
+        {"traction_x_MPa", [](const State &s) { return s.traction[0]; }},
+        {"traction_y_MPa", [](const State &s) { return s.traction[1]; }},
+        {"slip_mm", [](const State &s) { return s.slip_path; }},
+        {"r", [](const State &s) { return s.loading_ratio; }},
+        {"r_s", [](const State &s) { return s.normal_ratio; }},
+        {"mu", [](const State &s) { return s.coefficient; }},
+        {"dissipated_energy_Nmm_per_mm2",
+         [](const State &s) { return s.dissipation; }}};
+      for (const ContactMemory &memory : law.memories())
+        fields.push_back(
+          {memory.name, [memory](const State &s) { return s.*memory.value; }});
+      return fields;
     }
 
 
@@ -119,7 +122,11 @@ namespace SlipStep
     {
     public:
       explicit ContactPatches(const ContactFace<dim> &contact)
+        : names({"slips"})
       {
+        const auto fields = face_fields(contact.friction_law());
+        for (const FaceField &field : fields)
+          names.push_back(field.name);
         const FE_DGQ<dim - 1> corners(1);
         const unsigned int    n_points  = contact.quadrature().size();
         const unsigned int    n_corners = corners.dofs_per_cell;
@@ -132,17 +139,19 @@ namespace SlipStep
             DataOutBase::Patch<dim - 1, dim> patch;
             patch.n_subdivisions = 1;
             patch.patch_index    = patches.size();
-            patch.data.reinit(contact_names.size(), n_corners);
+            patch.data.reinit(names.size(), n_corners);
             const auto face = cell_face.cell->face(cell_face.face);
             for (unsigned int v = 0; v < n_corners; ++v)
               {
                 patch.vertices[v] = face->vertex(v);
                 for (unsigned int q = 0; q < n_points; ++q)
                   {
-                    const auto values =
-                      contact_values<dim>(cell_face.points[q]);
-                    for (unsigned int i = 0; i < values.size(); ++i)
-                      patch.data(i, v) += to_corners(v, q) * values[i];
+                    const auto  &point  = cell_face.points[q];
+                    const double weight = to_corners(v, q);
+                    patch.data(0, v) += point.slips ? weight : 0.;
+                    for (unsigned int i = 0; i < fields.size(); ++i)
+                      patch.data(1 + i, v) +=
+                        weight * fields[i].value(point.point.committed());
                   }
               }
             patches.push_back(patch);
@@ -157,10 +166,11 @@ namespace SlipStep
 
       virtual std::vector<std::string> get_dataset_names() const override
       {
-        return contact_names;
+        return names;
       }
 
     private:
+      std::vector<std::string>                      names;
       std::vector<DataOutBase::Patch<dim - 1, dim>> patches;
     };
 
@@ -324,11 +334,12 @@ namespace SlipStep
   BlockOutput<dim>::write_contact_table(const ContactFace<dim> &contact) const
   {
     // Position, sizes and area of a cell, then its averages.
-    using Row = std::array<double, 12>;
+    using Row               = std::vector<double>;
+    const auto       fields = face_fields(contact.friction_law());
     std::vector<Row> rows;
     for (const auto &cell_face : contact.cell_faces())
       {
-        Row  row{};
+        Row  row(5 + fields.size());
         auto face = cell_face.cell->face(cell_face.face);
         for (unsigned int i = 0; i < dim - 1; ++i)
           {
@@ -340,11 +351,9 @@ namespace SlipStep
         for (const auto &point : cell_face.points)
           row[4] += point.JxW;
         for (const auto &point : cell_face.points)
-          {
-            const auto values = contact_values<dim>(point);
-            for (unsigned int i = 0; i < 7; ++i)
-              row[5 + i] += values[i] * point.JxW / row[4];
-          }
+          for (unsigned int i = 0; i < fields.size(); ++i)
+            row[5 + i] +=
+              fields[i].value(point.point.committed()) * point.JxW / row[4];
         rows.push_back(row);
       }
 
@@ -359,8 +368,10 @@ namespace SlipStep
     });
 
     std::ofstream out(folder / "contact_face.csv");
-    out << "x_mm,y_mm,cell_size_x_mm,cell_size_y_mm,area_mm2,pressure_MPa,"
-           "traction_x_MPa,traction_y_MPa,slip_mm,r,r_s,mu\n";
+    out << "x_mm,y_mm,cell_size_x_mm,cell_size_y_mm,area_mm2";
+    for (const FaceField &field : fields)
+      out << ',' << field.name;
+    out << '\n';
     for (const Row &row : sorted)
       for (unsigned int i = 0; i < row.size(); ++i)
         out << exact_text(row[i]) << (i + 1 < row.size() ? ',' : '\n');

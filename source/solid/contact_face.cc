@@ -282,8 +282,9 @@ namespace SlipStep
   template <int dim>
   ContactTotals ContactFace<dim>::totals(const MPI_Comm &communicator) const
   {
+    constexpr unsigned int n_memories = ContactState::memories().size();
     ContactTotals          totals;
-    std::array<double, 11> sums{};
+    std::array<double, 12 + n_memories> sums{};
     // Maxima of (r, r_s, mu) and of their negatives.
     std::array<double, 6> maxima;
     maxima.fill(std::numeric_limits<double>::lowest());
@@ -313,6 +314,9 @@ namespace SlipStep
               maxima[2 * i]     = std::max(maxima[2 * i], ratios[i]);
               maxima[2 * i + 1] = std::max(maxima[2 * i + 1], -ratios[i]);
             }
+          sums[11] += load * state.slip_path;
+          for (unsigned int i = 0; i < n_memories; ++i)
+            sums[12 + i] += load * state.*ContactState::memories()[i].value;
         }
     Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
                         communicator,
@@ -337,6 +341,9 @@ namespace SlipStep
           *spreads[i] = {sums[8 + i] / totals.normal_load,
                          -maxima[2 * i + 1],
                          maxima[2 * i]};
+        totals.slip = sums[11] / totals.normal_load;
+        for (unsigned int i = 0; i < n_memories; ++i)
+          totals.memories[i] = sums[12 + i] / totals.normal_load;
       }
     return totals;
   }

@@ -137,7 +137,7 @@ namespace SlipStep
                       state.slip_rate,
                       state.dissipation}};
     for (unsigned int i = first_memory; i < n_fields; ++i)
-      fields[i] = state.*ContactState::memories()[i - first_memory];
+      fields[i] = state.*ContactState::memories()[i - first_memory].value;
     return fields;
   }
 
@@ -215,7 +215,7 @@ namespace SlipStep
         state.slip_rate       = values[slip_rate];
         state.dissipation     = values[dissipation];
         for (unsigned int i = first_memory; i < n_fields; ++i)
-          state.*ContactState::memories()[i - first_memory] = values[i];
+          state.*ContactState::memories()[i - first_memory].value = values[i];
         law.complete(state);
       }
     return states;

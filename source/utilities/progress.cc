@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -82,7 +83,9 @@ namespace SlipStep
 
 
 
-  void Progress::update(const double fraction, const std::string &text)
+  void Progress::update(const double       fraction,
+                        const std::string &text,
+                        const double       time_left)
   {
     if (quiet || is_finished)
       return;
@@ -98,30 +101,28 @@ namespace SlipStep
     has_printed   = true;
     last_print    = now;
     last_fraction = fraction;
-    print(fraction, text);
+    print(fraction, text, time_left);
   }
 
 
 
-  void Progress::start_at(const double fraction)
+  double Progress::time_spent() const
   {
-    first_fraction = last_fraction = fraction;
+    return std::chrono::duration<double>(Clock::now() - start).count();
   }
 
 
 
-  void Progress::print(const double fraction, const std::string &text)
+  void Progress::print(const double       fraction,
+                       const std::string &text,
+                       const double       time_left)
   {
-    const double spent =
-      std::chrono::duration<double>(Clock::now() - start).count();
     const std::string line =
       percentage(fraction) + (label.empty() ? "" : label + ": ") + text;
-    std::string end;
-    // The first instants say nothing about the rest.
-    const double done = fraction - first_fraction;
-    if (done > 0.005 && fraction < 1. && spent > 0.5)
-      end = ", about " + duration_in_words(spent * (1. - fraction) / done) +
-            " left";
+    const std::string end =
+      std::isfinite(time_left) && fraction < 1. ?
+        ", about " + duration_in_words(time_left) + " left" :
+        "";
     if (is_live)
       {
         out << "\r\033[K" << fitted(line, end) << std::flush;
@@ -137,9 +138,7 @@ namespace SlipStep
   {
     if (quiet || is_finished)
       return;
-    const double spent =
-      std::chrono::duration<double>(Clock::now() - start).count();
-    print(1., outcome + " " + duration_in_words(spent));
+    print(1., outcome + " " + duration_in_words(time_spent()));
     if (is_live)
       out << std::endl;
     line_is_open = false;
@@ -177,12 +176,19 @@ namespace SlipStep
     const std::size_t label = parsed.text.find(": ");
     if (label != std::string::npos)
       parsed.text.erase(0, label + 2);
-    const std::string left = " left";
-    if (parsed.text.size() > left.size() &&
+    parsed.time_left        = std::numeric_limits<double>::quiet_NaN();
+    const std::string about = ", about ", left = " left";
+    const std::size_t begin = parsed.text.rfind(about);
+    if (begin != std::string::npos && parsed.text.size() > left.size() &&
         parsed.text.compare(parsed.text.size() - left.size(),
                             left.size(),
                             left) == 0)
-      parsed.text.erase(std::min(parsed.text.rfind(", "), parsed.text.size()));
+      {
+        const std::size_t words = begin + about.size();
+        parsed.time_left        = parse_duration(
+          parsed.text.substr(words, parsed.text.size() - left.size() - words));
+        parsed.text.erase(begin);
+      }
     return true;
   }
 
@@ -204,5 +210,17 @@ namespace SlipStep
              " s";
     return std::to_string(total / 3600) + " h " +
            std::to_string(total / 60 % 60) + " min";
+  }
+
+
+
+  double parse_duration(const std::string &words)
+  {
+    std::istringstream in(words);
+    double             sum = 0.;
+    std::string        unit;
+    for (double number; in >> number >> unit;)
+      sum += number * (unit == "h" ? 3600. : unit == "min" ? 60. : 1.);
+    return unit.empty() ? std::numeric_limits<double>::quiet_NaN() : sum;
   }
 } // namespace SlipStep

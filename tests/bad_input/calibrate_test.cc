@@ -58,7 +58,7 @@ namespace
     {
       const auto result = calibrate(section);
       EXPECT_EQ(result.exit_code, 2) << result.err;
-      EXPECT_LE(result.n_error_lines(), 2u) << result.err;
+      EXPECT_LE(result.n_error_lines(), 3u) << result.err;
       for (const std::string &word : words)
         EXPECT_NE(result.err.find(word), std::string::npos)
           << "  \"" << word << "\" is not in: " << result.err;
@@ -100,6 +100,10 @@ TEST_F(Calibrate, WhatIsWrongWithTheCaseIsSaid)
                  {"case.prm:5", "Friction/softening/Rate"});
   expect_refusal(one + "set Derived = x = 2 * * 3\n",
                  {"case.prm:5", "Unexpected operator"});
+  expect_refusal(one +
+                   "set Derived = x = 2 * {Friction/softening/Rate} + 0,5\n",
+                 {"case.prm:5", "decimals begin with a point", "\n     "});
+  expect_refusal(one + "set Derived = x == 5\n", {"case.prm:5", "write =="});
   expect_refusal(one + "set Derived = Friction/softening/Rate = 1\n",
                  {"case.prm:5", "fitted already"});
   expect_refusal(

@@ -43,7 +43,8 @@ namespace
                            &row.dissipated_energy,
                            &row.stored_energy,
                            &row.external_work,
-                           &row.step_size})
+                           &row.step_size,
+                           &row.slip})
       *member = (value *= -1.7e-3 / 0.9e-3);
     row.newton_iterations = 3;
     row.linear_iterations = 4000000000u;
@@ -66,7 +67,39 @@ TEST(History, TheColumnsAreTheDocumentedOnes)
             "friction_y,normal_load_N,tangential_load_N,r_mean,r_min,r_max,"
             "r_s_mean,r_s_min,r_s_max,mu_mean,mu_min,mu_max,slip_fraction,"
             "dissipated_energy_Nmm,stored_energy_Nmm,external_work_Nmm,step_s,"
-            "newton_iterations,linear_iterations");
+            "newton_iterations,linear_iterations,slip_mm");
+}
+
+
+
+TEST(History, OnlyMemoriesThatTheLawUsesAreColumns)
+{
+  const auto        all = ContactState::memories();
+  HistoryRow        row;
+  const std::size_t n = row.memories.size();
+  for (std::size_t i = 0; i < n; ++i)
+    row.memories[i] = (i + 1) / 3.;
+  row.probes = {7.};
+  HistoryWriter(scratch_file(), "memories", {all[0], all[2]}, {"a probe"})
+    .write(row);
+  std::ifstream in(scratch_file());
+  std::string   header;
+  while (std::getline(in, header) && header[0] == '#')
+    {}
+  const std::string end = ",slip_mm,temperature_rise_degC,hold_time_s,probe_1";
+  ASSERT_GT(header.size(), end.size());
+  EXPECT_EQ(header.substr(header.size() - end.size()), end);
+
+  const HistoryRow back = read_history(scratch_file())[0];
+  EXPECT_EQ(back.memories[0], row.memories[0]);
+  EXPECT_EQ(back.memories[1], 0.);
+  EXPECT_EQ(back.memories[2], row.memories[2]);
+  EXPECT_EQ(back.probes, row.probes);
+
+  // Continued after a stop, it goes on with the same columns.
+  const auto bytes = std::filesystem::file_size(scratch_file());
+  HistoryWriter(scratch_file(), bytes, {all[0], all[2]}).write(row);
+  EXPECT_EQ(read_history(scratch_file())[1].memories, back.memories);
 }
 
 
@@ -101,6 +134,7 @@ TEST(History, RowsReadBackExactly)
   EXPECT_EQ(back.step_size, row.step_size);
   EXPECT_EQ(back.newton_iterations, row.newton_iterations);
   EXPECT_EQ(back.linear_iterations, row.linear_iterations);
+  EXPECT_EQ(back.slip, row.slip);
 }
 
 

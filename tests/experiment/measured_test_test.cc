@@ -260,8 +260,9 @@ TEST(MeasuredTest, AMissingFileIsNamed)
 
 TEST(MeasuredTest, AHistoryReadsAsATest)
 {
-  const auto    file = test_folder() / "as_test.csv";
-  HistoryWriter writer(file, "simulated");
+  const auto    file     = test_folder() / "as_test.csv";
+  const auto    memories = ContactState::memories();
+  HistoryWriter writer(file, "simulated", {memories.begin(), memories.end()});
   HistoryRow    row;
   row.pressure = 5.8;
   writer.write(row);

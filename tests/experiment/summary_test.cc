@@ -1,4 +1,6 @@
 #include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/quantities.h>
+#include <slipstep/experiment/report.h>
 #include <slipstep/experiment/summary.h>
 
 #include <gtest/gtest.h>
@@ -8,6 +10,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
+#include <string>
 
 #include "tests/temporary_folder.h"
 
@@ -253,6 +257,54 @@ TEST(Summary, TheEnergyBalanceIsRelativeToTheWork)
   EXPECT_NEAR(summary.peak_displacement, 1., 1e-10);
   EXPECT_NEAR(summary.work, 100., 1e-12);
   EXPECT_NEAR(summary.balance_error, 0.1 / 100., 1e-12);
+  EXPECT_EQ(summary.missing_energy(), "");
+  summary.balance_error = 0.0234;
+  EXPECT_EQ(summary.missing_energy().find("2.3 % of the work is neither"), 0u);
+}
+
+
+
+TEST(Summary, StepsTooLongForTheEnergyAreWarnedOf)
+{
+  Parameters parameters;
+  FrictionLaw::declare_parameters(parameters);
+  declare_loading_parameters(parameters);
+  declare_report_parameters(parameters);
+  declare_quantities(parameters);
+  RunOptions options;
+  options.quiet       = true;
+  options.output      = test_folder();
+  const auto warnings = [&](const std::string &key, const std::string &value) {
+    parameters.set("Loading/Programme",
+                   "press 5 MPa in 1 s; slide 1 mm/s for 0.01 mm",
+                   "here");
+    parameters.set(key, value, "here");
+    run_point(parameters, options);
+    std::string text;
+    for (const std::string &warning :
+         read_summary(options.output / "summary.json").warnings)
+      text += warning + "\n";
+    return text;
+  };
+  EXPECT_EQ(warnings("Time stepping/Tolerance", "1e-6"), "");
+  const std::string coarse = warnings("Time stepping/Tolerance", "1");
+  EXPECT_NE(coarse.find(" % of the work is neither"), std::string::npos);
+  EXPECT_NE(coarse.find("smaller Time stepping/Tolerance than 1 "),
+            std::string::npos)
+    << coarse;
+  // The table and the report say so, too.
+  const std::vector<ReportedRun> runs = {{"a run", options.output}};
+  EXPECT_NE(result_table(parameters, runs).find("a run: warning: "),
+            std::string::npos);
+  write_report(options.output, parameters, runs);
+  std::ostringstream page;
+  page << std::ifstream(options.output / "report.html").rdbuf();
+  EXPECT_NE(page.str().find(" % of the work is neither"), std::string::npos);
+
+  parameters.set("Time stepping/Tolerance", "5e-5", "here");
+  EXPECT_NE(warnings("Time stepping/Equal steps per statement", "10")
+              .find("more Time stepping/Equal steps per statement than 10 "),
+            std::string::npos);
 }
 
 

@@ -310,7 +310,30 @@ TEST_P(EveryEffect, is_repeatable)
   EXPECT_EQ(first.d_slip, second.d_slip);
   EXPECT_EQ(point.trial().dissipation, state.dissipation);
   for (const auto memory : ContactState::memories())
-    EXPECT_EQ(point.trial().*memory, state.*memory);
+    EXPECT_EQ(point.trial().*memory.value, state.*memory.value);
+}
+
+
+
+// Otherwise it would be missing in the files of results.
+TEST_P(EveryEffect, names_what_it_remembers)
+{
+  const auto   law = typical_law();
+  ContactPoint point(*law);
+  const auto   used = law->memories();
+  for (const double slip : {2e-3, 3e-3, -1e-2})
+    {
+      point.update(*law, vector(slip), 5.8, 0.1);
+      point.commit();
+    }
+  for (const ContactMemory &memory : ContactState::memories())
+    EXPECT_EQ(point.committed().*memory.value > 0.,
+              std::any_of(used.begin(),
+                          used.end(),
+                          [&](const ContactMemory &other) {
+                            return other.value == memory.value;
+                          }))
+      << memory.name;
 }
 
 

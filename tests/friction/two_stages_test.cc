@@ -131,19 +131,18 @@ TEST(TwoStages, second_order_in_time)
       };
       const ContactState exact = result(20000), coarse = result(500),
                          fine = result(1000);
-      const auto order        = [](const double a, const double b) {
-        return std::log2(a / b);
+      // At least of second order, or no error left to speak of.
+      const auto falls = [](const double before, const double after) {
+        return after < std::max(std::exp2(-1.75) * before, 1e-8);
       };
-      EXPECT_GT(order((coarse.traction - exact.traction).norm(),
-                      (fine.traction - exact.traction).norm()),
-                1.75)
-        << one.name << (coarse.traction - exact.traction).norm() << " "
-        << std::abs(coarse.dissipation - exact.dissipation);
-      EXPECT_GT(order(std::abs(coarse.dissipation - exact.dissipation),
-                      std::abs(fine.dissipation - exact.dissipation)),
-                1.75)
-        << one.name << (coarse.traction - exact.traction).norm() << " "
-        << std::abs(coarse.dissipation - exact.dissipation);
+      EXPECT_PRED2(falls,
+                   (coarse.traction - exact.traction).norm(),
+                   (fine.traction - exact.traction).norm())
+        << one.name;
+      EXPECT_PRED2(falls,
+                   std::abs(coarse.dissipation - exact.dissipation),
+                   std::abs(fine.dissipation - exact.dissipation))
+        << one.name;
     }
 }
 
@@ -245,12 +244,12 @@ TEST(TwoStages, sliding_goes_on_where_it_can)
       EXPECT_NEAR(point.committed().slip_rate, 10., 1e-4) << duration;
     }
 
-  // The same traction on a contact at rest: it sticks.
+  // The same traction on a contact at rest: it sticks, but for a creep.
   ContactState rest = start.committed();
   rest.slip_rate    = 0.;
   ContactPoint point(rest);
   advance(*law, {vector(10.), 5.8, 1e-9}, 1, point);
-  EXPECT_EQ(point.committed().slip_rate, 0.);
+  EXPECT_LT(point.committed().slip_rate, 1e-3);
 
   // A reversal ends the branch.
   point = start;

@@ -50,7 +50,7 @@ namespace SlipStep::Testing
     state.slip_path   = number(random) < 0.3 ? 0. : 10. * number(random);
     state.dissipation = number(random) < 0.3 ? 0. : number(random);
     for (const auto memory : ContactState::memories())
-      state.*memory = number(random) < 0.3 ? 0. : number(random);
+      state.*memory.value = number(random) < 0.3 ? 0. : number(random);
     if (number(random) < 0.7)
       {
         state.normal_traction = std::exp(10. * (number(random) - 0.5));
@@ -112,7 +112,7 @@ namespace SlipStep::Testing
     EXPECT_GE(s.slip_rate, 0.);
     EXPECT_GE(s.dissipation, 0.);
     for (const auto memory : ContactState::memories())
-      EXPECT_GE(s.*memory, 0.);
+      EXPECT_GE(s.*memory.value, 0.);
   }
 
   inline void expect_equal(const ContactState &a,
@@ -130,7 +130,7 @@ namespace SlipStep::Testing
     EXPECT_NEAR(a.slip_rate, b.slip_rate, tolerance);
     EXPECT_NEAR(a.dissipation, b.dissipation, tolerance);
     for (const auto memory : ContactState::memories())
-      EXPECT_NEAR(a.*memory, b.*memory, tolerance);
+      EXPECT_NEAR(a.*memory.value, b.*memory.value, tolerance);
   }
 } // namespace SlipStep::Testing
 

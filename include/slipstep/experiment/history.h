@@ -1,8 +1,10 @@
 #ifndef slipstep_experiment_history_h
 #define slipstep_experiment_history_h
 
+#include <slipstep/friction/contact_point.h>
 #include <slipstep/utilities/exceptions.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -41,6 +43,9 @@ namespace SlipStep
     double step_size         = 0.; ///< [s]
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
+    double       slip              = 0.; ///< mean slip path of the contact [mm]
+    /// Mean of what effects remember, as ContactState::memories().
+    std::array<double, ContactState::memories().size()> memories{};
     /// Quantities of interest on the contact face, see "Output/Quantities".
     std::vector<double> probes;
   };
@@ -52,8 +57,11 @@ namespace SlipStep
   /// displacement_y_mm, friction_y, normal_load_N, tangential_load_N, r_mean,
   /// r_min, r_max, r_s_mean, r_s_min, r_s_max, mu_mean, mu_min, mu_max,
   /// slip_fraction, dissipated_energy_Nmm, stored_energy_Nmm,
-  /// external_work_Nmm, step_s, newton_iterations, linear_iterations; then
-  /// probe_1, probe_2, ..., explained by comments.
+  /// external_work_Nmm, step_s, newton_iterations, linear_iterations, slip_mm;
+  /// then of ContactState::memories() those that the effects of the law use
+  /// (temperature_rise_degC, contact_age_s, hold_time_s), then probe_1,
+  /// probe_2,
+  /// ..., explained by comments.
   /// The first lines are `# key: value` comments, so that the file can be read
   /// back as a measured test.
   class HistoryWriter
@@ -61,17 +69,20 @@ namespace SlipStep
   public:
     HistoryWriter() = default;
 
+    /// @param memories which memories of a row are written
     /// @param probes what each of the probes of a row is
     /// @throws InputError if the file cannot be created, RunError if the disk
     ///   is full
-    HistoryWriter(const std::filesystem::path    &file,
-                  const std::string              &name,
-                  const std::vector<std::string> &probes = {});
+    HistoryWriter(const std::filesystem::path      &file,
+                  const std::string                &name,
+                  const std::vector<ContactMemory> &memories = {},
+                  const std::vector<std::string>   &probes   = {});
 
     /// Continue a file, which is cut after its first @p bytes.
     /// @throws RunError if that fails
-    HistoryWriter(const std::filesystem::path &file,
-                  const std::uintmax_t         bytes);
+    HistoryWriter(const std::filesystem::path      &file,
+                  const std::uintmax_t              bytes,
+                  const std::vector<ContactMemory> &memories);
 
     /// @throws RunError if the row cannot be written (disk full); the file then
     ///   ends with the row before
@@ -84,9 +95,10 @@ namespace SlipStep
     }
 
   private:
-    std::ofstream         out;
-    std::filesystem::path file;
-    std::uintmax_t        size = 0; ///< of the file, with all complete rows
+    std::ofstream              out;
+    std::filesystem::path      file;
+    std::vector<ContactMemory> memories;
+    std::uintmax_t             size = 0; ///< of the file, all complete rows
   };
 
   /// Read a history.csv back. @throws InputError naming file:line

@@ -29,10 +29,10 @@ namespace SlipStep
   /// The machine that moves a contact point: a spring in series, the same in
   /// all directions of the contact plane, and a mass between the two.
   ///
-  /// The programme moves the load point at the far end of the spring by U; the
-  /// mass m (per area of contact) and with it the contact slips by u, resisted
-  /// by the traction of the friction law:
-  /// \f[ m \ddot u = k (U - u) - f_t. \f]
+  /// The programme moves the load point at the far end of the spring by u_d;
+  /// the mass m (per area of contact) and with it the contact slips by g,
+  /// resisted by the traction of the friction law:
+  /// \f[ m \ddot g = k (u_d - g) - f_t. \f]
   /// That belongs to the experiment: the friction law knows nothing of it.
   ///
   /// Contact, spring and mass make the two stages of a step (TwoStages)
@@ -49,7 +49,7 @@ namespace SlipStep
   public:
     static void declare_parameters(Parameters &parameters);
 
-    /// A rigid machine, of which U = u.
+    /// A rigid machine, of which u_d = g.
     Machine() = default;
 
     /// @throws InputError, also for a mass that nothing springy moves

@@ -5,18 +5,13 @@
 #include <slipstep/experiment/report.h>
 #include <slipstep/experiment/summary.h>
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/formula.h>
 #include <slipstep/utilities/parameters.h>
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-namespace dealii
-{
-  template <int dim>
-  class FunctionParser;
-}
 
 namespace SlipStep
 {
@@ -59,10 +54,10 @@ namespace SlipStep
     const std::string &name() const;
 
   private:
-    std::string                                reference_name;
-    double                                     quasi_static = 0.;
-    std::vector<double>                        speed_list;
-    std::shared_ptr<dealii::FunctionParser<1>> formula;
+    std::string                          reference_name;
+    double                               quasi_static = 0.;
+    std::vector<double>                  speed_list;
+    std::shared_ptr<const ParsedFormula> formula;
   };
 
   /// One line of the table of results: a slide of a run.

@@ -83,9 +83,10 @@ namespace SlipStep
   private:
     void write(const HistoryRow &row);
 
-    const RunOptions options;
-    const Programme  programme;
-    const bool       is_writer;
+    const RunOptions  options;
+    const Programme   programme;
+    const bool        is_writer;
+    const std::string shorter_steps; ///< how to have them, in words
     /// Evaluated at the end.
     const std::vector<QuantityOfInterest> quantities;
     const ResourceUsage                   start;

@@ -50,7 +50,7 @@ namespace SlipStep
                                        const std::filesystem::path &output);
 
   /// deal.II's ConvergenceTable of every curve, one below the other, with the
-  /// reasons of runs that failed.
+  /// reasons of runs that failed and the energy that is missing.
   std::string study_tables(const std::vector<StudyCurve> &curves);
 
   /// Write refinement.csv: one row per quantity and run.

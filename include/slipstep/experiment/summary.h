@@ -84,6 +84,10 @@ namespace SlipStep
     /// Whether a slide is faster or slower than the machine allows to be
     /// steady: then what it ends with is an instant of stick-slip.
     bool is_unstable(const SlideSummary &slide) const;
+
+    /// In words, which share of the work is missing in the energy balance, or
+    /// "" if that is at most 1 %.
+    std::string missing_energy() const;
   };
 
   /// Write atomically (a temporary file renamed into place).

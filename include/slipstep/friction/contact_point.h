@@ -8,6 +8,16 @@
 
 namespace SlipStep
 {
+  struct ContactState;
+
+  /// Something that single effects remember of a contact point.
+  struct ContactMemory
+  {
+    double ContactState::*value;
+    /// In files, with its unit.
+    const char *name;
+  };
+
   /// Everything a contact point remembers from one step to the next.
   struct ContactState
   {
@@ -42,12 +52,12 @@ namespace SlipStep
     double hold_time = 0.;
 
     /// The memories, for those who treat all alike: a new one is added here,
-    /// and is then transferred and saved.
-    static constexpr std::array<double ContactState::*, 3> memories()
+    /// and is then transferred, saved and shown.
+    static constexpr std::array<ContactMemory, 3> memories()
     {
-      return {{&ContactState::temperature_rise,
-               &ContactState::contact_age,
-               &ContactState::hold_time}};
+      return {{{&ContactState::temperature_rise, "temperature_rise_degC"},
+               {&ContactState::contact_age, "contact_age_s"},
+               {&ContactState::hold_time, "hold_time_s"}}};
     }
 
     /// All of it, for boost::serialization.
@@ -57,7 +67,7 @@ namespace SlipStep
       archive &traction &normal_traction &strength &loading_ratio &normal_ratio
         &coefficient &slip_path &slip_rate &dissipation;
       for (const auto memory : memories())
-        archive &(this->*memory);
+        archive &(this->*memory.value);
     }
   };
 

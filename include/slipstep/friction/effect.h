@@ -191,6 +191,12 @@ namespace SlipStep
     virtual void remember(const SlipStepData & /*step*/,
                           ContactState & /*end*/) const
     {}
+
+    /// The members that remember() writes, so that they are shown.
+    virtual std::vector<double ContactState::*> memories() const
+    {
+      return {};
+    }
   };
 
   /// Keys of an effect's section, with values.

@@ -155,6 +155,10 @@ namespace SlipStep
       return names;
     }
 
+    /// What the active effects remember, in the order of
+    /// ContactState::memories().
+    std::vector<ContactMemory> memories() const;
+
     /// Sections of effects that are off, such as "Friction/healing".
     std::set<std::string> inactive_sections() const;
 

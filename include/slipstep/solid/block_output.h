@@ -18,8 +18,10 @@ namespace SlipStep
   ///
   /// `fields.pvd` collects the volume (displacement in space, relative to where
   /// the drive is, stress), `contact.pvd` the contact face (pressure, traction,
-  /// slip, r, r_s, mu, state). `contact_face.csv` has one row per contact cell
-  /// at the last time, averages over the cell.
+  /// slip path, r, r_s, mu, dissipated energy per area, what the effects of the
+  /// law remember, and which points slip). `contact_face.csv` has one row per
+  /// contact cell at the last time with averages over the cell, of all but the
+  /// last.
   template <int dim>
   class BlockOutput
   {

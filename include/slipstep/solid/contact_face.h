@@ -14,6 +14,7 @@
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/contact_tangent.h>
 
+#include <array>
 #include <vector>
 
 namespace SlipStep
@@ -31,6 +32,9 @@ namespace SlipStep
     double               dissipated = 0.;  ///< [N mm]
     double               stored     = 0.;  ///< in the contact stiffness [N mm]
     Spread               loading_ratio, normal_ratio, coefficient;
+    double               slip = 0.; ///< mean path, weighted by normal load [mm]
+    /// Means of ContactState::memories(), likewise.
+    std::array<double, ContactState::memories().size()> memories{};
   };
 
   /// The face of the block that touches the rigid plane: a contact point with

@@ -2,13 +2,15 @@
 #define slipstep_utilities_progress_h
 
 #include <chrono>
+#include <limits>
 #include <ostream>
 #include <string>
 
 namespace SlipStep
 {
-  /// Tells how far a run is: on a terminal one live line with the time left,
-  /// in a file or pipe a plain line about every 5 % or 10 s, nothing if quiet.
+  /// Tells how far a run is: on a terminal one live line, with the time left if
+  /// that is known, in a file or pipe a plain line about every 5 % or 10 s,
+  /// nothing if quiet.
   ///
   /// A plain line is `[ 42.0 %] <label>: <text>, about 12 s left`;
   /// parse_progress_line() reads it back.
@@ -36,10 +38,13 @@ namespace SlipStep
     /// Cheap enough to be called in every step.
     /// @param fraction done so far, from 0 to 1
     /// @param text the present state, e.g. "12.3 mm, step 240"
-    void update(const double fraction, const std::string &text);
+    /// @param time_left [s], told unless it is NaN
+    void update(const double       fraction,
+                const std::string &text,
+                const double       time_left = unknown);
 
-    /// Part of the work was done before; it does not count for the time left.
-    void start_at(const double fraction);
+    /// Since the object was made [s].
+    double time_spent() const;
 
     /// The last line.
     /// @param outcome what stands before the time taken
@@ -56,17 +61,20 @@ namespace SlipStep
   private:
     using Clock = std::chrono::steady_clock;
 
-    void print(const double fraction, const std::string &text);
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    void print(const double       fraction,
+               const std::string &text,
+               const double       time_left = unknown);
 
     const bool        quiet;
     const std::string label;
     std::ostream     &out;
     const bool        is_live;
-    bool              line_is_open   = false;
-    bool              has_printed    = false;
-    bool              is_finished    = false;
-    double            first_fraction = 0.;
-    double            last_fraction  = 0.;
+    bool              line_is_open  = false;
+    bool              has_printed   = false;
+    bool              is_finished   = false;
+    double            last_fraction = 0.;
     Clock::time_point start;
     Clock::time_point last_print;
 
@@ -78,6 +86,8 @@ namespace SlipStep
   {
     double      fraction = 0.;
     std::string text; ///< after the label, without the time left
+    /// [s]; NaN if it is not told.
+    double time_left = std::numeric_limits<double>::quiet_NaN();
   };
 
   /// @return whether the line is a progress line
@@ -85,6 +95,9 @@ namespace SlipStep
 
   /// "45 s", "3 min 20 s", "2 h 5 min".
   std::string duration_in_words(const double seconds);
+
+  /// The same read back [s]. @return NaN for other words
+  double parse_duration(const std::string &words);
 } // namespace SlipStep
 
 #endif

@@ -9,18 +9,26 @@ namespace SlipStep
   {
     /// Contacts grow stronger with the logarithm of their age, and slip renews
     /// them:
-    /// \f[ G = 1 + b \ln\left(1 + \frac{\theta}{t_0}\right), \qquad
+    /// \f[ G = 1 + b_{age} \ln\left(1 + \frac{\theta}{t_0}\right), \qquad
     ///     \frac{d\theta}{dt} = 1 - \frac{\lambda\theta}{L}. \f]
     /// Other than by effect healing, the peak after a rest fades on a slip
     /// length of its own. Dieterich (1979), J. Geophys. Res. 84, 2161. In
     /// steady sliding \f$\theta = L/\lambda\f$: friction falls with speed below
     /// \f$L/t_0\f$, and sliding on a soft spring is unstable there unless an
     /// overstress outweighs it.
+    ///
+    /// With an overstress this is Dieterich's ageing law of rate and state: his
+    /// state evolves as \f$\theta\f$ does, and his parameters follow from those
+    /// here,
+    /// \f[ a_D = \mu\,G\,\frac{dr}{d\ln V}, \qquad
+    ///     b_D = \frac{r\,\mu\,b_{age}}{1 + t_0/\theta}, \qquad D_c = L. \f]
+    /// They are constant as far as r is linear in ln V and the contact much
+    /// older than t_0.
     class Ageing : public StrengthEffect
     {
     public:
       Ageing(const Parameters &parameters, const CoefficientBasis &)
-        : b(parameters.number("Friction/ageing/Growth"))
+        : b_age(parameters.number("Friction/ageing/Growth"))
         , t_0(parameters.number("Friction/ageing/Time"))
         , L(parameters.number("Friction/ageing/Renewal length"))
       {}
@@ -29,8 +37,8 @@ namespace SlipStep
       {
         const Rate age = contact_age_after(step.start.contact_age, step, L);
         Strength   factor;
-        factor.value  = 1. + b * std::log1p(age.value / t_0);
-        factor.d_slip = b * age.derivative / (t_0 + age.value);
+        factor.value  = 1. + b_age * std::log1p(age.value / t_0);
+        factor.d_slip = b_age * age.derivative / (t_0 + age.value);
         return factor;
       }
 
@@ -43,12 +51,17 @@ namespace SlipStep
             0.;
       }
 
+      virtual std::vector<double ContactState::*> memories() const override
+      {
+        return {&ContactState::contact_age};
+      }
+
       static void declare(Parameters &parameters)
       {
         parameters.declare("Friction/ageing/Growth",
                            "0",
                            Quantity(Dimension::number, 0.),
-                           "Growth b of the strength per e-fold of the "
+                           "Growth b_age of the strength per e-fold of the "
                            "contact's age. 0 or more, no unit.");
         parameters.declare("Friction/ageing/Time",
                            "1",
@@ -63,7 +76,7 @@ namespace SlipStep
       }
 
     private:
-      const double b;
+      const double b_age;
       const double t_0;
       const double L;
     };
@@ -71,7 +84,7 @@ namespace SlipStep
     const RegisterEffect registration(
       {"ageing",
        ExclusiveSlot::none,
-       "G = 1 + b ln(1 + theta/t_0), d theta/dt = 1 - lambda theta/L",
+       "G = 1 + b_age ln(1 + theta/t_0), d theta/dt = 1 - lambda theta/L",
        "Dieterich (1979), J. Geophys. Res. 84, 2161-2168",
        "Growth = 0",
        &Ageing::declare,

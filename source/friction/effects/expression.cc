@@ -2,8 +2,7 @@
 
 #include <slipstep/friction/contact_age.h>
 #include <slipstep/friction/effect.h>
-
-#include <muParser.h>
+#include <slipstep/utilities/formula.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,6 +159,13 @@ namespace SlipStep
             step.normal_traction > 0. ? hold_time(step).value : 0.;
       }
 
+      virtual std::vector<double ContactState::*> memories() const override
+      {
+        if (covariate == "hold time")
+          return {&ContactState::hold_time};
+        return {};
+      }
+
       static void declare(Parameters &parameters)
       {
         parameters.declare(
@@ -176,6 +182,7 @@ namespace SlipStep
           dealii::Patterns::Anything(),
           "Factor G as a formula of x, as muParser reads it: + "
           "- * / ^ exp ln log10 sqrt tanh min max, a ? b : c. "
+          "Decimals begin with a point. "
           "Between 1e-6 and 1e6 over the range, no unit.");
         parameters.declare(
           key("From"),
@@ -201,6 +208,18 @@ namespace SlipStep
         return section + name;
       }
 
+      static ParsedFormula read_formula(const Parameters &parameters)
+      {
+        try
+          {
+            return ParsedFormula(parameters.text(key("Formula")), "x");
+          }
+        catch (const InputError &error)
+          {
+            parameters.reject(key("Formula"), error.what());
+          }
+      }
+
       static Table read_table(const Parameters &parameters)
       {
         const double from = parameters.number(key("From"));
@@ -208,30 +227,18 @@ namespace SlipStep
         if (!(from < to))
           parameters.reject(key("To"), "must be greater than From");
         std::vector<double> samples(1001);
-        double              x = from;
-        try
+        const ParsedFormula formula = read_formula(parameters);
+        for (unsigned int i = 0; i < samples.size(); ++i)
           {
-            mu::Parser parser;
-            parser.DefineVar("x", &x);
-            parser.DefineConst("pi", dealii::numbers::PI);
-            parser.SetExpr(parameters.text(key("Formula")));
-            for (unsigned int i = 0; i < samples.size(); ++i)
-              {
-                const double share = i / (samples.size() - 1.);
-                x                  = (1. - share) * from + share * to;
-                const double at    = x;
-                samples[i]         = parser.Eval();
-                if (samples[i] >= 1e-6 && samples[i] <= 1e6)
-                  continue;
-                std::ostringstream why;
-                why << "its value " << samples[i] << " at x = " << at
-                    << " is not between 1e-6 and 1e6";
-                parameters.reject(key("Formula"), why.str());
-              }
-          }
-        catch (const mu::ParserError &error)
-          {
-            parameters.reject(key("Formula"), error.GetMsg());
+            const double share = i / (samples.size() - 1.);
+            const double x     = (1. - share) * from + share * to;
+            samples[i]         = formula(x);
+            if (samples[i] >= 1e-6 && samples[i] <= 1e6)
+              continue;
+            std::ostringstream why;
+            why << "its value " << samples[i] << " at x = " << x
+                << " is not between 1e-6 and 1e6";
+            parameters.reject(key("Formula"), why.str());
           }
         return Table(from, to, samples);
       }

@@ -38,6 +38,11 @@ namespace SlipStep
         end.temperature_rise = temperature_rise(step);
       }
 
+      virtual std::vector<double ContactState::*> memories() const override
+      {
+        return {&ContactState::temperature_rise};
+      }
+
       static void declare(Parameters &parameters)
       {
         parameters.declare("Friction/heating/Weakening",

@@ -6,24 +6,25 @@ namespace SlipStep
 {
   namespace
   {
-    /// Friction grows less than in proportion to the pressure (m > 0), or more
-    /// (m < 0):
-    /// \f[ G = \left(\frac{f_n}{p_0}\right)^{-m}. \f]
-    /// Elastic asperities on each other give m = 1/3 when alone and less when
-    /// they carry smaller ones: Archard (1957), Proc. R. Soc. Lond. A 243, 190.
+    /// Friction grows less than in proportion to the pressure (gamma > 0),
+    /// or more (gamma < 0):
+    /// \f[ G = \left(\frac{f_n}{p_0}\right)^{-\gamma}. \f]
+    /// Elastic asperities on each other give gamma = 1/3 when alone and less
+    /// when they carry smaller ones: Archard (1957), Proc. R. Soc. Lond. A 243,
+    /// 190.
     class Pressure : public StrengthEffect
     {
     public:
       Pressure(const Parameters &parameters, const CoefficientBasis &)
-        : m(parameters.number("Friction/pressure/Exponent"))
+        : gamma(parameters.number("Friction/pressure/Exponent"))
         , p_0(parameters.number("Friction/pressure/Reference pressure"))
       {}
 
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
         Strength factor;
-        factor.value    = std::pow(step.normal_traction / p_0, -m);
-        factor.d_normal = -m * factor.value / step.normal_traction;
+        factor.value    = std::pow(step.normal_traction / p_0, -gamma);
+        factor.d_normal = -gamma * factor.value / step.normal_traction;
         return factor;
       }
 
@@ -32,7 +33,7 @@ namespace SlipStep
         parameters.declare("Friction/pressure/Exponent",
                            "0.1",
                            Quantity(Dimension::number, -1., 0.9),
-                           "Exponent m of the pressure, negative if the "
+                           "Exponent gamma of the pressure, negative if the "
                            "coefficient grows with it. From -1 to 0.9, no "
                            "unit.");
         parameters.declare("Friction/pressure/Reference pressure",
@@ -43,14 +44,14 @@ namespace SlipStep
       }
 
     private:
-      const double m;
+      const double gamma;
       const double p_0;
     };
 
     const RegisterEffect registration(
       {"pressure",
        ExclusiveSlot::none,
-       "G = (f_n / p_0)^-m",
+       "G = (f_n / p_0)^-gamma",
        "Archard (1957), Proc. R. Soc. Lond. A 243, 190-205",
        "Exponent = 0",
        &Pressure::declare,

@@ -19,8 +19,8 @@ namespace SlipStep
     /// sticking goes over into sliding smoothly: \f[ \frac{dr_s}{d\lambda} =
     /// U(r_s), \qquad
     ///     U = u \cot(\pi r_s/2) \quad\text{or}\quad U = -u \ln r_s. \f]
-    /// Hashiguchi et al. (2005), Int. J. Solids Struct. 42, 2845. Both forms
-    /// are integrated exactly over a step: the first gives
+    /// Hashiguchi, Ozaki and Okayasu (2005), Int. J. Solids Struct. 42, 1705.
+    /// Both forms are integrated exactly over a step: the first gives
     /// \f$\cos(\pi r_s/2) = \cos(\pi r_{s0}/2)\,e^{-\pi u\lambda/2}\f$, the
     /// second \f$E_1(-\ln r_s) = E_1(-\ln r_{s0}) + u\lambda\f$.
     class Subloading : public Effect
@@ -117,7 +117,8 @@ namespace SlipStep
       {"subloading",
        ExclusiveSlot::normal_ratio,
        "d r_s/d lambda = u cot(pi r_s/2) or -u ln(r_s); r_s <= r",
-       "Hashiguchi et al. (2005), Int. J. Solids Struct. 42, 2845-2871",
+       "Hashiguchi, Ozaki and Okayasu (2005), Int. J. Solids Struct. 42, "
+       "1705-1727",
        "Rate -> infinity; switch the effect off instead",
        &Subloading::declare,
        [](const Parameters &parameters, const CoefficientBasis &basis) {

@@ -1,0 +1,38 @@
+#ifndef slipstep_utilities_formula_h
+#define slipstep_utilities_formula_h
+
+#include <memory>
+#include <string>
+
+
+namespace SlipStep
+{
+  /// A formula of at most one variable out of a case file, as muParser reads
+  /// it: + - * / ^, comparisons, a ? b : c, exp, log and ln (both natural),
+  /// log10, sqrt, abs, min, max, pow and the like; and pi.
+  class ParsedFormula
+  {
+  public:
+    /// @param variable name of the variable, or "" if there is none
+    /// @throws InputError that says what is wrong with the text
+    explicit ParsedFormula(const std::string &text,
+                           const std::string &variable = "");
+
+    /// @param x value of the variable
+    double operator()(const double x = 0.) const;
+
+  private:
+    // muParser keeps the place of the variable, which must not move.
+    struct Content;
+    std::shared_ptr<Content> content;
+  };
+
+  /// Refuse what muParser takes but nobody means: a comma outside of the
+  /// arguments of a function, of which it evaluates what follows (a decimal
+  /// comma, most likely), and a single =, which assigns.
+  /// @param text may have {names}, which are not looked into
+  /// @throws InputError with a mark below the place
+  void check_formula(const std::string &text);
+} // namespace SlipStep
+
+#endif

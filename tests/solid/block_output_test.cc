@@ -1,0 +1,114 @@
+// What the contact face remembers can be seen in all files.
+
+#include <slipstep/solid/block_output.h>
+#include <slipstep/utilities/csv.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "block_test_tools.h"
+#include "tests/temporary_folder.h"
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  Settings settings(const std::string &effects)
+  {
+    return {{"Friction/Effects", effects},
+            {"Block/Subdivisions", "2, 2, 2"},
+            {"Time stepping/Tolerance", "1e-3"},
+            {"Output/Fields", "end"},
+            {"Loading/Programme",
+             "press 5.8 MPa in 1 s; slide 1 mm/s for 0.05 mm"}};
+  }
+
+  /// The header of contact_face.csv, and what of it is in the VTU.
+  std::string run(const Parameters &parameters, HistoryRow &last)
+  {
+    const auto            folder = test_folder();
+    const FrictionLaw     law(parameters);
+    const Programme       programme = parse_programme(parameters);
+    const BlockParameters block_parameters(parameters, programme);
+    BlockOutput<3>        output(block_parameters, folder, MPI_COMM_SELF);
+    Block<3>              block(block_parameters,
+                   law,
+                   programme,
+                   StepControl(parameters, programme, law),
+                   MPI_COMM_SELF);
+    block.run(&output, [&](const HistoryRow &row) { last = row; });
+    output.write_contact_table(block.contact_face());
+
+    std::string   header;
+    std::ifstream in(folder / "contact_face.csv");
+    std::getline(in, header);
+    std::ostringstream vtu;
+    for (const auto &file : std::filesystem::directory_iterator(folder))
+      if (file.path().extension() == ".vtu" &&
+          file.path().filename().string().compare(0, 8, "contact_") == 0)
+        vtu << std::ifstream(file.path()).rdbuf();
+    std::istringstream names(header);
+    for (std::string name; std::getline(names, name, ',');)
+      if (name.find("x_mm") == std::string::npos &&
+          name.find("y_mm") == std::string::npos && name != "area_mm2")
+        EXPECT_NE(vtu.str().find('"' + name + '"'), std::string::npos) << name;
+    return header;
+  }
+
+  const std::string always =
+    "x_mm,y_mm,cell_size_x_mm,cell_size_y_mm,area_mm2,pressure_MPa,"
+    "traction_x_MPa,traction_y_MPa,slip_mm,r,r_s,mu,"
+    "dissipated_energy_Nmm_per_mm2";
+} // namespace
+
+
+
+TEST(BlockOutput, shows_what_effects_remember)
+{
+  HistoryRow last;
+  const auto parameters =
+    make_parameters(settings("subloading, heating, ageing"));
+  EXPECT_EQ(run(parameters, last),
+            always + ",temperature_rise_degC,contact_age_s");
+
+  // Files agree with each other and with the history, which weights by load.
+  const CsvTable face(test_folder() / "contact_face.csv",
+                      {"area_mm2",
+                       "pressure_MPa",
+                       "slip_mm",
+                       "dissipated_energy_Nmm_per_mm2",
+                       "temperature_rise_degC",
+                       "contact_age_s"});
+  double         load = 0., slip = 0., energy = 0., heat = 0., age = 0.;
+  for (std::size_t i = 0; i < face.size(); ++i)
+    {
+      const double area   = face["area_mm2"][i];
+      const double weight = area * face["pressure_MPa"][i];
+      load += weight;
+      slip += weight * face["slip_mm"][i];
+      heat += weight * face["temperature_rise_degC"][i];
+      age += weight * face["contact_age_s"][i];
+      energy += area * face["dissipated_energy_Nmm_per_mm2"][i];
+    }
+  EXPECT_NEAR(last.slip, slip / load, 0.02 * last.slip);
+  EXPECT_NEAR(last.memories[0], heat / load, 0.1 * last.memories[0]);
+  EXPECT_NEAR(last.memories[1], age / load, 0.02 * last.memories[1]);
+  EXPECT_EQ(last.memories[2], 0.);
+  EXPECT_NEAR(last.dissipated_energy, energy, 1e-9 * energy);
+  EXPECT_GT(last.slip, 0.03);
+  EXPECT_GT(last.memories[0], 0.);
+  EXPECT_GT(last.memories[1], 0.);
+}
+
+
+
+TEST(BlockOutput, leaves_out_what_no_effect_remembers)
+{
+  HistoryRow last;
+  EXPECT_EQ(run(make_parameters(settings("subloading")), last), always);
+}
