@@ -54,14 +54,14 @@ namespace SlipStep
       "the static friction is reached. Between 1e-6 and 1e6, no unit.");
     parameters.declare(
       most_steps_key,
-      "100000",
+      "200000",
       dealii::Patterns::Integer(1, 1000000000),
       "Number of steps, tried ones included, after which a statement of the "
       "programme is given up and the run fails; a 'follow' may have as many more "
       "as its test has rows. 1 or more.");
     parameters.declare(
       least_step_key,
-      "1e-13",
+      "1e-16",
       Quantity(Dimension::number, 0., 1.),
       "Least step, relative to the duration of its statement: where a smaller "
       "one is needed, the run fails. Between 0 and 1, no unit.");

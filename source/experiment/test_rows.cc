@@ -328,9 +328,9 @@ namespace SlipStep
     // steps that stand alone or go back.
     double rounding(const std::vector<double> &values)
     {
-      constexpr std::size_t least_number  = 4;
-      constexpr double      largest_share = 0.02; // of the largest value
-      const auto            step          = [&](const std::size_t i) {
+      constexpr double  largest_share = 0.1; // of the largest value
+      const std::size_t least_number  = 4 + values.size() / 50;
+      const auto        step          = [&](const std::size_t i) {
         return i > 0 && i < values.size() ? values[i] - values[i - 1] : 0.;
       };
       std::vector<double> alone;

@@ -645,12 +645,15 @@ namespace SlipStep
     end.traction        = response.traction;
     end.normal_traction = normal_traction;
     end.strength        = local.strength;
-    end.loading_ratio   = local.ratio;
-    end.normal_ratio    = local.normal_ratio.value;
-    end.coefficient     = local.coefficient;
-    end.slip_path       = start.slip_path + local.slip;
-    end.slip_rate       = local.slip / time_step;
-    end.dissipation     = start.dissipation + local.traction * local.slip;
+    // Without round-off, which the bounds do not forgive.
+    end.loading_ratio = std::min(local.ratio, flow->maximum_ratio());
+    end.normal_ratio  = normal_ratio == &neutral ?
+                          local.normal_ratio.value :
+                          std::min(local.normal_ratio.value, end.loading_ratio);
+    end.coefficient   = local.coefficient;
+    end.slip_path     = start.slip_path + local.slip;
+    end.slip_rate     = local.slip / time_step;
+    end.dissipation   = start.dissipation + local.traction * local.slip;
     for (const auto memory : ContactState::memories())
       end.*memory.value = start.*memory.value;
     for (const StrengthEffect *effect : strength_effects)

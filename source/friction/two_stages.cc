@@ -115,14 +115,15 @@ namespace SlipStep
                 error_of_memories(start, last),
                 error_of_normal_ratio(start, first, last)});
 
-    // A parabola through three points is farthest from its chord in the middle.
+    // A parabola through three points is farthest from its chord in the middle;
+    // a corner may be somewhat farther.
     if (start.normal_traction > 0. && first.end.normal_traction > 0.)
       {
         const auto friction = [](const ContactState &state) {
           return state.traction / state.normal_traction;
         };
         constexpr double gamma   = TwoStages::gamma;
-        constexpr double highest = 0.25 / (gamma * (1. - gamma));
+        constexpr double highest = 0.3 / (gamma * (1. - gamma));
         error.of_line            = highest *
                         (friction(first.end) - (1. - gamma) * friction(start) -
                          gamma * friction(end))

@@ -235,7 +235,7 @@ namespace SlipStep
       contact_face_of.emplace(contact.cell_faces()[i].cell->id(), i);
 
     const unsigned int            n_q     = contact.quadrature().size();
-    const std::array<Vector *, 3> vectors = {{&old_solution, &older_solution}};
+    const std::array<Vector *, 2> vectors = {{&old_solution, &older_solution}};
     for (Vector *vector : vectors)
       *vector = 0.;
     PreconditionerOrigin<dim> origin;

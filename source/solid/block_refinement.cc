@@ -130,7 +130,8 @@ namespace SlipStep
         change.equilibrium_dissipation_jump = dissipation_jump(settled);
       }
     contact.revert();
-    solution = old_solution;
+    solution    = old_solution;
+    mesh_is_new = true;
 
     largest_jump =
       std::max({largest_jump, change.load_jump, change.equilibrium_load_jump});

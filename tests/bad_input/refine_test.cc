@@ -126,7 +126,7 @@ TEST(Refine, time_steps_against_a_finer_run)
   const std::string force = "friction force at 0.00002 mm";
   const std::string fine  = row(csv, "equal steps 40", force);
   EXPECT_EQ(cell(fine, 5), "80") << csv;
-  EXPECT_NEAR(std::stod(cell(fine, 13)), 1., 0.25) << csv;
+  EXPECT_GT(std::stod(cell(fine, 13)), 1.5) << csv;
 }
 
 

@@ -146,9 +146,17 @@ TEST(TestRows, NoiseIsMeasuredUnderASignal)
     {
       const double signal = 0.1 + 0.05 * std::exp(-i / 800.);
       values.push_back(signal + noise(random));
-      rounded.push_back(0.01 * std::round(signal / 0.01));
+      rounded.push_back(0.01 * std::round(values.back() / 0.01));
     }
   EXPECT_NEAR(noise_level(values), 0.003, 0.0002);
   EXPECT_NEAR(noise_level(rounded), 0.01 / std::sqrt(12.), 1e-6);
   EXPECT_EQ(noise_level({1., 1., 1.}), 0.);
+  // Ramps and jumps between constants are no noise.
+  std::vector<double> clean(1000, 5.);
+  for (unsigned int i = 100; i < 1000; ++i)
+    clean[i] = i < 120 ? 5. + 0.1 * (i - 100) :
+               i < 500 ? 7. :
+               i < 800 ? 6.5 :
+                         7.;
+  EXPECT_EQ(noise_level(clean), 0.);
 }

@@ -85,7 +85,8 @@ TEST(FlatSurface, four_speeds)
       n_newton += result.summary.newton_iterations;
       n_steps += result.summary.steps;
     }
-  EXPECT_LE(n_newton, 3 * n_steps);
+  // In each of the two stages.
+  EXPECT_LE(n_newton, 6 * n_steps);
 }
 
 

@@ -19,7 +19,7 @@ using namespace SlipStep::Testing;
 
 namespace
 {
-  constexpr double default_tolerance = 5e-5;
+  constexpr double default_tolerance = 5e-4;
 
   struct Errors
   {

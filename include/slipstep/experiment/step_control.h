@@ -63,6 +63,12 @@ namespace SlipStep
     /// Whether the step is the first of a statement of the programme.
     bool is_first_of_statement() const;
 
+    /// Error of a step that is neither too long nor too short.
+    double wanted_error() const
+    {
+      return tolerance;
+    }
+
     /// What accept() would answer.
     bool would_accept(const double error) const;
 

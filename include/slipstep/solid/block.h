@@ -86,7 +86,7 @@ namespace SlipStep
       archive &control &old_step &n_newton_total &n_linear_total &external_work
         &largest_imbalance &largest_normal_load &contact_share
           &smallest_contact_share &steps_since_check &most_cells_wanted
-            &largest_jump &mesh_changes;
+            &largest_jump &mesh_changes &mesh_is_new;
     }
 
     /// Cells, unknowns and iterations so far.
@@ -248,6 +248,7 @@ namespace SlipStep
     MarkedCells     last_marked;
     bool            is_marked         = false;
     unsigned int    n_repeats         = 0; // of the present step
+    bool            mesh_is_new       = false;
     unsigned int    steps_since_check = 0;
     double          most_cells_wanted = 0.; // beyond the limit
     double          largest_jump      = 0.; // of the force, relative
