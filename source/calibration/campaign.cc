@@ -258,7 +258,7 @@ namespace SlipStep
     , fitted(read_fit_parameters(parameters))
     , derived(read_derived(parameters))
     , tests(tests)
-    , search_tolerance(10. * parameters.number("Time stepping/Tolerance"))
+    , search_tolerance(4. * parameters.number("Time stepping/Tolerance"))
   {
     const std::set<std::string> inactive =
       FrictionLaw(parameters).inactive_sections();

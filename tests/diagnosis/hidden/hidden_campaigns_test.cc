@@ -80,8 +80,9 @@ INSTANTIATE_TEST_SUITE_P(
     Expected{CampaignClass::one, 3, Verdict::named, {"compliance"}},
     Expected{CampaignClass::one, 7, Verdict::named, {"overstress"}},
     Expected{CampaignClass::one, 9, Verdict::named, {"healing"}},
-    // A tenth of a per cent, with a flow rule so stiff that few time steps do.
-    Expected{CampaignClass::one, 33, Verdict::named, {"overstress"}},
+    // A tenth of a per cent, with a flow rule so stiff that few time steps do:
+    // a drag explains it nearly as well.
+    Expected{CampaignClass::one, 33, Verdict::ambiguous, {"overstress"}},
     Expected{CampaignClass::one,
              10,
              Verdict::named,

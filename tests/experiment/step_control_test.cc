@@ -1,0 +1,183 @@
+// An end to every run, warnings before those that no stiffness holds, and the
+// same rows by a replay as by a programme.
+
+#include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/replay.h>
+#include <slipstep/experiment/resample.h>
+#include <slipstep/experiment/stability.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "../friction/law_test_tools.h"
+#include "../temporary_folder.h"
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  Parameters make_parameters(const Settings &settings)
+  {
+    Parameters parameters;
+    declare_loading_parameters(parameters);
+    FrictionLaw::declare_parameters(parameters);
+    for (const auto &setting : settings)
+      parameters.set(setting.first, setting.second, "test");
+    return parameters;
+  }
+
+  std::vector<HistoryRow> drive(const Parameters &parameters)
+  {
+    const FrictionLaw       law(parameters);
+    const Programme         programme = parse_programme(parameters);
+    std::vector<HistoryRow> history;
+    drive_point(
+      law,
+      programme,
+      StepControl(parameters, programme, law),
+      [&](const HistoryRow &row) { history.push_back(row); },
+      Machine(parameters));
+    return history;
+  }
+
+  std::vector<std::string> warnings(const Parameters &parameters)
+  {
+    return instability_warnings(FrictionLaw(parameters),
+                                parse_programme(parameters),
+                                Machine(parameters));
+  }
+
+  // Friction that falls with speed, at 1 mm/s by more than any stiffness holds.
+  const Settings falling = {{"Friction/Effects", "overstress, stribeck"},
+                            {"Friction/Static coefficient", "0.1"},
+                            {"Friction/stribeck/Rise", "0.3"},
+                            {"Loading/Programme",
+                             "press 5 MPa in 1 s; slide 1 mm/s for 10 mm"},
+                            {"Time stepping/Most steps per statement", "3000"}};
+} // namespace
+
+
+
+TEST(StepControl, EndsARunThatWouldHaveNone)
+{
+  try
+    {
+      drive(make_parameters(falling));
+      FAIL() << "it ended by itself";
+    }
+  catch (const RunError &error)
+    {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("Statement 2 of the programme takes more than 3001 "
+                          "time steps (Time stepping/Most steps per "
+                          "statement)"),
+                std::string::npos)
+        << text;
+    }
+}
+
+
+
+TEST(StepControl, WarnsBeforeSlidingThatNothingHolds)
+{
+  const auto text = warnings(make_parameters(falling));
+  ASSERT_EQ(text.size(), 1u);
+  EXPECT_NE(text[0].find("(stribeck) between "), std::string::npos) << text[0];
+  EXPECT_NE(text[0].find("1 mm/s under 5 MPa"), std::string::npos) << text[0];
+
+  // Slower than the fall and faster than it there is nothing to warn of.
+  for (const char *speed : {"0.001", "100"})
+    {
+      Parameters other = make_parameters(falling);
+      other.set("Loading/Programme",
+                std::string("press 5 MPa in 1 s; slide ") + speed +
+                  " mm/s for 10 mm",
+                "test");
+      EXPECT_TRUE(warnings(other).empty()) << speed;
+    }
+  // Nor of the paper's law, on any spring or none.
+  EXPECT_TRUE(warnings(make_parameters({})).empty());
+  EXPECT_TRUE(
+    warnings(make_parameters({{"Loading/Machine stiffness", "50"}})).empty());
+}
+
+
+
+// A slide that goes on in a second statement is the slide in one.
+TEST(StepControl, TwoStatementsAreAsGoodAsOne)
+{
+  Settings settings = {{"Friction/Effects", "subloading, overstress, stribeck"},
+                       {"Friction/stribeck/Rise", "0.7"},
+                       {"Friction/stribeck/Speed", "0.1 mm/s"}};
+  const auto end    = [&](const std::string &slides) {
+    Parameters parameters = make_parameters(settings);
+    parameters.set("Loading/Programme", "press 5.8 MPa in 1 s; " + slides, "");
+    return drive(parameters);
+  };
+  const auto one = end("slide 10 mm/s for 10.01 mm");
+  const auto ten =
+    end("slide 10 mm/s for 10 mm; repeat 10 times { slide 10 mm/s for 0.001 "
+        "mm }");
+  EXPECT_NEAR(one.back().friction, ten.back().friction, 1e-6);
+  EXPECT_NEAR(one.back().dissipated_energy,
+              ten.back().dissipated_energy,
+              1e-4 * one.back().dissipated_energy);
+  EXPECT_LT(ten.size(), 10 * one.size());
+}
+
+
+
+// Planned steps meet the rows where the pressure jumps.
+TEST(StepControl, ReplayAndProgrammeAgreeAtEveryRow)
+{
+  MeasuredTest test;
+  for (unsigned int i = 0; i <= 200; ++i)
+    {
+      test.time.push_back(0.1 * i);
+      test.displacement.push_back(0.05 * i);
+      test.pressure.push_back(i < 60 || i > 140 ? 5. :
+                              i < 100           ? 10. :
+                                                  10. - 0.125 * (i - 100));
+      test.friction.push_back(0.1);
+    }
+  const TemporaryFolder folder;
+  const auto            file = folder.path() / "jump.csv";
+  {
+    std::ofstream out(file);
+    out.precision(17);
+    out << "# name: jump\n# condition: jump\n"
+        << "time_s,displacement_mm,pressure_MPa,friction\n";
+    for (std::size_t i = 0; i < test.time.size(); ++i)
+      out << test.time[i] << ',' << test.displacement[i] << ','
+          << test.pressure[i] << ',' << test.friction[i] << '\n';
+  }
+  const Parameters parameters = make_parameters(
+    {{"Friction/Effects", "subloading, overstress, softening, pressure"},
+     {"Friction/pressure/Exponent", "0.3"},
+     {"Friction/softening/Rate", "1"},
+     {"Loading/Programme", "press 5 MPa in 1 s; follow " + file.string()}});
+  const auto history = drive(parameters);
+
+  const FrictionLaw law(parameters);
+  Replay            replay(resample(test).test, 0., 0.1);
+  replay.plan(law, Machine(), 5e-4);
+  Replay::Curve curve;
+  replay.simulate(law, Machine(), curve);
+  const auto found = replay.at(curve.friction, test.time);
+
+  double peak = 0., largest = 0.;
+  for (std::size_t i = 0, row = 0; i < test.time.size(); ++i)
+    {
+      while (row + 1 < history.size() &&
+             history[row].time < 1. + test.time[i] - 1e-9)
+        ++row;
+      ASSERT_NEAR(history[row].time, 1. + test.time[i], 1e-9);
+      peak    = std::max(peak, history[row].friction);
+      largest = std::max(largest, std::abs(history[row].friction - found[i]));
+    }
+  EXPECT_LT(largest, 2e-3 * peak);
+}
