@@ -234,7 +234,17 @@ namespace SlipStep
         const double value = rise(distance);
         const double root  = std::sqrt(std::max(value, 0.));
         if (std::abs(value - 1.) < 0.03)
-          return {distance / root, false};
+          {
+            // To the crossing, straight through the nearer neighbour: where an
+            // influence begins, the rise is far steeper than a parabola.
+            const bool is_upper_nearer =
+              upper_root < infinite && upper - distance < distance - lower;
+            const double x = is_upper_nearer ? upper : lower;
+            const double y = is_upper_nearer ? upper_root : lower_root;
+            const double part =
+              root == y ? 0. : std::clamp((1. - root) / (root - y), -0.5, 0.5);
+            return {distance + part * (distance - x), false};
+          }
         if (value < 1.)
           {
             is_open    = distance >= room;
