@@ -167,22 +167,23 @@ namespace SlipStep
             local.time_step,
             local.normal_traction,
             local.slip,
-            is_anisotropic ? slip_direction(local.direction) : local.direction,
+            slip_direction(local.direction),
             local.coefficient,
             local.traction * local.slip};
   }
 
 
 
-  double FrictionLaw::strength_of(const SlipStepData &step) const
+  FrictionLaw::Contributions
+  FrictionLaw::contributions(const SlipStepData &step) const
   {
-    double factor = 1., sum = 0.;
+    Contributions result;
     for (const StrengthEffect *effect : strength_effects)
       {
-        factor *= effect->strength_factor(step).value;
-        sum += effect->additive_strength(step).value;
+        multiply(result.factor, effect->strength_factor(step));
+        add(result.sum, effect->additive_strength(step));
       }
-    return step.normal_traction * step.coefficient * factor + sum;
+    return result;
   }
 
 
@@ -202,13 +203,8 @@ namespace SlipStep
         return;
       }
 
-    const SlipStepData step = step_data(local);
-    Strength           factor{1., 0., 0., {}}, sum;
-    for (const StrengthEffect *effect : strength_effects)
-      {
-        multiply(factor, effect->strength_factor(step));
-        add(sum, effect->additive_strength(step));
-      }
+    const Contributions all    = contributions(step_data(local));
+    const Strength     &factor = all.factor, &sum = all.sum;
 
     local.strength = f_n * mu * factor.value + sum.value;
     d.d_normal = mu * factor.value + f_n * mu * factor.d_normal + sum.d_normal;
@@ -335,6 +331,42 @@ namespace SlipStep
     evolve_strength(local);
     local.ratio = local.trial_norm / local.strength;
     start_ratio(strength_at_rest(local), local, local);
+  }
+
+
+
+  // Where there may be several roots, the one that goes on as before.
+  void FrictionLaw::find_slip(LocalSystem &local) const
+  {
+    stick(local);
+    // Below 1e-12 nothing can be told from zero.
+    const auto must_slip = [](const LocalSystem &local) {
+      return local.ratio > std::max(local.start_ratio, 1e-12);
+    };
+    const bool slid = local.start.slip_rate > 0.;
+    if (slid && (depends_on_rate || !must_slip(local)))
+      {
+        if (slide_on(local))
+          return;
+        stick(local);
+      }
+    if (!must_slip(local))
+      {
+        if (normal_ratio != &neutral)
+          local.normal_ratio.value = local.ratio;
+        return;
+      }
+    if (depends_on_rate && !slid)
+      return leave_sticking(local);
+    // The ratio changes little from step to step; a new contact is on its way
+    // to full slip.
+    double expected = std::max(local.start.loading_ratio, local.start_ratio);
+    if (expected < 1e-3)
+      expected = 1.;
+    solve(0.,
+          local.trial_norm,
+          std::min(expected * local.strength, (1. - 1e-3) * local.trial_norm),
+          local);
   }
 
 
@@ -552,6 +584,8 @@ namespace SlipStep
   // Normal to the ellipse, from the direction in which an isotropic law slips.
   Tensor<1, 2> FrictionLaw::slip_direction(const Tensor<1, 2> &direction) const
   {
+    if (!is_anisotropic)
+      return direction;
     const Tensor<1, 2> slip = inverse_cone * direction;
     return direction == Tensor<1, 2>() ? slip : slip / slip.norm();
   }
@@ -609,35 +643,7 @@ namespace SlipStep
     if (local.trial_norm > 0.)
       local.direction = local.trial / local.trial_norm;
 
-    stick(local);
-    // Below 1e-12 nothing can be told from zero.
-    const auto must_slip = [&local]() {
-      return local.ratio > std::max(local.start_ratio, 1e-12);
-    };
-    bool slides = false;
-    if (start.slip_rate > 0. && (depends_on_rate || !must_slip()))
-      {
-        slides = slide_on(local);
-        if (!slides)
-          stick(local);
-      }
-    if (!slides && must_slip() && depends_on_rate && start.slip_rate == 0.)
-      leave_sticking(local);
-    else if (!slides && must_slip())
-      {
-        // The ratio changes little from step to step; a new contact is on its
-        // way to full slip.
-        double expected = std::max(start.loading_ratio, local.start_ratio);
-        if (expected < 1e-3)
-          expected = 1.;
-        solve(0.,
-              local.trial_norm,
-              std::min(expected * local.strength,
-                       (1. - 1e-3) * local.trial_norm),
-              local);
-      }
-    else if (!slides && normal_ratio != &neutral)
-      local.normal_ratio.value = local.ratio;
+    find_slip(local);
 
     ContactResponse response = linearise(local);
     response.slips           = local.slip > 0.5 * slip_increment.norm();

@@ -135,28 +135,29 @@ namespace SlipStep
   {
     reject_values_of_inactive_effects(parameters, names);
 
+    active.resize(names.size());
     const auto create = [&](const bool flow_rule) {
-      for (const std::string &name : names)
+      for (std::size_t i = 0; i < names.size(); ++i)
         {
-          const EffectInfo &info = effect_registry().at(name);
+          const EffectInfo &info = effect_registry().at(names[i]);
           if ((info.slot == ExclusiveSlot::overstress) != flow_rule)
             continue;
-          active.push_back(info.create(parameters, basis));
+          active[i]             = info.create(parameters, basis);
+          const Effect *created = active[i].get();
           if (info.slot == ExclusiveSlot::overstress)
-            flow = active.back().get();
+            flow = created;
           if (info.slot == ExclusiveSlot::normal_ratio)
-            normal_ratio = active.back().get();
+            normal_ratio = created;
           if (info.slot == ExclusiveSlot::anisotropy)
             {
               is_anisotropic = true;
-              cone           = active.back()->cone();
+              cone           = created->cone();
               inverse_cone   = invert(cone);
             }
           if (const auto *effect =
-                dynamic_cast<const StrengthEffect *>(active.back().get()))
+                dynamic_cast<const StrengthEffect *>(created))
             {
               strength_effects.push_back(effect);
-              strength_names.push_back(name);
               depends_on_rate = depends_on_rate || effect->depends_on_rate();
             }
         }

@@ -79,36 +79,26 @@ namespace SlipStep
   std::vector<std::string>
   FrictionLaw::weakening_effects(const ContactState &steady) const
   {
-    const Tensor<1, 2> traction  = isotropic_traction(steady.traction);
-    const Tensor<1, 2> direction = traction / traction.norm();
-    const auto         after     = [&](const double speed, const double slip) {
-      return SlipStepData{steady,
-                          slip / speed,
-                          steady.normal_traction,
-                          slip,
-                          is_anisotropic ? slip_direction(direction) :
-                                                       direction,
-                          steady.coefficient,
-                          traction.norm() * slip};
+    const auto weakens = [&](const StrengthEffect &effect, const double slip) {
+      const auto strength = [&](const double speed) {
+        const SlipStepData step = step_data(steady, steady, slip, slip / speed);
+        return effect.strength_factor(step).value +
+               effect.additive_strength(step).value;
+      };
+      const double present = strength(steady.slip_rate);
+      return strength(1.01 * steady.slip_rate) < present - 1e-9 * present;
     };
     std::vector<std::string> result;
-    for (unsigned int i = 0; i < strength_effects.size(); ++i)
-      for (const double slip : {1e-12, 1e12})
-        {
-          const auto strength = [&](const double speed) {
-            const SlipStepData step = after(speed, slip);
-            return strength_effects[i]->strength_factor(step).value +
-                   strength_effects[i]->additive_strength(step).value;
-          };
-          const double present = strength(steady.slip_rate);
-          if (strength(1.01 * steady.slip_rate) < present - 1e-9 * present)
-            {
-              result.push_back(strength_names[i]);
-              break;
-            }
-        }
-    if (coefficient_rate_per_slip(steady.coefficient).value < 0.)
-      result.push_back("softening");
+    for (std::size_t i = 0; i < active.size(); ++i)
+      {
+        const auto *effect =
+          dynamic_cast<const StrengthEffect *>(active[i].get());
+        if (active[i]->coefficient_rate_per_slip(steady.coefficient).value <
+              0. ||
+            (effect != nullptr &&
+             (weakens(*effect, 1e-12) || weakens(*effect, 1e12))))
+          result.push_back(names[i]);
+      }
     return result;
   }
 } // namespace SlipStep

@@ -16,16 +16,28 @@ namespace SlipStep
     // difference is the error of backward Euler where the rate changes evenly.
     constexpr double share = 0.5 * TwoStages::carry;
 
-    double carried(const double start, const double first)
-    {
-      return start + TwoStages::carry * (first - start);
-    }
-
     double slip_of(const StageRecord &stage)
     {
       return stage.end.slip_rate * stage.time_step;
     }
   } // namespace
+
+
+
+  // An end of which only the strength is to be found.
+  SlipStepData FrictionLaw::step_data(const ContactState &start,
+                                      const ContactState &end,
+                                      const double        slip,
+                                      const double        time_step) const
+  {
+    return {start,
+            time_step,
+            end.normal_traction,
+            slip,
+            slip_direction(direction_of(end)),
+            end.coefficient,
+            isotropic_traction(end.traction).norm() * slip};
+  }
 
 
 
@@ -51,35 +63,28 @@ namespace SlipStep
     ContactState &state = result.state;
 
     const double coefficient =
-      carried(start.coefficient, first.end.coefficient);
+      TwoStages::carried(start.coefficient, first.end.coefficient);
     state.coefficient =
       std::clamp(coefficient,
                  std::min(range_of_coefficient[0], start.coefficient),
                  std::max(range_of_coefficient[1], start.coefficient));
 
-    const Tensor<1, 2> direction = direction_of(first.end);
-    const SlipStepData rest      = {first.end,
-                                    more_time,
-                                    first.end.normal_traction,
-                                    more,
-                               is_anisotropic ? slip_direction(direction) :
-                                                     direction,
-                                    first.end.coefficient,
-                                    isotropic_traction(first.end.traction).norm() *
-                                      more};
+    const SlipStepData rest = step_data(first.end, first.end, more, more_time);
     for (const StrengthEffect *effect : strength_effects)
       effect->remember(rest, state);
     if (first.end.normal_traction <= 0.)
       return result;
 
-    state.slip_path   = first.end.slip_path + more;
-    state.dissipation = carried(start.dissipation, first.end.dissipation);
+    state.slip_path = first.end.slip_path + more;
+    state.dissipation =
+      TwoStages::carried(start.dissipation, first.end.dissipation);
     state.traction +=
       (TwoStages::carry - 1.) * (first.end.traction - start.traction);
     if (slip > 0.)
       state.normal_ratio =
         normal_ratio->normal_ratio_after_slip(state.normal_ratio, more).value;
-    result.path_base = first.end.traction - alpha_t * more * cone * direction;
+    result.path_base =
+      first.end.traction - alpha_t * more * cone * direction_of(first.end);
     return result;
   }
 
@@ -184,16 +189,10 @@ namespace SlipStep
       return 0.;
     const ContactState &end       = last.end;
     const double        time_step = last.time_step / TwoStages::gamma;
-    const double        slip      = end.slip_rate * time_step;
-    const Tensor<1, 2>  direction = direction_of(end);
-    const double        strength =
-      strength_of({start,
-                   time_step,
-                   end.normal_traction,
-                   slip,
-                   is_anisotropic ? slip_direction(direction) : direction,
-                   end.coefficient,
-                   isotropic_traction(end.traction).norm() * slip});
+    const Contributions all       = contributions(
+      step_data(start, end, end.slip_rate * time_step, time_step));
+    const double strength =
+      end.normal_traction * end.coefficient * all.factor.value + all.sum.value;
     return 0.5 * std::abs(strength - end.strength) / end.strength;
   }
 

@@ -143,12 +143,6 @@ namespace SlipStep
     std::vector<std::string>
     weakening_effects(const ContactState &steady) const;
 
-    /// Whether the traction depends on how fast the contact slips.
-    bool is_rate_dependent() const
-    {
-      return flow != &neutral || depends_on_rate;
-    }
-
     /// Names of the active effects, in the order of the catalogue.
     const std::vector<std::string> &effects() const
     {
@@ -165,6 +159,13 @@ namespace SlipStep
   private:
     struct LocalSystem;
 
+    /// What the active effects make of the strength f_n mu: their factors, and
+    /// what they add.
+    struct Contributions
+    {
+      Strength factor{1., 0., 0., {}}, sum;
+    };
+
     // A stage.
     ContactResponse isotropic_update(const StageStart           &start,
                                      const dealii::Tensor<1, 2> &slip_increment,
@@ -173,6 +174,10 @@ namespace SlipStep
                                      ContactState &end) const;
     void            open(const LocalSystem &local, ContactState &end) const;
     SlipStepData    step_data(const LocalSystem &local) const;
+    SlipStepData    step_data(const ContactState &start,
+                              const ContactState &end,
+                              const double        slip,
+                              const double        time_step) const;
     double          strength_at_rest(const LocalSystem &local) const;
     void            stick(LocalSystem &local) const;
     void            start_ratio(const double       start_strength,
@@ -183,10 +188,11 @@ namespace SlipStep
                                    const double                strength,
                                    const double                end_strength,
                                    double                     &where);
-    double          strength_of(const SlipStepData &step) const;
+    Contributions   contributions(const SlipStepData &step) const;
     void            evolve_coefficient(LocalSystem &local) const;
     void            evolve_strength(LocalSystem &local) const;
     void            evaluate(const double traction, LocalSystem &local) const;
+    void            find_slip(LocalSystem &local) const;
     bool            slide_on(LocalSystem &local) const;
     bool            follow_branch(LocalSystem &local) const;
     void            leave_sticking(LocalSystem &local) const;
@@ -197,6 +203,10 @@ namespace SlipStep
     ContactResponse linearise(const LocalSystem &local) const;
 
     // A step of two stages.
+    bool is_rate_dependent() const
+    {
+      return flow != &neutral || depends_on_rate;
+    }
     double error_of_traction(const ContactState &start,
                              const StageRecord  &first,
                              const StageRecord  &last) const;
@@ -229,9 +239,8 @@ namespace SlipStep
     std::array<double, 2> range_of_coefficient;
 
     std::vector<std::string>             names;
-    std::vector<std::unique_ptr<Effect>> active;
+    std::vector<std::unique_ptr<Effect>> active; ///< in the order of names
     std::vector<const StrengthEffect *>  strength_effects; ///< of those
-    std::vector<std::string>             strength_names;
 
     /// Owners of the exclusive slots; the neutral effect where there is none.
     const Effect *normal_ratio = &neutral;

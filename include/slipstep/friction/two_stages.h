@@ -30,6 +30,15 @@ namespace SlipStep
     /// (1 - gamma) / gamma: where the second starts, in changes made by the
     /// first.
     static constexpr double carry = (1. - gamma) / gamma;
+
+    /// What changes evenly, where the second stage starts.
+    /// @param start of the step
+    /// @param first where its first stage ended
+    template <typename Value>
+    static Value carried(const Value &start, const Value &first)
+    {
+      return start + carry * (first - start);
+    }
   };
 } // namespace SlipStep
 
