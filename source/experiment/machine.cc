@@ -274,7 +274,10 @@ namespace SlipStep
     constexpr double   gamma      = TwoStages::gamma;
     const double       old_normal = point.committed().normal_traction;
     const Tensor<1, 2> motion     = gamma * load_point_increment;
-    Slider             first, second;
+    MachineStep        result;
+    result.start     = start;
+    result.motion    = load_point_increment;
+    result.time_step = time_step;
     point.revert();
     stage(law,
           point,
@@ -282,46 +285,43 @@ namespace SlipStep
           motion,
           old_normal + gamma * (normal_traction - old_normal),
           gamma * time_step,
-          first);
+          result.first);
     point.begin_second_stage(law);
-    const auto carried = [](const Tensor<1, 2> &from, const Tensor<1, 2> &to) {
-      return from + TwoStages::carry * (to - from);
-    };
-    second = {carried(start.slip, first.slip),
-              carried(start.velocity, first.velocity),
-              areal_mass > 0. ? carried(start.load, first.load) :
-                                point.stage_traction()};
-
-    MachineStep result;
+    result.second  = {TwoStages::carried(start.slip, result.first.slip),
+                      TwoStages::carried(start.velocity, result.first.velocity),
+                     areal_mass > 0. ?
+                        TwoStages::carried(start.load, result.first.load) :
+                        point.stage_traction()};
     result.contact = stage(law,
                            point,
-                           second,
+                           result.second,
                            motion,
                            normal_traction,
                            gamma * time_step,
                            result.slider);
-    result.work    = ((1. - gamma) * first.load + gamma * result.slider.load) *
-                  load_point_increment;
+    result.work =
+      ((1. - gamma) * result.first.load + gamma * result.slider.load) *
+      load_point_increment;
+    return result;
+  }
 
-    // A jump of a soft machine takes no time: no step is small enough to
-    // resolve it.
-    const bool jumps = !is_rigid() && areal_mass == 0. &&
-                       load_point_increment.norm() > 0. &&
-                       (result.slider.slip - start.slip).norm() >
-                         1e3 * load_point_increment.norm();
+
+
+  StepError Machine::error(const FrictionLaw  &law,
+                           const ContactPoint &point,
+                           const MachineStep  &step) const
+  {
+    const bool jumps =
+      !is_rigid() && areal_mass == 0. && step.motion.norm() > 0. &&
+      (step.slider.slip - step.start.slip).norm() > 1e3 * step.motion.norm();
     if (jumps)
-      return result;
-    result.error = point.error(law);
+      return {};
+    StepError result = point.error(law);
     if (areal_mass > 0.)
-      result.error.at_end =
-        std::max(result.error.at_end,
-                 error_of_motion(start,
-                                 first,
-                                 second,
-                                 result.slider,
-                                 result.contact.d_slip.norm(),
-                                 gamma * time_step) /
-                   std::max(point.trial().strength, result.slider.load.norm()));
+      result.at_end =
+        std::max(result.at_end,
+                 error_of_motion(step) /
+                   std::max(point.trial().strength, step.slider.load.norm()));
     return result;
   }
 
@@ -331,22 +331,19 @@ namespace SlipStep
   // alone would make, of position and velocity. The stage itself lets a part of
   // it through; of oscillations far quicker than it little is left. Of a swing
   // the scheme itself errs far less than this, so a part of it counts.
-  double Machine::error_of_motion(const Slider &start,
-                                  const Slider &first,
-                                  const Slider &second,
-                                  const Slider &last,
-                                  const double  contact_stiffness,
-                                  const double  time_step) const
+  double Machine::error_of_motion(const MachineStep &step) const
   {
-    const Tensor<1, 2> position =
-      0.5 * TwoStages::carry * time_step * (first.velocity - last.velocity);
+    const double       stage_time = TwoStages::gamma * step.time_step;
+    const Tensor<1, 2> position   = 0.5 * TwoStages::carry * stage_time *
+                                  (step.first.velocity - step.slider.velocity);
     const Tensor<1, 2> velocity =
       0.5 * TwoStages::carry *
-      ((first.velocity - start.velocity) - (last.velocity - second.velocity));
+      ((step.first.velocity - step.start.velocity) -
+       (step.slider.velocity - step.second.velocity));
     constexpr double part = 0.3;
-    const double     all  = stiffness() + contact_stiffness;
-    return part * all * (position + time_step * velocity).norm() /
-           (1. + all * time_step * time_step / areal_mass);
+    const double     all  = stiffness() + step.contact.d_slip.norm();
+    return part * all * (position + stage_time * velocity).norm() /
+           (1. + all * stage_time * stage_time / areal_mass);
   }
 
 

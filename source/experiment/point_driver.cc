@@ -114,7 +114,7 @@ namespace SlipStep
 
         const MachineStep step =
           machine.step(law, point, slider, motion, to.pressure, time_step);
-        if (!control.accept(step.error.measure()))
+        if (!control.accept(machine.error(law, point, step).measure()))
           continue;
 
         const ContactState &state = point.trial();
@@ -175,30 +175,18 @@ namespace SlipStep
              !differ(a.critical_stiffness, b.critical_stiffness);
     }
 
-    // One for each speed, direction and pressure at which the programme slides.
     std::vector<StabilitySummary> stability_of(const FrictionLaw &law,
                                                const Programme   &programme,
                                                const Machine     &machine)
     {
       // A replayed test has too many to be told.
-      constexpr unsigned int        most = 20;
+      constexpr std::size_t         most = 20;
       std::vector<StabilitySummary> result;
-      std::vector<Loading>          seen;
-      for (const Segment &segment : programme.segments())
+      const std::vector<Loading>    slides = steady_slides(programme, most + 1);
+      if (slides.size() > most)
+        return {};
+      for (const Loading &now : slides)
         {
-          const Loading &now = segment.end;
-          const bool     is_told =
-            std::any_of(seen.begin(), seen.end(), [&](const Loading &other) {
-              return other.pressure == now.pressure &&
-                     (other.velocity - now.velocity).norm() <=
-                       1e-9 * now.velocity.norm();
-            });
-          if (now.velocity.norm() == 0. || !(now.pressure > 0.) ||
-              now.pressure != segment.start.pressure || is_told)
-            continue;
-          if (seen.size() == most)
-            return {};
-          seen.push_back(now);
           const SteadySliding sliding(law, now.velocity, now.pressure);
           if (!sliding.exists())
             continue;

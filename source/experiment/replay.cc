@@ -149,12 +149,12 @@ namespace SlipStep
     const MachineStep tried = make(step, law, machine, slider, point);
     const bool        is_looked_at =
       step.interval >= n_before && made > 1.5 * row_distance;
-    const double error =
-      is_looked_at ? tried.error.measure() : tried.error.at_end;
-    const double factor =
+    const StepError estimate = machine.error(law, point, tried);
+    const double    error = is_looked_at ? estimate.measure() : estimate.at_end;
+    const double    factor =
       std::isfinite(error) ?
-        0.9 * std::sqrt(tolerance / std::max(error, 1e-30)) :
-        0.;
+           0.9 * std::sqrt(tolerance / std::max(error, 1e-30)) :
+           0.;
     if (error <= 1.5 * tolerance)
       {
         wanted_step = std::max(made, wanted_step) * std::min(factor, 2.);

@@ -93,7 +93,8 @@ namespace SlipStep
       }
     if (!is_writer)
       return;
-    instabilities = instability_warnings(law, programme, Machine(parameters));
+    const Machine machine(parameters);
+    instabilities = instability_warnings(law, programme, machine);
     for (const std::string &text : instabilities)
       warn(text);
     std::set<std::string> inactive = law.inactive_sections();
@@ -105,7 +106,7 @@ namespace SlipStep
     if (command == "run")
       for (const QuantityOfInterest &probe : probes_among(quantities))
         probes.push_back(probe.name);
-    else if (!Machine(parameters).is_rigid())
+    else if (!machine.is_rigid())
       probes = Machine::probe_names();
     const std::filesystem::path file = options.output / "history.csv";
     if (resumed == nullptr)

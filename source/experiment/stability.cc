@@ -220,34 +220,34 @@ namespace SlipStep
 
 
 
+  std::vector<Loading> steady_slides(const Programme  &programme,
+                                     const std::size_t most)
+  {
+    const auto is_close = [](const double a, const double b) {
+      return std::abs(a - b) <= 1e-9 * std::abs(b);
+    };
+    std::vector<Loading> result;
+    for (const Segment &segment : programme.segments())
+      {
+        const Loading &now = segment.end;
+        if (result.size() < most && now.velocity.norm() > 0. &&
+            now.pressure > 0. &&
+            std::none_of(result.begin(),
+                         result.end(),
+                         [&](const Loading &other) {
+                           return is_close(other.pressure, now.pressure) &&
+                                  (other.velocity - now.velocity).norm() <=
+                                    1e-9 * now.velocity.norm();
+                         }))
+          result.push_back(now);
+      }
+    return result;
+  }
+
+
+
   namespace
   {
-    // Every kind of sliding in the programme; a replayed test has too many.
-    std::vector<Loading> slides(const Programme &programme)
-    {
-      constexpr unsigned int most = 20;
-      std::vector<Loading>   result;
-      for (const Segment &segment : programme.segments())
-        {
-          const Loading &now = segment.end;
-          if (now.velocity.norm() > 0. && now.pressure > 0. &&
-              std::none_of(result.begin(),
-                           result.end(),
-                           [&](const Loading &other) {
-                             return std::abs(other.pressure - now.pressure) <=
-                                      1e-9 * now.pressure &&
-                                    (other.velocity - now.velocity).norm() <=
-                                      1e-9 * now.velocity.norm();
-                           }))
-            result.push_back(now);
-          if (result.size() == most)
-            break;
-        }
-      return result;
-    }
-
-
-
     // The slowest and the fastest speed around one at which it is unstable.
     std::array<double, 2> unstable_speeds(const FrictionLaw &law,
                                           const Loading     &slide)
@@ -276,7 +276,9 @@ namespace SlipStep
                                                 const Programme   &programme,
                                                 const Machine     &machine)
   {
-    for (const Loading &slide : slides(programme))
+    // A replayed test has too many.
+    constexpr std::size_t most = 20;
+    for (const Loading &slide : steady_slides(programme, most))
       {
         const SteadySliding sliding(law, slide.velocity, slide.pressure);
         if (!sliding.exists())

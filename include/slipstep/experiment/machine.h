@@ -20,10 +20,14 @@ namespace SlipStep
   /// One step of contact and machine.
   struct MachineStep
   {
-    ContactResponse contact;   ///< of the second stage
-    Slider          slider;    ///< at the end of the step
-    double          work = 0.; ///< of the load point, per area [MPa mm]
-    StepError       error;
+    ContactResponse      contact;   ///< of the second stage
+    Slider               start;     ///< of the step
+    Slider               first;     ///< at the end of the first stage
+    Slider               second;    ///< where the second starts
+    Slider               slider;    ///< at the end of the step
+    dealii::Tensor<1, 2> motion;    ///< of the load point [mm]
+    double               time_step; ///< [s]
+    double               work = 0.; ///< of the load point, per area [MPa mm]
   };
 
   /// The machine that moves a contact point: a spring in series, the same in
@@ -84,6 +88,12 @@ namespace SlipStep
                      const double                normal_traction,
                      const double                time_step) const;
 
+    /// Estimated error of the step that @p point made last, 0 for a jump of a
+    /// soft machine: that takes no time, so no step is small enough for it.
+    StepError error(const FrictionLaw  &law,
+                    const ContactPoint &point,
+                    const MachineStep  &step) const;
+
     /// What the probes of a history are, in the order of probes().
     static std::vector<std::string> probe_names();
 
@@ -111,12 +121,7 @@ namespace SlipStep
                           Slider                     &slider) const;
 
     /// Estimated error of the load that the motion of the mass makes [MPa].
-    double error_of_motion(const Slider &start,
-                           const Slider &first,
-                           const Slider &second,
-                           const Slider &last,
-                           const double  contact_stiffness,
-                           const double  time_step) const;
+    double error_of_motion(const MachineStep &step) const;
 
     double compliance = 0.; ///< c = 1 / k [mm/MPa]
     double areal_mass = 0.; ///< m [MPa s^2/mm]

@@ -100,6 +100,11 @@ namespace SlipStep
     bool                       is_steady = false;
   };
 
+  /// One of each velocity and pressure to which a programme slides, the first
+  /// ones if there are more than @p most.
+  std::vector<Loading> steady_slides(const Programme  &programme,
+                                     const std::size_t most);
+
   /// Warnings, in words, of slides of a programme that neither the contact's
   /// own stiffness nor the machine holds, since friction falls with speed: at
   /// which speeds sliding has no stable branch, by which effects, and what
