@@ -166,11 +166,13 @@ namespace SlipStep
                       point.point.committed().strength);
     };
     std::array<double, 4> sums{};
+    std::vector<double>   errors_at_end;
     for (const CellFace &cell_face : faces)
       for (const QuadraturePoint &point : cell_face.points)
         {
           const double    weight = point.JxW * strength_of(point);
           const StepError error  = point.point.error(law);
+          errors_at_end.push_back(error.at_end);
           sums[0] += weight * error.at_end;
           sums[1] += weight * error.of_line;
           sums[2] += weight;
@@ -183,10 +185,14 @@ namespace SlipStep
       return 0.;
 
     double worst = 0.;
+    auto   error = errors_at_end.begin();
     for (const CellFace &cell_face : faces)
       for (const QuadraturePoint &point : cell_face.points)
-        if (strength_of(point) > least_share * sums[2] / sums[3])
-          worst = std::max(worst, point.point.error(law).at_end);
+        {
+          if (strength_of(point) > least_share * sums[2] / sums[3])
+            worst = std::max(worst, *error);
+          ++error;
+        }
     worst = Utilities::MPI::max(worst, communicator);
     return std::max(StepError{sums[0] / sums[2], sums[1] / sums[2]}.measure(),
                     worst / times_more);
