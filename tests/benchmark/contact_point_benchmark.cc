@@ -11,7 +11,11 @@ using namespace SlipStep::Testing;
 namespace
 {
   // From the first touch through the transition into sliding, again and again.
-  void slide(benchmark::State &state, const std::string &effects)
+  // `make_step` gets the point, the law, slip, pressure and time step.
+  template <typename MakeStep>
+  void slide(benchmark::State  &state,
+             const std::string &effects,
+             const MakeStep    &make_step)
   {
     const auto   law = make_law({{"Effects", effects}});
     ContactPoint point(*law);
@@ -21,17 +25,55 @@ namespace
         if (step++ % 500 == 0)
           point = ContactPoint(*law);
         const double growth = 1. + 0.05 * (step % 7);
-        benchmark::DoNotOptimize(point.update(
-          *law, vector(2e-4 * growth, 1e-5), 5.8 + 0.01 * growth, 0.01));
+        benchmark::DoNotOptimize(make_step(
+          point, *law, vector(2e-4 * growth, 1e-5), 5.8 + 0.01 * growth, 0.01));
         point.commit();
       }
     state.SetItemsProcessed(state.iterations());
   }
+
+  // A stage with its tangent: what each Newton iteration asks for.
+  void update(benchmark::State &state, const std::string &effects)
+  {
+    slide(state,
+          effects,
+          [](ContactPoint               &point,
+             const FrictionLaw          &law,
+             const dealii::Tensor<1, 2> &slip,
+             const double                pressure,
+             const double                time_step) {
+            return point.update(law, slip, pressure, time_step);
+          });
+  }
+
+  // A step: two stages and the estimated error.
+  void step(benchmark::State &state, const std::string &effects)
+  {
+    slide(state,
+          effects,
+          [](ContactPoint               &point,
+             const FrictionLaw          &law,
+             const dealii::Tensor<1, 2> &slip,
+             const double                pressure,
+             const double                time_step) {
+            constexpr double gamma = TwoStages::gamma;
+            point.update(law, gamma * slip, pressure, gamma * time_step);
+            point.begin_second_stage(law);
+            point.update(law, gamma * slip, pressure, gamma * time_step);
+            return point.error(law);
+          });
+  }
 } // namespace
 
-BENCHMARK_CAPTURE(slide, coulomb, "");
-BENCHMARK_CAPTURE(slide, rate_independent, "subloading, softening");
-BENCHMARK_CAPTURE(slide, source_paper, "subloading, overstress, softening");
-BENCHMARK_CAPTURE(slide,
-                  all_effects,
-                  "subloading, overstress, softening, healing");
+#define LAWS(measured)                                                         \
+  BENCHMARK_CAPTURE(measured, coulomb, "");                                    \
+  BENCHMARK_CAPTURE(measured, rate_independent, "subloading, softening");      \
+  BENCHMARK_CAPTURE(measured,                                                  \
+                    source_paper,                                              \
+                    "subloading, overstress, softening");                      \
+  BENCHMARK_CAPTURE(measured,                                                  \
+                    all_effects,                                               \
+                    "subloading, overstress, softening, healing")
+
+LAWS(update);
+LAWS(step);
