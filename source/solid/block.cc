@@ -35,6 +35,7 @@ namespace SlipStep
     , fe(FE_Q<dim>(parameters.degree), dim)
     , dof_handler(triangulation)
     , contact(parameters, law)
+    , first_step(control.step_size())
     , control(control)
     , marker(parameters)
   {
@@ -139,15 +140,38 @@ namespace SlipStep
 
 
 
-  // Constant loads, without which the programme does not begin, grow during its
-  // first step: a load that acts at once would do more work than is stored.
+  // Nothing acts in full from the first instant: it would do more work than is
+  // stored, and shorter steps would not make it less.
+  template <int dim>
+  LoadFactors Block<dim>::factors_at(const double time) const
+  {
+    const Loading     now = programme.at(time);
+    const LoadFactors result{
+      {now.pressure,
+       std::min(1., time / programme.segments().front().end_time),
+       std::min(1., time / first_step),
+       now.displacement[0],
+       now.displacement[1]}};
+    return result;
+  }
+
+
+
   template <int dim>
   void Block<dim>::begin_stage(const double end_time, const double time_step)
   {
-    loading    = programme.at(end_time);
-    stage_time = time_step;
-    constant_share =
-      control.n_accepted() == 0 ? end_time / control.end_of_step() : 1.;
+    loading      = programme.at(end_time);
+    load_factors = factors_at(end_time);
+    stage_time   = time_step;
+  }
+
+
+
+  template <int dim>
+  void Block<dim>::add_loads(const double factor, Vector &vector) const
+  {
+    for (unsigned int k = 0; k < n_load_parts; ++k)
+      load_cases[k].force.add_to(factor * load_factors[k], vector);
   }
 
 
@@ -185,10 +209,8 @@ namespace SlipStep
   void Block<dim>::impose_displacements()
   {
     constrain(solution);
-    solution.add(constant_share, prescribed);
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      if (loading.displacement[i] != 0.)
-        solution.add(loading.displacement[i], prescribed_by_frame[i]);
+    for (unsigned int k = 0; k < n_load_parts; ++k)
+      load_cases[k].displacement.add_to(load_factors[k], solution);
     solution.update_ghost_values();
   }
 
@@ -328,16 +350,13 @@ namespace SlipStep
     unbalanced = contact_forces;
     system->add_elastic_forces(solution, unbalanced);
     unbalanced.compress(VectorOperation::add);
-    unbalanced.add(-constant_share,
-                   constant_load,
-                   -loading.pressure,
-                   unit_pressure_load);
+    add_loads(-1., unbalanced);
     move_to_masters(hanging_constraints, unbalanced);
-    force_scale =
-      std::max({force_scale,
-                constant_load.l2_norm(),
-                std::abs(loading.pressure) * unit_pressure_load.l2_norm(),
-                1e-300});
+    force_scale = std::max(force_scale, 1e-300);
+    for (unsigned int k = 0; k < n_load_parts; ++k)
+      force_scale =
+        std::max(force_scale,
+                 std::abs(load_factors[k]) * load_cases[k].force.l2_norm());
 
     right_hand_side = 0.;
     right_hand_side.add(-1., unbalanced);

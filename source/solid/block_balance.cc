@@ -43,10 +43,7 @@ namespace SlipStep
     work = Utilities::MPI::sum(work, communicator);
 
     forces = 0.;
-    forces.add(constant_share,
-               constant_load,
-               loading.pressure,
-               unit_pressure_load);
+    add_loads(1., forces);
     return work + forces * solution - forces * stage_solution +
            sum_by_component(forces) * frame_motion;
   }
@@ -61,10 +58,7 @@ namespace SlipStep
     const double normal_load =
       std::abs(sum_by_component(contact_forces)[parameters.normal_axis()]);
     forces = contact_forces;
-    forces.add(-constant_share,
-               constant_load,
-               -loading.pressure,
-               unit_pressure_load);
+    add_loads(-1., forces);
     for (const auto &line : homogeneous_constraints.get_lines())
       if (line.entries.empty() &&
           dof_handler.locally_owned_dofs().is_element(line.index))
@@ -84,10 +78,7 @@ namespace SlipStep
   {
     forces = unbalanced;
     forces -= contact_forces;
-    forces.add(constant_share,
-               constant_load,
-               loading.pressure,
-               unit_pressure_load);
+    add_loads(1., forces);
     return 0.5 * (forces * solution);
   }
 
@@ -164,6 +155,13 @@ namespace SlipStep
     summary.newton_iterations = n_newton_total;
     summary.linear_iterations = n_linear_total;
     summary.warnings.clear();
+    const Segment &first = programme.segments().front();
+    if (load_cases[gradual].force.l2_norm() > 0. &&
+        first.end.velocity.norm() > 0.)
+      summary.warnings.push_back(
+        "loads of the faces grow during the first statement of the programme, "
+        "while the block slides; 'hold 1 s' before it, or 'at once' behind the "
+        "load, lets them act before it slides");
     if (smallest_contact_share < 0.99)
       summary.warnings.push_back(
         "part of the contact face lifted off the plane: at worst " +

@@ -62,8 +62,9 @@ namespace SlipStep
       const unsigned int normal_axis;
       const double       outward_sign;
       FaceConditions     face;
-      bool               is_free      = false;
-      unsigned int       n_conditions = 0;
+      bool               is_free                = false;
+      bool               has_programme_pressure = false;
+      unsigned int       n_conditions           = 0;
 
       void read_condition(const std::string &condition)
       {
@@ -72,9 +73,12 @@ namespace SlipStep
         std::string        verb, rest;
         words >> verb;
         std::getline(words >> std::ws, rest);
+        const bool is_sudden = take_off_end(rest, "at once");
         if (verb == "contact" || verb == "free" || verb == "drive" ||
             verb == "flat")
           {
+            if (is_sudden)
+              rest += rest.empty() ? "at once" : " at once";
             if (!rest.empty())
               parameters.reject(path,
                                 "'" + verb + "' takes nothing, but '" + rest +
@@ -86,11 +90,11 @@ namespace SlipStep
                      verb);
           }
         else if (verb == "pressure")
-          read_pressure(rest);
+          read_pressure(rest, is_sudden);
         else if (verb == "traction")
-          read_traction(rest);
+          read_traction(rest, is_sudden ? at_once : gradual);
         else if (verb == "displacement")
-          read_displacement(rest);
+          read_displacement(rest, is_sudden ? at_once : gradual);
         else
           {
             const std::string near = nearest_name(verb,
@@ -109,6 +113,17 @@ namespace SlipStep
                    "displacement" :
                    "did you mean '" + near + "'?"));
           }
+      }
+
+      // Whether it was there.
+      static bool take_off_end(std::string &text, const std::string &end)
+      {
+        if (text.size() < end.size() ||
+            text.compare(text.size() - end.size(), end.size(), end) != 0)
+          return false;
+        text =
+          dealii::Utilities::trim(text.substr(0, text.size() - end.size()));
+        return true;
       }
 
       void set_once(bool &condition, const std::string &name) const
@@ -130,17 +145,38 @@ namespace SlipStep
           }
       }
 
-      void read_pressure(const std::string &text)
+      // "pressure 5 MPa", "pressure programme", "pressure 3 x programme".
+      void read_pressure(std::string text, const bool is_sudden)
       {
-        if (text == "programme")
-          set_once(face.has_programme_pressure, "pressure programme");
-        else
-          face.traction[normal_axis] -=
-            outward_sign * quantity(text, Dimension::stress);
+        if (!take_off_end(text, "programme"))
+          {
+            face.tractions[is_sudden ? at_once : gradual][normal_axis] -=
+              outward_sign * quantity(text, Dimension::stress);
+            return;
+          }
+        if (is_sudden)
+          parameters.reject(path,
+                            "the programme says when its pressure acts: remove "
+                            "'at once'");
+        set_once(has_programme_pressure, "pressure programme");
+        double            times = 1.;
+        const std::string given = text;
+        if (!given.empty())
+          {
+            if (!take_off_end(text, "x") ||
+                !dealii::Patterns::Double().match(text))
+              parameters.reject(path,
+                                "'" + given +
+                                  "' is no multiple of the programme's "
+                                  "pressure; write e.g. 'pressure 3 x "
+                                  "programme'");
+            times = dealii::Utilities::string_to_double(text);
+          }
+        face.tractions[programme_pressure][normal_axis] -= outward_sign * times;
       }
 
       // "traction 1 0 0 MPa": one number per direction, one unit.
-      void read_traction(const std::string &text)
+      void read_traction(const std::string &text, const LoadPart part)
       {
         std::istringstream       in(text);
         std::vector<std::string> words;
@@ -152,12 +188,12 @@ namespace SlipStep
                               " numbers and a unit, e.g. 'traction 1 0" +
                               (dim == 3 ? " 0" : "") + " MPa'");
         for (unsigned int d = 0; d < dim; ++d)
-          face.traction[d] +=
+          face.tractions[part][d] +=
             quantity(words[d] + " " + words[dim], Dimension::stress);
       }
 
       // "displacement x 0 mm"
-      void read_displacement(const std::string &text)
+      void read_displacement(const std::string &text, const LoadPart part)
       {
         const std::string axes = dim == 3 ? "xyz" : "xy";
         const auto axis = text.empty() ? std::string::npos : axes.find(text[0]);
@@ -170,7 +206,8 @@ namespace SlipStep
                             std::string("the displacement along ") +
                               axes[axis] + " is prescribed twice");
         face.is_prescribed[axis] = true;
-        face.displacement[axis]  = quantity(text.substr(2), Dimension::length);
+        face.displacements[part][axis] =
+          quantity(text.substr(2), Dimension::length);
       }
 
       void check_consistency() const
@@ -242,9 +279,12 @@ namespace SlipStep
                                          "the end of z (of y in 2-D)") +
           ", separated by ';': 'free', 'contact' (with the rigid plane; one "
           "face), 'drive' (displacements in the contact plane follow the "
-          "programme), 'pressure programme', 'pressure 5 MPa', 'traction 1 0 0 "
-          "MPa', 'displacement x 0 mm', 'flat' (same normal displacement "
-          "everywhere).");
+          "programme), 'pressure programme', 'pressure 3 x programme', "
+          "'pressure 5 MPa', 'traction 1 0 0 MPa', 'displacement x 0 mm', "
+          "'flat' (same normal displacement everywhere). Loads and "
+          "displacements of their own grow evenly over the first statement of "
+          "the programme (of 'follow': over its first interval); with 'at "
+          "once' behind them they act from the first step on.");
     parameters.declare(
       "Block/Solver",
       "automatic",
@@ -318,7 +358,7 @@ namespace SlipStep
         parameters.reject("Block/Adaptivity/Most cells", message.str());
       }
 
-    unsigned int n_contact = 0, n_driven = 0, n_pressed = 0;
+    unsigned int n_contact = 0, n_driven = 0;
     const auto   names = face_names(dimension);
     for (unsigned int f = 0; f < names.size(); ++f)
       {
@@ -342,7 +382,6 @@ namespace SlipStep
             ++n_contact;
           }
         n_driven += faces[f].is_driven;
-        n_pressed += faces[f].has_programme_pressure;
       }
     if (dimension == 2)
       for (const std::string path : {"Block/Faces/front", "Block/Faces/back"})
@@ -389,18 +428,20 @@ namespace SlipStep
               "' prescribes the displacement normal to it along "
               "their common edge");
 
-    bool is_pressed = n_pressed > 0 && begins_pressed;
+    const LoadFactors all        = {{begins_pressed ? 1. : 0., 1., 1., 0., 0.}};
+    bool              is_pressed = false;
     for (const FaceConditions &face : faces)
-      is_pressed = is_pressed ||
-                   face.traction[normal_axis()] * outward_sign() > 0. ||
-                   (face.is_prescribed[normal_axis()] &&
-                    face.displacement[normal_axis()] * outward_sign() > 0.);
+      for (unsigned int k = 0; k < n_load_parts; ++k)
+        is_pressed =
+          is_pressed ||
+          all[k] * face.tractions[k][normal_axis()] * outward_sign() > 0. ||
+          face.displacements[k][normal_axis()] * outward_sign() > 0.;
     if (!is_pressed)
       parameters.reject(
         begins_pressed ? "Block/Faces/top" : "Loading/Programme",
         begins_pressed ?
           "no contact pressure: the programme presses, but no face has "
-          "'pressure programme', nor does any other load press the block on "
+          "'pressure programme' towards it, nor does any other load press the block on "
           "the plane" :
           "no contact pressure: nothing presses the block on the plane; begin "
           "with e.g. 'press 5.8 MPa in 1 s'");

@@ -65,7 +65,7 @@ namespace SlipStep
   {
     const auto errors =
       ErrorIndicator<dim>(parameters)
-        .squared_errors(dof_handler, solution, contact, loading.pressure);
+        .squared_errors(dof_handler, solution, contact, load_factors);
     try
       {
         last_marked = marker.mark(triangulation,
@@ -186,7 +186,7 @@ namespace SlipStep
     stage_time                = 1e-6 * control.step_size();
     stage_solution            = old_solution;
     stage_frame               = old_loading.displacement;
-    constant_share            = 1.;
+    load_factors              = factors_at(control.time());
     solution                  = old_solution;
     impose_displacements();
     const bool is_found          = solve_stage();

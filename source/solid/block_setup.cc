@@ -71,11 +71,6 @@ namespace SlipStep
     solution.reinit(dof_handler.locally_owned_dofs(), relevant, communicator);
     for (Vector *vector : {&old_solution,
                            &older_solution,
-                           &prescribed,
-                           &prescribed_by_frame[0],
-                           &prescribed_by_frame[1],
-                           &constant_load,
-                           &unit_pressure_load,
                            &contact_forces,
                            &unbalanced,
                            &stage_solution,
@@ -88,27 +83,22 @@ namespace SlipStep
 
   // @sect3{Supports}
 
-  // Prescribed displacements are linear in the motion of the frame: three
-  // fields, which are zero wherever nothing is constrained, and the homogeneous
+  // Prescribed displacements are linear in the parts of the loading: fields
+  // that are zero wherever nothing is constrained, and the homogeneous
   // constraints say it all.
   template <int dim>
   void Block<dim>::find_supports()
   {
-    const auto prescribed_at = [&](const Tensor<1, 2> &frame, Vector &field) {
-      constrain_displacements(
-        parameters, dof_handler, relevant, frame, homogeneous_constraints);
-      field = 0.;
-      homogeneous_constraints.distribute(field);
-    };
-    for (unsigned int i = 0; i < dim - 1; ++i)
+    for (unsigned int k = 0; k < n_load_parts; ++k)
       {
-        Tensor<1, 2> frame;
-        frame[i] = 1.;
-        prescribed_at(frame, prescribed_by_frame[i]);
+        LoadFactors factors{};
+        factors[k] = 1.;
+        constrain_displacements(
+          parameters, dof_handler, relevant, factors, homogeneous_constraints);
+        forces = 0.;
+        homogeneous_constraints.distribute(forces);
+        load_cases[k].displacement = FaceVector(forces);
       }
-    prescribed_at(Tensor<1, 2>(), prescribed);
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      prescribed_by_frame[i] -= prescribed;
     make_homogeneous(homogeneous_constraints);
   }
 
@@ -162,44 +152,48 @@ namespace SlipStep
 
   // @sect3{Loads}
 
-  // Tractions are dead loads on the undeformed faces, as small strains allow:
-  // two vectors hold them once and for all, one for what is constant, one for a
-  // pressure of 1 MPa that the programme scales.
+  // Tractions are dead loads on the undeformed faces, as small strains allow.
   template <int dim>
-  void Block<dim>::assemble_loads()
+  void Block<dim>::assemble_load(const LoadPart part, Vector &load) const
   {
-    FEFaceValues<dim>      fe_values(fe,
+    FEFaceValues<dim>                    fe_values(fe,
                                 contact.quadrature(),
-                                update_values | update_JxW_values |
-                                  update_normal_vectors);
-    dealii::Vector<double> constant(fe.dofs_per_cell), unit(fe.dofs_per_cell);
+                                update_values | update_JxW_values);
+    dealii::Vector<double>               cell_load(fe.dofs_per_cell);
     std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary())
             {
-              const FaceConditions &face =
-                parameters.faces[cell->face(f)->boundary_id()];
+              const Tensor<1, 3> &traction =
+                parameters.faces[cell->face(f)->boundary_id()].tractions[part];
+              if (traction == Tensor<1, 3>())
+                continue;
               fe_values.reinit(cell, f);
-              constant = unit = 0.;
+              cell_load = 0.;
               for (const unsigned int q : fe_values.quadrature_point_indices())
                 for (const unsigned int i : fe_values.dof_indices())
-                  {
-                    const unsigned int d =
-                      fe.system_to_component_index(i).first;
-                    const double phi =
-                      fe_values.shape_value(i, q) * fe_values.JxW(q);
-                    constant(i) += face.traction[d] * phi;
-                    if (face.has_programme_pressure)
-                      unit(i) -= fe_values.normal_vector(q)[d] * phi;
-                  }
+                  cell_load(i) +=
+                    traction[fe.system_to_component_index(i).first] *
+                    fe_values.shape_value(i, q) * fe_values.JxW(q);
               cell->get_dof_indices(dofs);
-              constant_load.add(dofs, constant);
-              unit_pressure_load.add(dofs, unit);
+              load.add(dofs, cell_load);
             }
-    constant_load.compress(VectorOperation::add);
-    unit_pressure_load.compress(VectorOperation::add);
+    load.compress(VectorOperation::add);
+  }
+
+
+
+  template <int dim>
+  void Block<dim>::assemble_loads()
+  {
+    for (const LoadPart part : {programme_pressure, gradual, at_once})
+      {
+        forces = 0.;
+        assemble_load(part, forces);
+        load_cases[part].force = FaceVector(forces);
+      }
   }
 
 

@@ -121,10 +121,12 @@ namespace SlipStep
             point.force   = Tensor<1, dim>();
             point.tangent = Tensor<2, dim>();
 
-            // A point just touching counts as closed: otherwise the first load
-            // would meet no resistance.
+            // A point just touching counts as closed, and as sticking:
+            // otherwise the first load would meet no resistance.
             if (penetration < 0.)
               continue;
+            const Tensor<2, 2> d_slip =
+              penetration > 0. ? response.d_slip : law.elastic_tangent();
             point.force[normal]           = sign * f_n;
             point.tangent[normal][normal] = law.normal_stiffness();
             for (unsigned int i = 0; i < dim - 1; ++i)
@@ -135,7 +137,7 @@ namespace SlipStep
                   response.d_normal[i] * sign * law.normal_stiffness();
                 for (unsigned int j = 0; j < dim - 1; ++j)
                   point.tangent[row][parameters.tangential_axis(j)] =
-                    response.d_slip[i][j];
+                    d_slip[i][j];
               }
           }
       }

@@ -28,11 +28,11 @@ namespace SlipStep
                const DoFHandler<dim>  &dof_handler,
                const Vector           &displacement,
                const ContactFace<dim> &contact,
-               const double            pressure)
+               const LoadFactors      &loads)
       : parameters(parameters)
       , displacement(displacement)
       , contact(contact)
-      , pressure(pressure)
+      , loads(loads)
       , mu(parameters.shear_modulus())
       , lambda(parameters.lame_lambda())
       , cell_quadrature(parameters.degree + 1)
@@ -71,7 +71,7 @@ namespace SlipStep
     const BlockParameters  &parameters;
     const Vector           &displacement;
     const ContactFace<dim> &contact;
-    const double            pressure;
+    const LoadFactors      &loads;
     const double            mu, lambda;
     const QGauss<dim>       cell_quadrature;
     FEValues<dim>           in_cell;
@@ -171,9 +171,9 @@ namespace SlipStep
       if (face.is_contact)
         return 0.;
       own_face.reinit(cell, f);
-      const auto     &normals = own_face.get_normal_vectors();
-      const Tractions own     = tractions(own_face, normals);
-      double          sum     = 0.;
+      const Tractions own = tractions(own_face, own_face.get_normal_vectors());
+      const Tensor<1, 3> given = face.traction(loads);
+      double             sum   = 0.;
       for (unsigned int d = 0; d < dim; ++d)
         {
           const bool is_free =
@@ -181,12 +181,7 @@ namespace SlipStep
             !(face.is_driven && d != parameters.normal_axis()) &&
             !(face.is_flat && d == f / 2);
           for (unsigned int q = 0; is_free && q < own.size(); ++q)
-            {
-              const double given =
-                face.traction[d] -
-                (face.has_programme_pressure ? pressure * normals[q][d] : 0.);
-              sum += std::pow(own[q][d] - given, 2) * own_face.JxW(q);
-            }
+            sum += std::pow(own[q][d] - given[d], 2) * own_face.JxW(q);
         }
       return cell->face(f)->diameter() * sum;
     }
@@ -242,10 +237,10 @@ namespace SlipStep
   ErrorIndicator<dim>::squared_errors(const DoFHandler<dim>  &dof_handler,
                                       const Vector           &displacement,
                                       const ContactFace<dim> &contact,
-                                      const double            pressure) const
+                                      const LoadFactors      &loads) const
   {
     Evaluation evaluation(
-      parameters, dof_handler, displacement, contact, pressure);
+      parameters, dof_handler, displacement, contact, loads);
     std::vector<double> errors(dof_handler.get_triangulation().n_active_cells(),
                                0.);
     for (const auto &cell : dof_handler.active_cell_iterators())

@@ -184,7 +184,7 @@ namespace SlipStep
         constrain_displacements(parameters,
                                 *level.dof_handler,
                                 level.relevant,
-                                Tensor<1, 2>(),
+                                LoadFactors(),
                                 level.constraints);
         make_homogeneous(level.constraints);
         level.float_constraints.copy_from(level.constraints);

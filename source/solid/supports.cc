@@ -24,27 +24,28 @@ namespace SlipStep
     template <int dim>
     void prescribe(const BlockParameters     &parameters,
                    const DoFHandler<dim>     &dof_handler,
-                   const Tensor<1, 2>        &frame,
+                   const LoadFactors         &factors,
                    AffineConstraints<double> &constraints)
     {
       for (const bool driven_pass : {true, false})
         for (unsigned int f = 0; f < 2 * dim; ++f)
           {
-            const FaceConditions &face = parameters.faces[f];
+            const FaceConditions &face  = parameters.faces[f];
+            const Tensor<1, 3>    given = face.displacement(factors);
             ComponentMask         mask(dim, false);
             std::vector<double>   values(dim, 0.);
             for (unsigned int d = 0; d < dim; ++d)
               if (!driven_pass && face.is_prescribed[d])
                 {
                   mask.set(d, true);
-                  values[d] = face.displacement[d];
+                  values[d] = given[d];
                 }
             for (unsigned int i = 0; i < dim - 1; ++i)
               {
                 const unsigned int axis = parameters.tangential_axis(i);
                 if (driven_pass && face.is_driven)
                   mask.set(axis, true);
-                values[axis] -= (driven_pass ? 0. : frame[i]);
+                values[axis] -= (driven_pass ? 0. : factors[frame_x + i]);
               }
             if (mask.n_selected_components() > 0)
               VectorTools::interpolate_boundary_values(
@@ -178,12 +179,12 @@ namespace SlipStep
   void constrain_displacements(const BlockParameters     &parameters,
                                const DoFHandler<dim>     &dof_handler,
                                const IndexSet            &relevant,
-                               const Tensor<1, 2>        &frame,
+                               const LoadFactors         &factors,
                                AffineConstraints<double> &constraints)
   {
     constraints.reinit(relevant);
     DoFTools::make_hanging_node_constraints(dof_handler, constraints);
-    prescribe(parameters, dof_handler, frame, constraints);
+    prescribe(parameters, dof_handler, factors, constraints);
     flatten(parameters, dof_handler, constraints);
     ask_owners(dof_handler, constraints);
     constraints.close();
@@ -229,7 +230,7 @@ namespace SlipStep
       {
         AffineConstraints<double> all, hanging;
         constrain_displacements(
-          parameters, dof_handler, relevant, Tensor<1, 2>(), all);
+          parameters, dof_handler, relevant, LoadFactors(), all);
         constrain_hanging_nodes(dof_handler, relevant, hanging);
         std::vector<types::global_dof_index> masters;
         for (const auto *constraints : {&all, &hanging})
@@ -262,11 +263,11 @@ namespace SlipStep
   template void     constrain_displacements(const BlockParameters &,
                                             const DoFHandler<2> &,
                                             const IndexSet &,
-                                            const Tensor<1, 2> &,
+                                            const LoadFactors &,
                                             AffineConstraints<double> &);
   template void     constrain_displacements(const BlockParameters &,
                                             const DoFHandler<3> &,
                                             const IndexSet &,
-                                            const Tensor<1, 2> &,
+                                            const LoadFactors &,
                                             AffineConstraints<double> &);
 } // namespace SlipStep

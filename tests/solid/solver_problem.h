@@ -65,7 +65,7 @@ namespace SlipStep::Testing
       dof_handler.distribute_dofs(fe);
       relevant = relevant_dofs(parameters, dof_handler);
       constrain_displacements(
-        parameters, dof_handler, relevant, dealii::Tensor<1, 2>(), constraints);
+        parameters, dof_handler, relevant, LoadFactors(), constraints);
     }
 
     /// Tangent as a block would give it.

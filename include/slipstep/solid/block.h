@@ -97,6 +97,9 @@ namespace SlipStep
       return triangulation.n_global_active_cells();
     }
 
+    /// How much of each part of the loading acts at a time [s].
+    LoadFactors factors_at(const double time) const;
+
     const dealii::DoFHandler<dim> &unknowns() const
     {
       return dof_handler;
@@ -140,6 +143,7 @@ namespace SlipStep
     void find_supports();
     void constrain(Vector &displacement) const;
     void find_groups_of_unknowns();
+    void assemble_load(const LoadPart part, Vector &load) const;
     void assemble_loads();
     void choose_solver();
 
@@ -158,6 +162,7 @@ namespace SlipStep
     void        begin_stage(const double end_time, const double time_step);
     bool        finish_stage(const double weight);
     void        predict();
+    void        add_loads(const double factor, Vector &vector) const;
     void        impose_displacements();
     bool        solve_stage();
     double      compute_residual();
@@ -201,19 +206,15 @@ namespace SlipStep
     std::array<std::vector<dealii::types::global_dof_index>, dim>
       supported_dofs;
 
-    // Prescribed displacements: constant ones, and those per mm of motion of
-    // the frame in the two tangential directions.
-    Vector                prescribed;
-    std::array<Vector, 2> prescribed_by_frame;
-
     // Contact and linear algebra.
     ContactFace<dim>                    contact;
     std::unique_ptr<TangentSystem<dim>> system;
 
-    // Loads: a constant part and that of a programme pressure of 1 MPa, not
-    // constrained.
-    Vector constant_load;
-    Vector unit_pressure_load;
+    // The loading: its parts, how long those that act at once take to do so
+    // [s], and how much of each acts at the end of the present stage.
+    std::array<LoadCase, n_load_parts> load_cases;
+    double                             first_step;
+    LoadFactors                        load_factors = {};
 
     // State: displacements at the end and the beginning of the step, and one
     // step before that.
@@ -224,13 +225,12 @@ namespace SlipStep
     double      old_step = 0.;
     Loading     old_loading, loading;
 
-    // The present stage of the step: where it starts, how long it takes [s],
-    // and which share of the constant loads acts at its end.
+    // The present stage of the step: where it starts, and how long it takes
+    // [s].
     Vector               stage_solution;
     dealii::Tensor<1, 2> stage_frame;
-    double               stage_time     = 0.;
-    double               constant_share = 1.;
-    double               trial_work     = 0.; // of the step [N mm]
+    double               stage_time = 0.;
+    double               trial_work = 0.; // of the step [N mm]
 
     // Newton's method.
     Vector              contact_forces; // not constrained

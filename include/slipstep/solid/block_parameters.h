@@ -4,6 +4,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <slipstep/experiment/programme.h>
+#include <slipstep/solid/loads.h>
 #include <slipstep/solid/refinement_parameters.h>
 #include <slipstep/utilities/parameters.h>
 
@@ -21,13 +22,33 @@ namespace SlipStep
     bool is_driven = false;
     /// All points of the face have the same normal displacement.
     bool is_flat = false;
-    /// Pressure of the programme acts here.
-    bool has_programme_pressure = false;
-    /// Constant traction [MPa], pressure included.
-    dealii::Tensor<1, 3> traction;
-    /// Components that are prescribed in space, and their values [mm].
-    std::array<bool, 3>  is_prescribed = {{false, false, false}};
-    dealii::Tensor<1, 3> displacement;
+    /// Components of the displacement that are prescribed in space.
+    std::array<bool, 3> is_prescribed = {{false, false, false}};
+    /// Traction [MPa], pressure included, and prescribed displacement [mm] of
+    /// each part of the loading.
+    std::array<dealii::Tensor<1, 3>, n_load_parts> tractions, displacements;
+
+    /// All parts together.
+    dealii::Tensor<1, 3> traction(const LoadFactors &factors) const
+    {
+      return sum(factors, tractions);
+    }
+
+    dealii::Tensor<1, 3> displacement(const LoadFactors &factors) const
+    {
+      return sum(factors, displacements);
+    }
+
+  private:
+    static dealii::Tensor<1, 3>
+    sum(const LoadFactors                                    &factors,
+        const std::array<dealii::Tensor<1, 3>, n_load_parts> &parts)
+    {
+      dealii::Tensor<1, 3> result;
+      for (unsigned int k = 0; k < n_load_parts; ++k)
+        result += factors[k] * parts[k];
+      return result;
+    }
   };
 
   /// How the linear systems are solved.

@@ -35,12 +35,12 @@ namespace SlipStep
     /// active cell index [N mm]; 0 for cells of other ranks.
     /// @param displacement ghosted [mm]
     /// @param contact updated with this displacement
-    /// @param pressure of the programme [MPa]
+    /// @param loads that act
     std::vector<double>
     squared_errors(const dealii::DoFHandler<dim> &dof_handler,
                    const Vector                  &displacement,
                    const ContactFace<dim>        &contact,
-                   const double                   pressure) const;
+                   const LoadFactors             &loads) const;
 
   private:
     class Evaluation;

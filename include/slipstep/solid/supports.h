@@ -38,12 +38,12 @@ namespace SlipStep
   /// frame of the drive: along the contact plane the displacement of the frame
   /// is subtracted.
   /// @param relevant from relevant_dofs()
-  /// @param frame displacement of the frame [mm]
+  /// @param factors of the parts of the loading
   template <int dim>
   void constrain_displacements(const BlockParameters             &parameters,
                                const dealii::DoFHandler<dim>     &dof_handler,
                                const dealii::IndexSet            &relevant,
-                               const dealii::Tensor<1, 2>        &frame,
+                               const LoadFactors                 &factors,
                                dealii::AffineConstraints<double> &constraints);
 
   /// Prescribe zero wherever a value is prescribed.

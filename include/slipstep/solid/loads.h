@@ -1,0 +1,69 @@
+#ifndef slipstep_solid_loads_h
+#define slipstep_solid_loads_h
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace SlipStep
+{
+  /// The parts of the loading of a block; each is scaled as a whole.
+  enum LoadPart : unsigned int
+  {
+    programme_pressure, ///< per MPa of the programme's pressure
+    gradual,            ///< what grows over the first statement
+    at_once,            ///< what acts from the first step on
+    frame_x,            ///< per mm that the drive's frame has moved
+    frame_y,
+    n_load_parts
+  };
+
+  /// How much of each part acts.
+  using LoadFactors = std::array<double, n_load_parts>;
+
+  /// A distributed vector that is zero but for a few faces: its entries there,
+  /// of the unknowns of this rank.
+  class FaceVector
+  {
+  public:
+    using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+    FaceVector() = default;
+
+    /// Its entries that are not zero.
+    explicit FaceVector(const Vector &vector)
+      : norm(vector.l2_norm())
+    {
+      for (unsigned int i = 0; i < vector.locally_owned_size(); ++i)
+        if (vector.local_element(i) != 0.)
+          entries.emplace_back(i, vector.local_element(i));
+    }
+
+    /// @param[in,out] vector distributed like the one of the constructor
+    void add_to(const double factor, Vector &vector) const
+    {
+      for (const auto &entry : entries)
+        vector.local_element(entry.first) += factor * entry.second;
+    }
+
+    double l2_norm() const
+    {
+      return norm;
+    }
+
+  private:
+    std::vector<std::pair<unsigned int, double>> entries;
+    double                                       norm = 0.;
+  };
+
+  /// What a part of the loading is: forces and prescribed displacements.
+  struct LoadCase
+  {
+    FaceVector force;        ///< [N], not constrained
+    FaceVector displacement; ///< [mm]
+  };
+} // namespace SlipStep
+
+#endif
