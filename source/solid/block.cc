@@ -342,12 +342,12 @@ namespace SlipStep
                    stage_solution,
                    loading.displacement - stage_frame,
                    stage_time);
-    contact_forces = 0.;
-    contact.add_forces(contact_forces);
-    contact_forces.compress(VectorOperation::add);
-    force_scale = contact_forces.l2_norm();
+    unbalanced = 0.;
+    contact.add_forces(unbalanced);
+    unbalanced.compress(VectorOperation::add);
+    contact_forces = FaceVector(unbalanced);
+    force_scale    = contact_forces.l2_norm();
 
-    unbalanced = contact_forces;
     system->add_elastic_forces(solution, unbalanced);
     unbalanced.compress(VectorOperation::add);
     add_loads(-1., unbalanced);

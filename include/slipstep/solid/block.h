@@ -233,10 +233,9 @@ namespace SlipStep
     double               trial_work = 0.; // of the step [N mm]
 
     // Newton's method.
-    Vector              contact_forces; // not constrained
+    FaceVector          contact_forces; // not constrained
     Vector              unbalanced; // internal - external forces, all supports
-    Vector              forces;     // scratch
-    Vector              right_hand_side;
+    Vector              right_hand_side; // and scratch between the solutions
     double              force_scale = 0.;
     std::vector<double> residual_norms;
     unsigned int        n_newton = 0, n_linear = 0;
