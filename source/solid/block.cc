@@ -99,6 +99,8 @@ namespace SlipStep
                                control.is_first_of_statement(),
                                control.is_finished());
         adapt_after_step(output);
+        if (control.is_first_of_statement())
+          begin_with_first_solver();
         if (between_steps)
           between_steps();
       }
@@ -253,11 +255,10 @@ namespace SlipStep
             return false;
           }
 
-        system->linearise(contact.tangent());
         try
           {
             const unsigned int iterations =
-              system->solve(update, right_hand_side, linear_tolerance(norm));
+              solve_linear_system(update, linear_tolerance(norm));
             n_linear += iterations;
             n_linear_total += iterations;
           }

@@ -172,6 +172,9 @@ namespace SlipStep
         std::to_string(std::lround(100. * smallest_contact_share)) +
         " % of it stayed in contact (friction turns a block that is high for "
         "its length)");
+    const std::string solver_warning = warning_of_solver();
+    if (!solver_warning.empty())
+      summary.warnings.push_back(solver_warning);
     if (most_cells_wanted > 0.)
       summary.warnings.push_back(
         "the mesh reached the limit set in section Block/Adaptivity: at worst " +

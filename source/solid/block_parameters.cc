@@ -293,7 +293,9 @@ namespace SlipStep
       "matrix-free products, for meshes that can be coarsened; "
       "'amg' is algebraic multigrid with rigid-body modes; "
       "'direct' factorises a recent tangent, on one process; "
-      "'automatic' takes direct below 3000 unknowns, else multigrid.");
+      "'automatic' takes direct below 3000 unknowns, else multigrid; where "
+      "that does not converge, amg and then direct take over for the rest of "
+      "the statement, with a warning.");
     parameters.declare("Block/Newton tolerance",
                        "1e-10",
                        Quantity(Dimension::number, 1e-14, 1e-2),
@@ -487,6 +489,13 @@ namespace SlipStep
     // Q2 elements, and more of Q1.
     if (solver_for(n_unknowns) == SolverType::multigrid)
       return n_unknowns * 400. / 1e6;
+    return memory_of_matrix(n_unknowns);
+  }
+
+
+
+  double BlockParameters::memory_of_matrix(const double n_unknowns) const
+  {
     // An unknown is coupled with those of 2^dim cells; in the interior of cells
     // of higher degree with fewer, hence the half.
     const double couplings =

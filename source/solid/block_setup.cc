@@ -199,25 +199,6 @@ namespace SlipStep
 
 
 
-  template <int dim>
-  void Block<dim>::choose_solver()
-  {
-    const SolverType type = parameters.solver_for(dof_handler.n_dofs());
-    if (type == SolverType::multigrid)
-      system = make_multigrid_system<dim>(parameters,
-                                          dof_handler,
-                                          homogeneous_constraints);
-    else
-      system = make_assembled_system<dim>(type,
-                                          parameters,
-                                          dof_handler,
-                                          homogeneous_constraints,
-                                          relevant,
-                                          contact.quadrature());
-  }
-
-
-
   template class Block<2>;
   template class Block<3>;
 } // namespace SlipStep

@@ -7,7 +7,8 @@
 
 #include <array>
 #include <cmath>
-#include <string>
+#include <iomanip>
+#include <sstream>
 #include <vector>
 
 namespace SlipStep
@@ -37,9 +38,10 @@ namespace SlipStep
                        const double          tolerance,
                        const unsigned int    most)
     {
-      x                 = 0.;
-      unsigned int n    = 0;
-      double       norm = residual.l2_norm();
+      x                  = 0.;
+      unsigned int n     = 0;
+      double       norm  = residual.l2_norm();
+      const double start = norm;
       while (norm > tolerance && n < most)
         {
           unsigned int k = 0;
@@ -48,10 +50,14 @@ namespace SlipStep
           add_corrections(x, k);
         }
       if (!(norm <= tolerance))
-        throw RunError("the linear solver did not converge in " +
-                       std::to_string(n) +
-                       " iterations; try 'set Solver = direct' in section "
-                       "Block, or a Poisson ratio less close to 0.5");
+        {
+          std::ostringstream message;
+          message << std::setprecision(2) << "after " << n
+                  << " iterations the residual is " << norm / start
+                  << " of what it was first, " << tolerance / start
+                  << " were asked for";
+          throw RunError(message.str());
+        }
       return n;
     }
 
