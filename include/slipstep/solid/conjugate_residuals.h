@@ -19,7 +19,8 @@ namespace SlipStep
   /// The iterates are those of GMRES with a preconditioner from the right. The
   /// preconditioned vectors are kept, though, so that n iterations cost n
   /// applications of preconditioner and matrix, where deal.II's GMRES needs
-  /// one more of each: a quarter of its time in a Newton step with three.
+  /// one more of each: a quarter of its time in a Newton step with three. They
+  /// are kept in single precision, in which multigrid works.
   class ConjugateResiduals
   {
   public:
@@ -74,12 +75,15 @@ namespace SlipStep
     {
       if (k == corrections.size())
         {
-          corrections.emplace_back(residual);
+          corrections.emplace_back();
+          corrections.back().reinit(residual, true);
           images.emplace_back(residual);
+          correction.reinit(residual, true);
         }
       Vector &image = images[k];
-      preconditioner.vmult(corrections[k], residual);
-      matrix.vmult(image, corrections[k]);
+      preconditioner.vmult(correction, residual);
+      corrections[k].copy_locally_owned_data_from(correction);
+      matrix.vmult(image, correction);
       double product = k == 0 ? image * image : image * images[0];
       for (unsigned int i = 0; i < k; ++i)
         {
@@ -103,13 +107,17 @@ namespace SlipStep
           for (unsigned int j = i + 1; j < k; ++j)
             value -= factor[i][j] * shares[j];
           shares[i] = value / factor[i][i];
-          x.add(shares[i], corrections[i]);
+          for (unsigned int j = 0; j < x.locally_owned_size(); ++j)
+            x.local_element(j) += shares[i] * corrections[i].local_element(j);
         }
     }
 
     using Numbers = std::array<double, largest_basis>;
 
-    std::vector<Vector>                corrections; // Z
+    using FloatVector = dealii::LinearAlgebra::distributed::Vector<float>;
+
+    std::vector<FloatVector>           corrections; // Z
+    Vector                             correction;  // the newest
     std::vector<Vector>                images;      // Q
     std::array<Numbers, largest_basis> factor;      // R
     Numbers                            shares;      // Q^T b, then y

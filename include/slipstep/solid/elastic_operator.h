@@ -99,6 +99,10 @@ namespace SlipStep
     /// Compute the diagonal of the elastic part, once.
     void compute_elastic_diagonal();
 
+    /// Forget what only setting up needed: the library's tables of unknowns,
+    /// where those of the nodes serve.
+    void release_setup_data();
+
     /// One over the diagonal of the sum; 0 for constrained unknowns.
     /// @param largest_eigenvalue of the elastic part times its inverse
     ///   diagonal; the contact part brings no larger one
@@ -173,6 +177,7 @@ namespace SlipStep
                            const dealii::AffineConstraints<Number> &constraints,
                            const unsigned int                       index,
                            std::vector<unsigned int>               &offsets) const;
+    void      forget_unknowns(const NodeTable &table, const unsigned int index);
     void      find_contact_cells();
     void      find_face_nodes();
     unsigned int face_node(const unsigned int i) const;
@@ -684,6 +689,54 @@ namespace SlipStep
 
 
 
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::release_setup_data()
+  {
+    forget_unknowns(nodes, 0);
+    if (!plain_nodes.start_of_batch.empty())
+      forget_unknowns(plain_nodes, 1);
+  }
+
+
+
+  // The library keeps the unknowns of all cells twice, in the order of cells
+  // and of lanes. The second is not read for the batches that are left here.
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::forget_unknowns(
+    const NodeTable   &table,
+    const unsigned int index)
+  {
+    using DoFInfo = dealii::internal::MatrixFreeFunctions::DoFInfo;
+    auto &info    = const_cast<DoFInfo &>(matrix_free.get_dof_info(index));
+    const unsigned int invalid = dealii::numbers::invalid_unsigned_int;
+    const unsigned int rows_of_batch =
+      Simd::size() * info.start_components.back();
+    std::vector<unsigned int> kept;
+    for (unsigned int batch = 0; batch < table.start_of_batch.size(); ++batch)
+      if (table.start_of_batch[batch] == invalid &&
+          info.index_storage_variants[DoFInfo::dof_access_cell][batch] !=
+            DoFInfo::IndexStorageVariants::full)
+        return;
+    for (unsigned int row = 0; row + 1 < info.row_starts.size(); ++row)
+      {
+        const auto begin =
+          info.dof_indices.begin() + info.row_starts[row].first;
+        const auto end =
+          info.dof_indices.begin() + info.row_starts[row + 1].first;
+        info.row_starts[row].first = kept.size();
+        const unsigned int batch   = row / rows_of_batch;
+        if (batch >= table.start_of_batch.size() ||
+            table.start_of_batch[batch] == invalid)
+          kept.insert(kept.end(), begin, end);
+      }
+    info.row_starts.back().first = kept.size();
+    kept.shrink_to_fit();
+    info.dof_indices.swap(kept);
+    std::vector<unsigned int>().swap(info.dof_indices_interleaved);
+  }
+
+
+
   // Of node i of a face. The entries C_ii alone would not bound the eigenvalues
   // of D^-1 C: with one closed point in a face that is open otherwise they grow
   // to the number of nodes. With rows of sum_j |C_ij| <= lambda D_ii they are
@@ -755,7 +808,7 @@ namespace SlipStep
                   .begin_dof_values()[d * Evaluator::static_dofs_per_component +
                                       face_nodes[i]] = entries[d];
             }
-          cell.distribute_local_to_global(dst);
+          add_to(dst, cell, nodes);
         }
     };
     matrix_free.cell_loop(add_contact, inverse, elastic_diagonal);

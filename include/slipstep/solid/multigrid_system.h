@@ -23,6 +23,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/lac/precondition.h>
+#include <deal.II/lac/vector_memory.h>
 
 #include <deal.II/multigrid/mg_transfer_global_coarsening.h>
 
@@ -113,8 +114,7 @@ namespace SlipStep
     AssembledMatrix<dim>            coarse_matrix;
     std::unique_ptr<Preconditioner> coarse_solver;
     mutable Vector                  coarse_x, coarse_b;
-    mutable Vector                  plain_x, plain_b; ///< unconstrained
-    Vector                          solver_x, solver_b;
+    mutable Vector                  fine_x, fine_b; ///< of the matrix
     ConjugateResiduals              solver;
   };
 
@@ -139,11 +139,7 @@ namespace SlipStep
                       make_direct_preconditioner() :
                       make_amg_preconditioner<dim>(*levels[0].dof_handler))
   {
-    matrix.initialize_dof_vector(plain_x, 1);
-    plain_b.reinit(plain_x);
-    matrix.initialize_dof_vector(solver_x);
-    solver_b.reinit(solver_x);
-
+    matrix.release_setup_data();
     const auto &coarsest = levels[0];
     coarse_x.reinit(coarsest.dof_handler->locally_owned_dofs(),
                     coarsest.relevant,
@@ -162,6 +158,8 @@ namespace SlipStep
                                         false);
         setup_level(l);
       }
+    levels.release_setup_data();
+    dealii::GrowingVectorMemory<FloatVector>::release_unused_memory();
   }
 
 
@@ -178,6 +176,7 @@ namespace SlipStep
     level.residual.reinit(level.x);
     level.correction.reinit(level.x);
     level.matrix->compute_elastic_diagonal();
+    level.matrix->release_setup_data();
     level.jacobi = std::make_shared<Jacobi>();
     level.jacobi->get_vector().reinit(level.x);
     level.matrix->get_inverse_diagonal(level.jacobi->get_vector(), 1.);
@@ -305,12 +304,14 @@ namespace SlipStep
                                                          const Vector &b,
                                                          const double tolerance)
   {
-    solver_b.copy_locally_owned_data_from(b);
+    matrix.initialize_dof_vector(fine_x);
+    matrix.initialize_dof_vector(fine_b);
+    fine_b.copy_locally_owned_data_from(b);
     try
       {
         const unsigned int iterations =
-          solver.solve(matrix, *this, solver_x, solver_b, tolerance, 100);
-        x.copy_locally_owned_data_from(solver_x);
+          solver.solve(matrix, *this, fine_x, fine_b, tolerance, 100);
+        x.copy_locally_owned_data_from(fine_x);
         return iterations;
       }
     catch (const RunError &error)
@@ -327,10 +328,12 @@ namespace SlipStep
     const Vector &displacement,
     Vector       &forces) const
   {
-    plain_x.copy_locally_owned_data_from(displacement);
-    matrix.plain_vmult(plain_b, plain_x);
-    for (unsigned int i = 0; i < plain_b.locally_owned_size(); ++i)
-      forces.local_element(i) += plain_b.local_element(i);
+    matrix.initialize_dof_vector(fine_x, 1);
+    matrix.initialize_dof_vector(fine_b, 1);
+    fine_x.copy_locally_owned_data_from(displacement);
+    matrix.plain_vmult(fine_b, fine_x);
+    for (unsigned int i = 0; i < fine_b.locally_owned_size(); ++i)
+      forces.local_element(i) += fine_b.local_element(i);
   }
 
 
