@@ -99,6 +99,8 @@ namespace SlipStep
                                control.is_first_of_statement(),
                                control.is_finished());
         adapt_after_step(output);
+        if (control.is_first_of_statement())
+          begin_with_first_solver();
         if (between_steps)
           between_steps();
       }
@@ -253,11 +255,10 @@ namespace SlipStep
             return false;
           }
 
-        system->linearise(contact.tangent());
         try
           {
             const unsigned int iterations =
-              system->solve(update, right_hand_side, linear_tolerance(norm));
+              solve_linear_system(update, linear_tolerance(norm));
             n_linear += iterations;
             n_linear_total += iterations;
           }
@@ -342,12 +343,12 @@ namespace SlipStep
                    stage_solution,
                    loading.displacement - stage_frame,
                    stage_time);
-    contact_forces = 0.;
-    contact.add_forces(contact_forces);
-    contact_forces.compress(VectorOperation::add);
-    force_scale = contact_forces.l2_norm();
+    unbalanced = 0.;
+    contact.add_forces(unbalanced);
+    unbalanced.compress(VectorOperation::add);
+    contact_forces = FaceVector(unbalanced);
+    force_scale    = contact_forces.l2_norm();
 
-    unbalanced = contact_forces;
     system->add_elastic_forces(solution, unbalanced);
     unbalanced.compress(VectorOperation::add);
     add_loads(-1., unbalanced);

@@ -42,10 +42,11 @@ namespace SlipStep
                 (solution(dof) - stage_solution(dof) + frame_motion[d]);
     work = Utilities::MPI::sum(work, communicator);
 
-    forces = 0.;
-    add_loads(1., forces);
-    return work + forces * solution - forces * stage_solution +
-           sum_by_component(forces) * frame_motion;
+    Vector &loads = right_hand_side;
+    loads         = 0.;
+    add_loads(1., loads);
+    return work + loads * solution - loads * stage_solution +
+           sum_by_component(loads) * frame_motion;
   }
 
 
@@ -55,9 +56,11 @@ namespace SlipStep
   {
     // Global balance: elastic forces have no resultant, so contact forces are
     // the loads plus all reactions; `unbalanced` holds nothing but reactions.
+    Vector &forces = right_hand_side;
+    forces         = 0.;
+    contact_forces.add_to(1., forces);
     const double normal_load =
-      std::abs(sum_by_component(contact_forces)[parameters.normal_axis()]);
-    forces = contact_forces;
+      std::abs(sum_by_component(forces)[parameters.normal_axis()]);
     add_loads(-1., forces);
     for (const auto &line : homogeneous_constraints.get_lines())
       if (line.entries.empty() &&
@@ -76,8 +79,9 @@ namespace SlipStep
   template <int dim>
   double Block<dim>::elastic_energy()
   {
-    forces = unbalanced;
-    forces -= contact_forces;
+    Vector &forces = right_hand_side;
+    forces         = unbalanced;
+    contact_forces.add_to(-1., forces);
     add_loads(1., forces);
     return 0.5 * (forces * solution);
   }
@@ -168,6 +172,9 @@ namespace SlipStep
         std::to_string(std::lround(100. * smallest_contact_share)) +
         " % of it stayed in contact (friction turns a block that is high for "
         "its length)");
+    const std::string solver_warning = warning_of_solver();
+    if (!solver_warning.empty())
+      summary.warnings.push_back(solver_warning);
     if (most_cells_wanted > 0.)
       summary.warnings.push_back(
         "the mesh reached the limit set in section Block/Adaptivity: at worst " +

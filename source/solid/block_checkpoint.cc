@@ -2,6 +2,7 @@
 
 #include <slipstep/experiment/archive_file.h>
 
+#include <boost/serialization/array.hpp>
 #include <boost/serialization/vector.hpp>
 
 #include <algorithm>
@@ -157,9 +158,12 @@ namespace SlipStep
   bool Block<dim>::load(const std::filesystem::path &folder,
                         const unsigned int           n_files)
   {
+    const SolverType first_solver = solver_in_use;
+    read_archive(folder / "block", *this);
+    if (solver_in_use != first_solver)
+      choose_solver();
     restore_mesh(folder, n_files);
     restore_cells(folder, n_files);
-    read_archive(folder / "block", *this);
 
     const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
     const bool         is_same =

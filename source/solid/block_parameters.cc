@@ -293,7 +293,9 @@ namespace SlipStep
       "matrix-free products, for meshes that can be coarsened; "
       "'amg' is algebraic multigrid with rigid-body modes; "
       "'direct' factorises a recent tangent, on one process; "
-      "'automatic' takes direct below 3000 unknowns, else multigrid.");
+      "'automatic' takes direct below 3000 unknowns, else multigrid; where "
+      "that does not converge, amg and then direct take over for the rest of "
+      "the statement, with a warning.");
     parameters.declare("Block/Newton tolerance",
                        "1e-10",
                        Quantity(Dimension::number, 1e-14, 1e-2),
@@ -483,10 +485,17 @@ namespace SlipStep
 
   double BlockParameters::least_memory(const double n_unknowns) const
   {
-    // Mesh, vectors and matrix-free data of a run took 500 bytes per unknown of
+    // Mesh, vectors and matrix-free data of a run take 470 bytes per unknown of
     // Q2 elements, and more of Q1.
     if (solver_for(n_unknowns) == SolverType::multigrid)
-      return n_unknowns * 400. / 1e6;
+      return n_unknowns * 470. / 1e6;
+    return memory_of_matrix(n_unknowns);
+  }
+
+
+
+  double BlockParameters::memory_of_matrix(const double n_unknowns) const
+  {
     // An unknown is coupled with those of 2^dim cells; in the interior of cells
     // of higher degree with fewer, hence the half.
     const double couplings =

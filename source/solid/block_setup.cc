@@ -71,10 +71,8 @@ namespace SlipStep
     solution.reinit(dof_handler.locally_owned_dofs(), relevant, communicator);
     for (Vector *vector : {&old_solution,
                            &older_solution,
-                           &contact_forces,
                            &unbalanced,
                            &stage_solution,
-                           &forces,
                            &right_hand_side})
       vector->reinit(solution);
   }
@@ -95,9 +93,11 @@ namespace SlipStep
         factors[k] = 1.;
         constrain_displacements(
           parameters, dof_handler, relevant, factors, homogeneous_constraints);
-        forces = 0.;
-        homogeneous_constraints.distribute(forces);
-        load_cases[k].displacement = FaceVector(forces);
+        Vector &field = right_hand_side;
+        field         = 0.;
+        homogeneous_constraints.distribute(field);
+        field.zero_out_ghost_values();
+        load_cases[k].displacement = FaceVector(field);
       }
     make_homogeneous(homogeneous_constraints);
   }
@@ -190,29 +190,11 @@ namespace SlipStep
   {
     for (const LoadPart part : {programme_pressure, gradual, at_once})
       {
-        forces = 0.;
-        assemble_load(part, forces);
-        load_cases[part].force = FaceVector(forces);
+        Vector &load = right_hand_side;
+        load         = 0.;
+        assemble_load(part, load);
+        load_cases[part].force = FaceVector(load);
       }
-  }
-
-
-
-  template <int dim>
-  void Block<dim>::choose_solver()
-  {
-    const SolverType type = parameters.solver_for(dof_handler.n_dofs());
-    if (type == SolverType::multigrid)
-      system = make_multigrid_system<dim>(parameters,
-                                          dof_handler,
-                                          homogeneous_constraints);
-    else
-      system = make_assembled_system<dim>(type,
-                                          parameters,
-                                          dof_handler,
-                                          homogeneous_constraints,
-                                          relevant,
-                                          contact.quadrature());
   }
 
 

@@ -3,6 +3,8 @@
 #include <deal.II/base/qprojector.h>
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace SlipStep
@@ -40,6 +42,43 @@ namespace SlipStep
 
 
 
+  // With two rows, by Cayley and Hamilton,
+  //   |A| = (A^T A + |det A| I) / (tr(A^T A) + 2 |det A|)^(1/2).
+  template <int dim>
+  Tensor<2, dim> definite_part(const Tensor<2, dim> &tangent,
+                               const unsigned int    normal_axis)
+  {
+    Tensor<2, dim> result;
+    result[normal_axis][normal_axis] =
+      std::max(0., tangent[normal_axis][normal_axis]);
+    const unsigned int t = normal_axis == 0 ? 1 : 0;
+    if (dim == 2)
+      {
+        result[t][t] = std::abs(tangent[t][t]);
+        return result;
+      }
+    const unsigned int s = normal_axis == 2 ? 1 : 2;
+    Tensor<2, 2>       tangential;
+    tangential[0][0] = tangent[t][t];
+    tangential[0][1] = tangent[t][s];
+    tangential[1][0] = tangent[s][t];
+    tangential[1][1] = tangent[s][s];
+
+    Tensor<2, 2> square = transpose(tangential) * tangential;
+    const double det    = std::abs(determinant(tangential));
+    const double sum    = std::sqrt(trace(square) + 2. * det);
+    if (sum == 0.)
+      return result;
+    result[t][t] = (square[0][0] + det) / sum;
+    result[s][s] = (square[1][1] + det) / sum;
+    result[t][s] = result[s][t] = square[0][1] / sum;
+    return result;
+  }
+
+
+
+  template Tensor<2, 2> definite_part(const Tensor<2, 2> &, const unsigned int);
+  template Tensor<2, 3> definite_part(const Tensor<2, 3> &, const unsigned int);
   template std::vector<unsigned int>
   lexicographic_face_points<2>(const unsigned int, const BlockParameters &);
   template std::vector<unsigned int>

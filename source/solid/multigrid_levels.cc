@@ -220,6 +220,19 @@ namespace SlipStep
 
 
   template <int dim>
+  void MultigridLevels<dim>::release_setup_data()
+  {
+    for (unsigned int l = 0; l < levels.size(); ++l)
+      {
+        if (l > 0)
+          levels[l]->constraints.clear();
+        levels[l]->float_constraints.clear();
+      }
+  }
+
+
+
+  template <int dim>
   void MultigridLevels<dim>::set_tangent(const ContactTangent<dim> &tangent)
   {
     levels.back()->tangent = tangent;

@@ -1,5 +1,7 @@
 #include <slipstep/solid/preconditioner.h>
 
+#include <slipstep/utilities/exceptions.h>
+
 #include <deal.II/base/index_set.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -7,7 +9,6 @@
 #include <deal.II/fe/mapping_q1.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_solver.h>
 
 #include <Amesos.h>
 #include <Epetra_CrsMatrix.h>
@@ -103,8 +104,9 @@ namespace SlipStep
       static void check(const Epetra_Comm &comm, int error)
       {
         comm.Broadcast(&error, 1, 0);
-        AssertThrow(error == 0,
-                    TrilinosWrappers::SolverDirect::ExcTrilinosError(error));
+        if (error != 0)
+          throw RunError("the factorisation of the tangent failed (error " +
+                         std::to_string(error) + " of Amesos and MUMPS)");
       }
 
       bool                               is_first_rank = true;

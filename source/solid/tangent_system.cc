@@ -6,6 +6,9 @@
 
 #include <deal.II/lac/solver_gmres.h>
 
+#include <iomanip>
+#include <sstream>
+
 namespace SlipStep
 {
   using namespace dealii;
@@ -22,7 +25,8 @@ namespace SlipStep
                       const AffineConstraints<double> &constraints,
                       const IndexSet                  &relevant,
                       const Quadrature<dim - 1>       &face_quadrature)
-        : dof_handler(dof_handler)
+        : type(type)
+        , dof_handler(dof_handler)
         , matrix(parameters,
                  dof_handler,
                  constraints,
@@ -60,6 +64,7 @@ namespace SlipStep
       }
 
     private:
+      const SolverType       type;
       const DoFHandler<dim> &dof_handler;
       AssembledMatrix<dim>   matrix;
 
@@ -134,8 +139,19 @@ namespace SlipStep
         }
       catch (const SolverControl::NoConvergence &failure)
         {
-          throw RunError("the linear solver did not converge in " +
-                         std::to_string(failure.last_step) + " iterations");
+          std::ostringstream message;
+          message << std::setprecision(2)
+                  << (type == SolverType::direct ?
+                        "the factors of the tangent do not solve with it" :
+                        "algebraic multigrid did not converge")
+                  << ": after " << failure.last_step
+                  << " iterations the residual is "
+                  << failure.last_residual / b.l2_norm()
+                  << " of what it was first, " << tolerance / b.l2_norm()
+                  << " were asked for";
+          if (type == SolverType::direct)
+            message << "; it is singular or nearly so";
+          throw RunError(message.str());
         }
     }
   } // namespace

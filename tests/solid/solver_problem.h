@@ -23,7 +23,11 @@ namespace SlipStep::Testing
   enum class ContactPattern
   {
     stick,
-    mixed ///< open at one end, slipping in the middle, sticking at the other
+    mixed,   ///< open at one end, slipping in the middle, sticking at the other
+    slip,    ///< everywhere along the first axis
+    turning, ///< each point in a direction of its own, on which strength
+             ///< depends
+    weakening ///< slipping, the less strong the farther
   };
 
   /// The linear problem of a Newton step, without a block around it.
@@ -69,16 +73,16 @@ namespace SlipStep::Testing
     }
 
     /// Tangent as a block would give it.
+    /// @param coefficient of friction, where points slip
     ContactTangent<dim> tangent(const ContactPattern pattern,
                                 const double         normal_stiffness,
-                                const double         tangential_stiffness) const
+                                const double         tangential_stiffness,
+                                const double         coefficient = 0.11) const
     {
       ContactTangent<dim>       result;
       dealii::FEFaceValues<dim> points(fe,
                                        quadrature,
                                        dealii::update_quadrature_points);
-      const unsigned int        n = parameters.normal_axis();
-      const unsigned int        t = parameters.tangential_axis(0);
       for (const auto &cell : triangulation.active_cell_iterators())
         if (cell->is_locally_owned() &&
             cell->at_boundary(parameters.contact_face))
@@ -86,27 +90,11 @@ namespace SlipStep::Testing
             points.reinit(cell, parameters.contact_face);
             result.push_back({cell, {}});
             for (const auto &point : points.get_quadrature_points())
-              {
-                const double place = point[t] / parameters.size[t];
-                const bool   is_open =
-                  pattern == ContactPattern::mixed && place < 0.2;
-                const bool slips =
-                  pattern == ContactPattern::mixed && place < 0.6;
-                dealii::Tensor<2, dim> value;
-                if (!is_open)
-                  {
-                    for (unsigned int d = 0; d < dim; ++d)
-                      value[d][d] = (slips ? 0.7 : 1.) * tangential_stiffness;
-                    value[n][n] = normal_stiffness;
-                    if (slips)
-                      {
-                        value[t][t] *= 0.01;
-                        value[t][n] =
-                          0.11 * normal_stiffness * parameters.outward_sign();
-                      }
-                  }
-                result.back().values.push_back(value);
-              }
+              result.back().values.push_back(tangent_at(point,
+                                                        pattern,
+                                                        normal_stiffness,
+                                                        tangential_stiffness,
+                                                        coefficient));
           }
       return result;
     }
@@ -151,6 +139,63 @@ namespace SlipStep::Testing
     dealii::AffineConstraints<double>                 constraints;
 
   private:
+    // Slip keeps a hundredth of the stiffness in its direction m and most of
+    // it across; a strength that depends on direction couples m with what is
+    // across, one that falls with slip takes the stiffness along m away.
+    dealii::Tensor<2, dim> tangent_at(const dealii::Point<dim> &point,
+                                      const ContactPattern      pattern,
+                                      const double normal_stiffness,
+                                      const double tangential_stiffness,
+                                      const double coefficient) const
+    {
+      const unsigned int n     = parameters.normal_axis();
+      const unsigned int t     = parameters.tangential_axis(0);
+      const double       place = point[t] / parameters.size[t];
+      const bool         mixed = pattern == ContactPattern::mixed;
+
+      dealii::Tensor<2, dim> value;
+      if (mixed && place < 0.2)
+        return value;
+      for (unsigned int d = 0; d < dim; ++d)
+        value[d][d] = tangential_stiffness;
+      if (mixed ? place < 0.6 : pattern != ContactPattern::stick)
+        {
+          dealii::Tensor<1, dim> m, across;
+          m[t] = 1.;
+          if (pattern == ContactPattern::turning)
+            {
+              const double angle = 40. * place + 1.;
+              m[t] = dim == 3 ? std::cos(angle) : angle < 20. ? 1. : -1.;
+              if (dim == 3)
+                {
+                  const unsigned int s = parameters.tangential_axis(1);
+                  m[s]                 = std::sin(angle);
+                  across[t]            = -m[s];
+                  across[s]            = m[t];
+                }
+            }
+          const double along = pattern == ContactPattern::weakening ?
+                                 -200. * coefficient :
+                                 0.007 * tangential_stiffness;
+          value = 0.7 * (value - tangential_stiffness * outer_product(m, m)) +
+                  along * outer_product(m, m) +
+                  coefficient * normal_stiffness * parameters.outward_sign() *
+                    outer_product(m, normal_vector()) -
+                  0.3 * tangential_stiffness * outer_product(m, across);
+        }
+      for (unsigned int d = 0; d < dim; ++d)
+        value[n][d] = 0.;
+      value[n][n] = normal_stiffness;
+      return value;
+    }
+
+    dealii::Tensor<1, dim> normal_vector() const
+    {
+      dealii::Tensor<1, dim> normal;
+      normal[parameters.normal_axis()] = 1.;
+      return normal;
+    }
+
     static BlockParameters read(const Settings &settings)
     {
       const Parameters parameters = make_parameters(settings);

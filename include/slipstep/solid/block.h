@@ -86,7 +86,8 @@ namespace SlipStep
       archive &control &old_step &n_newton_total &n_linear_total &external_work
         &largest_imbalance &largest_normal_load &contact_share
           &smallest_contact_share &steps_since_check &most_cells_wanted
-            &largest_jump &mesh_changes &mesh_is_new;
+            &largest_jump &mesh_changes &mesh_is_new &solver_in_use
+              &n_solver_failures &first_solver_failure;
     }
 
     /// Cells, unknowns and iterations so far.
@@ -145,7 +146,13 @@ namespace SlipStep
     void find_groups_of_unknowns();
     void assemble_load(const LoadPart part, Vector &load) const;
     void assemble_loads();
-    void choose_solver();
+
+    // Linear systems.
+    void         choose_solver();
+    unsigned int solve_linear_system(Vector &update, const double tolerance);
+    bool         take_next_solver(std::string &failures);
+    void         begin_with_first_solver();
+    std::string  warning_of_solver() const;
 
     // Another mesh during the run.
     bool        adapt_to_trial(BlockOutput<dim> *output);
@@ -209,6 +216,10 @@ namespace SlipStep
     // Contact and linear algebra.
     ContactFace<dim>                    contact;
     std::unique_ptr<TangentSystem<dim>> system;
+    SolverType solver_in_use = SolverType::automatic; // not chosen yet
+    // Of geometric and of algebraic multigrid.
+    std::array<unsigned long long, 2> n_solver_failures{};
+    double                            first_solver_failure = 0.; // [s]
 
     // The loading: its parts, how long those that act at once take to do so
     // [s], and how much of each acts at the end of the present stage.
@@ -233,10 +244,9 @@ namespace SlipStep
     double               trial_work = 0.; // of the step [N mm]
 
     // Newton's method.
-    Vector              contact_forces; // not constrained
+    FaceVector          contact_forces; // not constrained
     Vector              unbalanced; // internal - external forces, all supports
-    Vector              forces;     // scratch
-    Vector              right_hand_side;
+    Vector              right_hand_side; // and scratch between the solutions
     double              force_scale = 0.;
     std::vector<double> residual_norms;
     unsigned int        n_newton = 0, n_linear = 0;

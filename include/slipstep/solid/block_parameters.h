@@ -149,6 +149,15 @@ namespace SlipStep
 
     double least_memory(const double n_unknowns) const;
 
+    /// Of an assembled matrix [MB].
+    double memory_of_matrix(const double n_unknowns) const;
+
+    /// Of a matrix and its factors [MB], roughly.
+    double memory_of_factors(const double n_unknowns) const
+    {
+      return 10. * memory_of_matrix(n_unknowns);
+    }
+
     /// The key that decides how many cells there are.
     std::string key_of_cells() const;
 

@@ -59,9 +59,10 @@ namespace SlipStep
     }
 
     /// Replace the contact part.
-    /// @param only_symmetric_part as the smoother needs it
+    /// @param for_smoother products and the diagonal have the definite_part()
+    ///   only; residuals have all of it
     void set_contact(const ContactTangent<dim> &tangent,
-                     const bool                 only_symmetric_part);
+                     const bool                 for_smoother);
 
     /// The sum, identity for constrained unknowns.
     /// @param src zero where constrained
@@ -98,14 +99,21 @@ namespace SlipStep
     /// Compute the diagonal of the elastic part, once.
     void compute_elastic_diagonal();
 
+    /// Forget what only setting up needed: the library's tables of unknowns,
+    /// where those of the nodes serve.
+    void release_setup_data();
+
     /// One over the diagonal of the sum; 0 for constrained unknowns.
-    void get_inverse_diagonal(VectorType &inverse) const;
+    /// @param largest_eigenvalue of the elastic part times its inverse
+    ///   diagonal; the contact part brings no larger one
+    void get_inverse_diagonal(VectorType  &inverse,
+                              const Number largest_eigenvalue) const;
 
     std::size_t memory_consumption() const
     {
       return matrix_free.memory_consumption() +
-             tangents.size() * sizeof(Matrix) + nodes.memory_consumption() +
-             plain_nodes.memory_consumption() +
+             (tangents.size() + definite_tangents.size()) * sizeof(Matrix) +
+             nodes.memory_consumption() + plain_nodes.memory_consumption() +
              elastic_diagonal.memory_consumption();
     }
 
@@ -137,16 +145,29 @@ namespace SlipStep
       }
     };
 
-    void apply_to_cells(const Data &,
-                        VectorType       &dst,
-                        const VectorType &src,
-                        const Range      &range) const;
+    using Tangents      = dealii::AlignedVector<Matrix>;
+    using LoopOverCells = std::function<
+      void(const Data &, VectorType &, const VectorType &, const Range &)>;
+
+    const Tangents &tangents_of_products() const
+    {
+      return definite_tangents.empty() ? tangents : definite_tangents;
+    }
+
+    LoopOverCells product_with(const Tangents &contact) const;
+    void          apply_to_cells(VectorType       &dst,
+                                 const VectorType &src,
+                                 const Range      &range,
+                                 const Tangents   &contact) const;
     void
     read(Evaluator &cell, const VectorType &src, const NodeTable &table) const;
     void add_to(VectorType &dst, Evaluator &cell, const NodeTable &table) const;
     void add_elastic(Evaluator &cell) const;
     void read_face(const Evaluator &cell, FaceField &values) const;
-    void apply_contact(const unsigned int slot, FaceField &field) const;
+    dealii::Tensor<1, dim, Simd> diagonal_of_contact(const Matrix *tangents,
+                                                     const unsigned int i,
+                                                     const Number lambda) const;
+    void apply_contact(const Matrix *tangents, FaceField &field) const;
     template <bool transpose>
     void interpolate(FaceField &field) const;
 
@@ -156,6 +177,7 @@ namespace SlipStep
                            const dealii::AffineConstraints<Number> &constraints,
                            const unsigned int                       index,
                            std::vector<unsigned int>               &offsets) const;
+    void      forget_unknowns(const NodeTable &table, const unsigned int index);
     void      find_contact_cells();
     void      find_face_nodes();
     unsigned int face_node(const unsigned int i) const;
@@ -171,7 +193,7 @@ namespace SlipStep
     std::vector<unsigned int>                  slot_of_batch;
     std::vector<Range>                         place_of_face;
     unsigned int                               n_slots = 0;
-    dealii::AlignedVector<Matrix>              tangents;
+    Tangents                                   tangents, definite_tangents;
     std::array<unsigned int, n_face>           face_nodes;
     std::array<std::array<Number, n_1d>, n_1d> shape; // [point][node]
     std::vector<unsigned int> lexicographic; // of points of the face quadrature
@@ -425,11 +447,20 @@ namespace SlipStep
   template <int dim, int degree, typename Number, typename Simd>
   void ElasticOperator<dim, degree, Number, Simd>::set_contact(
     const ContactTangent<dim> &tangent,
-    const bool                 only_symmetric_part)
+    const bool                 for_smoother)
   {
-    for (Matrix &matrix : tangents)
-      matrix = Matrix();
+    tangents.clear();
+    tangents.resize(n_slots * n_face);
+    definite_tangents.clear();
+    definite_tangents.resize(for_smoother ? tangents.size() : 0);
     const dealii::QGauss<dim - 1> quadrature(n_1d);
+    const auto                    set = [](Matrix                       &matrix,
+                        const unsigned int            lane,
+                        const dealii::Tensor<2, dim> &value) {
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          matrix[i][j][lane] = value[i][j];
+    };
     for (unsigned int f = 0; f < tangent.size(); ++f)
       {
         const double area =
@@ -437,16 +468,31 @@ namespace SlipStep
         const auto place = place_of_face[f];
         for (unsigned int q = 0; q < n_face; ++q)
           {
-            const auto &value = tangent[f].values[q];
-            const auto  used =
-              (only_symmetric_part ? (value + transpose(value)) / 2. : value) *
-              (quadrature.weight(q) * area);
-            Matrix &matrix = tangents[place.first * n_face + lexicographic[q]];
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int j = 0; j < dim; ++j)
-                matrix[i][j][place.second] = used[i][j];
+            const auto value =
+              tangent[f].values[q] * (quadrature.weight(q) * area);
+            const unsigned int i = place.first * n_face + lexicographic[q];
+            set(tangents[i], place.second, value);
+            if (for_smoother)
+              set(definite_tangents[i],
+                  place.second,
+                  definite_part(value, parameters.normal_axis()));
           }
       }
+  }
+
+
+
+  template <int dim, int degree, typename Number, typename Simd>
+  typename ElasticOperator<dim, degree, Number, Simd>::LoopOverCells
+  ElasticOperator<dim, degree, Number, Simd>::product_with(
+    const Tangents &contact) const
+  {
+    return [this, &contact](const Data &,
+                            VectorType       &dst,
+                            const VectorType &src,
+                            const Range      &range) {
+      apply_to_cells(dst, src, range, contact);
+    };
   }
 
 
@@ -456,8 +502,7 @@ namespace SlipStep
   ElasticOperator<dim, degree, Number, Simd>::vmult(VectorType       &dst,
                                                     const VectorType &src) const
   {
-    matrix_free.cell_loop(
-      &ElasticOperator::apply_to_cells, this, dst, src, true);
+    matrix_free.cell_loop(product_with(tangents_of_products()), dst, src, true);
     for (const unsigned int i : matrix_free.get_constrained_dofs())
       dst.local_element(i) = src.local_element(i);
   }
@@ -472,7 +517,7 @@ namespace SlipStep
     const LoopOverEntries &after) const
   {
     matrix_free.cell_loop(
-      &ElasticOperator::apply_to_cells, this, dst, src, before, after);
+      product_with(tangents_of_products()), dst, src, before, after);
   }
 
 
@@ -492,7 +537,8 @@ namespace SlipStep
       for (unsigned int i = begin; i < end; ++i)
         dst.local_element(i) = b.local_element(i) - dst.local_element(i);
     };
-    vmult(dst, src, set_zero, subtract_from_b);
+    matrix_free.cell_loop(
+      product_with(tangents), dst, src, set_zero, subtract_from_b);
     for (const unsigned int i : matrix_free.get_constrained_dofs())
       dst.local_element(i) = 0.;
   }
@@ -501,10 +547,10 @@ namespace SlipStep
 
   template <int dim, int degree, typename Number, typename Simd>
   void ElasticOperator<dim, degree, Number, Simd>::apply_to_cells(
-    const Data &,
     VectorType       &dst,
     const VectorType &src,
-    const Range      &range) const
+    const Range      &range,
+    const Tangents   &contact) const
   {
     Evaluator cell(matrix_free);
     FaceField field;
@@ -517,7 +563,7 @@ namespace SlipStep
         if (touches)
           {
             read_face(cell, field);
-            apply_contact(slot, field);
+            apply_contact(&contact[slot * n_face], field);
           }
         add_elastic(cell);
         if (touches)
@@ -568,12 +614,12 @@ namespace SlipStep
   // From nodal displacements to nodal forces.
   template <int dim, int degree, typename Number, typename Simd>
   void ElasticOperator<dim, degree, Number, Simd>::apply_contact(
-    const unsigned int slot,
-    FaceField         &field) const
+    const Matrix *tangents,
+    FaceField    &field) const
   {
     interpolate<false>(field);
     for (unsigned int q = 0; q < n_face; ++q)
-      field[q] = tangents[slot * n_face + q] * field[q];
+      field[q] = tangents[q] * field[q];
     interpolate<true>(field);
   }
 
@@ -611,21 +657,19 @@ namespace SlipStep
     VectorType       &dst,
     const VectorType &src) const
   {
-    const std::function<
-      void(const Data &, VectorType &, const VectorType &, const Range &)>
-      apply = [this](const Data &,
-                     VectorType       &dst,
-                     const VectorType &src,
-                     const Range      &range) {
-        Evaluator cell(matrix_free, 1);
-        for (unsigned int batch = range.first; batch < range.second; ++batch)
-          {
-            cell.reinit(batch);
-            read(cell, src, plain_nodes);
-            add_elastic(cell);
-            add_to(dst, cell, plain_nodes);
-          }
-      };
+    const LoopOverCells apply = [this](const Data &,
+                                       VectorType       &dst,
+                                       const VectorType &src,
+                                       const Range      &range) {
+      Evaluator cell(matrix_free, 1);
+      for (unsigned int batch = range.first; batch < range.second; ++batch)
+        {
+          cell.reinit(batch);
+          read(cell, src, plain_nodes);
+          add_elastic(cell);
+          add_to(dst, cell, plain_nodes);
+        }
+    };
     matrix_free.cell_loop(apply, dst, src, true);
   }
 
@@ -645,44 +689,128 @@ namespace SlipStep
 
 
 
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::release_setup_data()
+  {
+    forget_unknowns(nodes, 0);
+    if (!plain_nodes.start_of_batch.empty())
+      forget_unknowns(plain_nodes, 1);
+  }
+
+
+
+  // The library keeps the unknowns of all cells twice, in the order of cells
+  // and of lanes. The second is not read for the batches that are left here.
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::forget_unknowns(
+    const NodeTable   &table,
+    const unsigned int index)
+  {
+    using DoFInfo = dealii::internal::MatrixFreeFunctions::DoFInfo;
+    auto &info    = const_cast<DoFInfo &>(matrix_free.get_dof_info(index));
+    const unsigned int invalid = dealii::numbers::invalid_unsigned_int;
+    const unsigned int rows_of_batch =
+      Simd::size() * info.start_components.back();
+    std::vector<unsigned int> kept;
+    for (unsigned int batch = 0; batch < table.start_of_batch.size(); ++batch)
+      if (table.start_of_batch[batch] == invalid &&
+          info.index_storage_variants[DoFInfo::dof_access_cell][batch] !=
+            DoFInfo::IndexStorageVariants::full)
+        return;
+    for (unsigned int row = 0; row + 1 < info.row_starts.size(); ++row)
+      {
+        const auto begin =
+          info.dof_indices.begin() + info.row_starts[row].first;
+        const auto end =
+          info.dof_indices.begin() + info.row_starts[row + 1].first;
+        info.row_starts[row].first = kept.size();
+        const unsigned int batch   = row / rows_of_batch;
+        if (batch >= table.start_of_batch.size() ||
+            table.start_of_batch[batch] == invalid)
+          kept.insert(kept.end(), begin, end);
+      }
+    info.row_starts.back().first = kept.size();
+    kept.shrink_to_fit();
+    info.dof_indices.swap(kept);
+    std::vector<unsigned int>().swap(info.dof_indices_interleaved);
+  }
+
+
+
+  // Of node i of a face. The entries C_ii alone would not bound the eigenvalues
+  // of D^-1 C: with one closed point in a face that is open otherwise they grow
+  // to the number of nodes. With rows of sum_j |C_ij| <= lambda D_ii they are
+  // at most lambda, as Gershgorin says, and so are those of D^-1 (K + C) if
+  // lambda bounds those of the elastic part.
+  template <int dim, int degree, typename Number, typename Simd>
+  dealii::Tensor<1, dim, Simd>
+  ElasticOperator<dim, degree, Number, Simd>::diagonal_of_contact(
+    const Matrix      *tangents,
+    const unsigned int i,
+    const Number       lambda) const
+  {
+    dealii::Tensor<1, dim, Simd> diagonal, row;
+    for (unsigned int q = 0; q < n_face; ++q)
+      {
+        Number own = 1., all = 1.; // phi_i and sum_j |phi_j|
+        for (unsigned int d = 0, j = i, p = q; d < dim - 1;
+             ++d, j /= n_1d, p /= n_1d)
+          {
+            own *= shape[p % n_1d][j % n_1d];
+            Number sum = 0.;
+            for (const Number value : shape[p % n_1d])
+              sum += std::abs(value);
+            all *= sum;
+          }
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            diagonal[d] += own * own * tangents[q][d][d];
+            for (unsigned int e = 0; e < dim; ++e)
+              row[d] += std::abs(own) * all * std::abs(tangents[q][d][e]);
+          }
+      }
+    for (unsigned int d = 0; d < dim; ++d)
+      diagonal[d] = std::max(diagonal[d], row[d] / lambda);
+    return diagonal;
+  }
+
+
+
   // Where nodes hang, the share of the contact part is not exact, which is good
   // enough for a smoother.
   template <int dim, int degree, typename Number, typename Simd>
   void ElasticOperator<dim, degree, Number, Simd>::get_inverse_diagonal(
-    VectorType &inverse) const
+    VectorType  &inverse,
+    const Number largest_eigenvalue) const
   {
-    inverse = 0.;
-    const std::function<
-      void(const Data &, VectorType &, const VectorType &, const Range &)>
-      add_contact = [this](const Data &,
-                           VectorType &dst,
-                           const VectorType &,
-                           const Range &range) {
-        Evaluator cell(matrix_free);
-        for (unsigned int batch = range.first; batch < range.second; ++batch)
-          {
-            const unsigned int slot = slot_of_batch[batch];
-            if (slot == dealii::numbers::invalid_unsigned_int)
-              continue;
-            cell.reinit(batch);
-            for (unsigned int i = 0; i < Evaluator::static_dofs_per_cell; ++i)
-              cell.begin_dof_values()[i] = Simd();
-            for (unsigned int i = 0; i < n_face; ++i)
-              for (unsigned int q = 0; q < n_face; ++q)
-                {
-                  Number value = 1.;
-                  for (unsigned int d = 0, j = i, p = q; d < dim - 1;
-                       ++d, j /= n_1d, p /= n_1d)
-                    value *= shape[p % n_1d][j % n_1d];
-                  for (unsigned int d = 0; d < dim; ++d)
-                    cell.begin_dof_values()
-                      [d * Evaluator::static_dofs_per_component +
-                       face_nodes[i]] +=
-                      value * value * tangents[slot * n_face + q][d][d];
-                }
-            cell.distribute_local_to_global(dst);
-          }
-      };
+    inverse                         = 0.;
+    const Tangents     &contact     = tangents_of_products();
+    const LoopOverCells add_contact = [&](const Data &,
+                                          VectorType &dst,
+                                          const VectorType &,
+                                          const Range &range) {
+      Evaluator cell(matrix_free);
+      for (unsigned int batch = range.first; batch < range.second; ++batch)
+        {
+          const unsigned int slot = slot_of_batch[batch];
+          if (slot == dealii::numbers::invalid_unsigned_int)
+            continue;
+          cell.reinit(batch);
+          for (unsigned int i = 0; i < Evaluator::static_dofs_per_cell; ++i)
+            cell.begin_dof_values()[i] = Simd();
+          for (unsigned int i = 0; i < n_face; ++i)
+            {
+              const auto entries = diagonal_of_contact(&contact[slot * n_face],
+                                                       i,
+                                                       largest_eigenvalue);
+              for (unsigned int d = 0; d < dim; ++d)
+                cell
+                  .begin_dof_values()[d * Evaluator::static_dofs_per_component +
+                                      face_nodes[i]] = entries[d];
+            }
+          add_to(dst, cell, nodes);
+        }
+    };
     matrix_free.cell_loop(add_contact, inverse, elastic_diagonal);
     inverse += elastic_diagonal;
     for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)

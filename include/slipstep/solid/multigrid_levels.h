@@ -110,6 +110,9 @@ namespace SlipStep
       return *levels[level];
     }
 
+    /// Forget the constraints of all levels but the coarsest.
+    void release_setup_data();
+
     /// Take over the tangent of the contact face and average it down.
     void set_tangent(const ContactTangent<dim> &tangent);
 

@@ -20,7 +20,10 @@
 // few.
 #define FE_EVAL_FACTORY_DEGREE_MAX 2
 
+#include <deal.II/base/mpi.h>
+
 #include <deal.II/lac/precondition.h>
+#include <deal.II/lac/vector_memory.h>
 
 #include <deal.II/multigrid/mg_transfer_global_coarsening.h>
 
@@ -51,7 +54,9 @@ namespace SlipStep
   /// Smoother: Chebyshev polynomials of degree 5 of the Jacobi-preconditioned
   /// operator. Eigenvalue bounds and elastic diagonals are computed once per
   /// mesh; the contact tangent is renewed on all levels with every
-  /// linearisation, its symmetric part in the smoothers.
+  /// linearisation. Smoothers have its definite_part() only, but smooth the
+  /// residual of all of it, before and after the coarser levels: so the cycle
+  /// is stable for every coefficient of friction, and consistent.
   /// @tparam Simd names the width, so that two can live in one program
   template <int dim, int degree, typename Simd = dealii::VectorizedArray<float>>
   class MultigridSystem : public TangentSystem<dim>
@@ -88,23 +93,28 @@ namespace SlipStep
       std::unique_ptr<LevelMatrix> matrix;
       std::shared_ptr<Jacobi>      jacobi;
       Smoother                     smoother;
+      float                        largest_eigenvalue = 1.f; ///< its bound
       Transfer                     transfer; ///< to the next coarser level
-      mutable FloatVector          x, b, residual;
+      mutable FloatVector          x, b, residual, correction;
     };
 
-    void setup_level(const unsigned int level);
-    void cycle(const unsigned int level) const;
-    void solve_coarsest() const;
+    void         setup_level(const unsigned int level);
+    unsigned int smoothings_for(const ContactTangent<dim> &tangent) const;
+    void         cycle(const unsigned int level) const;
+    void         smooth(const Level &level) const;
+    void         solve_coarsest() const;
 
     MultigridLevels<dim>                 levels;
     ElasticOperator<dim, degree, double> matrix;
     std::vector<Level>                   smoothed; ///< [0] has vectors only
+    unsigned int                         n_smoothings = 1;
 
+    const unsigned int              normal_axis;
+    const bool                      coarse_is_factorised;
     AssembledMatrix<dim>            coarse_matrix;
     std::unique_ptr<Preconditioner> coarse_solver;
     mutable Vector                  coarse_x, coarse_b;
-    mutable Vector                  plain_x, plain_b; ///< unconstrained
-    Vector                          solver_x, solver_b;
+    mutable Vector                  fine_x, fine_b; ///< of the matrix
     ConjugateResiduals              solver;
   };
 
@@ -118,20 +128,18 @@ namespace SlipStep
     : levels(parameters, dof_handler)
     , matrix(parameters, dof_handler, constraints, true)
     , smoothed(levels.n_levels())
+    , normal_axis(parameters.normal_axis())
+    , coarse_is_factorised(levels[0].dof_handler->n_dofs() < 10000)
     , coarse_matrix(parameters,
                     *levels[0].dof_handler,
                     levels[0].constraints,
                     levels[0].relevant,
                     levels.face_quadrature())
-    , coarse_solver(levels[0].dof_handler->n_dofs() < 10000 ?
+    , coarse_solver(coarse_is_factorised ?
                       make_direct_preconditioner() :
                       make_amg_preconditioner<dim>(*levels[0].dof_handler))
   {
-    matrix.initialize_dof_vector(plain_x, 1);
-    plain_b.reinit(plain_x);
-    matrix.initialize_dof_vector(solver_x);
-    solver_b.reinit(solver_x);
-
+    matrix.release_setup_data();
     const auto &coarsest = levels[0];
     coarse_x.reinit(coarsest.dof_handler->locally_owned_dofs(),
                     coarsest.relevant,
@@ -150,6 +158,8 @@ namespace SlipStep
                                         false);
         setup_level(l);
       }
+    levels.release_setup_data();
+    dealii::GrowingVectorMemory<FloatVector>::release_unused_memory();
   }
 
 
@@ -164,10 +174,12 @@ namespace SlipStep
     level.matrix->initialize_dof_vector(level.x);
     level.b.reinit(level.x);
     level.residual.reinit(level.x);
+    level.correction.reinit(level.x);
     level.matrix->compute_elastic_diagonal();
+    level.matrix->release_setup_data();
     level.jacobi = std::make_shared<Jacobi>();
     level.jacobi->get_vector().reinit(level.x);
-    level.matrix->get_inverse_diagonal(level.jacobi->get_vector());
+    level.matrix->get_inverse_diagonal(level.jacobi->get_vector(), 1.);
 
     typename Smoother::AdditionalData settings;
     settings.preconditioner      = level.jacobi;
@@ -179,6 +191,7 @@ namespace SlipStep
     const auto bounds            = level.smoother.estimate_eigenvalues(level.x);
     settings.eig_cg_n_iterations = 0;
     settings.max_eigenvalue      = bounds.max_eigenvalue_estimate;
+    level.largest_eigenvalue     = bounds.max_eigenvalue_estimate;
     settings.constraints.clear();
     level.smoother.initialize(*level.matrix, settings);
 
@@ -190,19 +203,45 @@ namespace SlipStep
 
 
 
+  // A smoothing leaves mu times the coupling of normal and tangential tractions
+  // by the block, up to a half: for more than mu = 1 that is a bad smoother,
+  // and two of them are a good one.
+  template <int dim, int degree, typename Simd>
+  unsigned int MultigridSystem<dim, degree, Simd>::smoothings_for(
+    const ContactTangent<dim> &tangent) const
+  {
+    double largest = 0.; // mu
+    for (const FaceTangent<dim> &face : tangent)
+      for (const auto &value : face.values)
+        if (const double normal = value[normal_axis][normal_axis])
+          for (unsigned int d = 0; d < dim; ++d)
+            if (d != normal_axis)
+              largest =
+                std::max(largest, std::abs(value[d][normal_axis] / normal));
+    largest =
+      dealii::Utilities::MPI::max(largest,
+                                  levels[0].triangulation->get_communicator());
+    return largest <= 1.01 ? 1 : largest <= 2.01 ? 2 : 3;
+  }
+
+
+
   template <int dim, int degree, typename Simd>
   void MultigridSystem<dim, degree, Simd>::linearise(
     const ContactTangent<dim> &tangent)
   {
+    n_smoothings = smoothings_for(tangent);
     levels.set_tangent(tangent);
     matrix.set_contact(tangent, false);
     for (unsigned int l = 1; l < levels.n_levels(); ++l)
       {
         smoothed[l].matrix->set_contact(levels[l].tangent, true);
         smoothed[l].matrix->get_inverse_diagonal(
-          smoothed[l].jacobi->get_vector());
+          smoothed[l].jacobi->get_vector(), smoothed[l].largest_eigenvalue);
       }
-    coarse_matrix.set_contact(levels[0].tangent);
+    coarse_matrix.set_contact(coarse_is_factorised ?
+                                levels[0].tangent :
+                                definite_part(levels[0].tangent, normal_axis));
     coarse_solver->initialize(coarse_matrix.matrix());
   }
 
@@ -215,12 +254,25 @@ namespace SlipStep
       return solve_coarsest();
     const Level &level = smoothed[l];
     level.smoother.vmult(level.x, level.b);
+    for (unsigned int i = 1; i < n_smoothings; ++i)
+      smooth(level);
     level.matrix->residual(level.residual, level.x, level.b);
     smoothed[l - 1].b = 0.f;
     level.transfer.restrict_and_add(smoothed[l - 1].b, level.residual);
     cycle(l - 1);
     level.transfer.prolongate_and_add(level.x, smoothed[l - 1].x);
-    level.smoother.step(level.x, level.b);
+    for (unsigned int i = 0; i < n_smoothings; ++i)
+      smooth(level);
+  }
+
+
+
+  template <int dim, int degree, typename Simd>
+  void MultigridSystem<dim, degree, Simd>::smooth(const Level &level) const
+  {
+    level.matrix->residual(level.residual, level.x, level.b);
+    level.smoother.vmult(level.correction, level.residual);
+    level.x += level.correction;
   }
 
 
@@ -252,11 +304,21 @@ namespace SlipStep
                                                          const Vector &b,
                                                          const double tolerance)
   {
-    solver_b.copy_locally_owned_data_from(b);
-    const unsigned int iterations =
-      solver.solve(matrix, *this, solver_x, solver_b, tolerance, 100);
-    x.copy_locally_owned_data_from(solver_x);
-    return iterations;
+    matrix.initialize_dof_vector(fine_x);
+    matrix.initialize_dof_vector(fine_b);
+    fine_b.copy_locally_owned_data_from(b);
+    try
+      {
+        const unsigned int iterations =
+          solver.solve(matrix, *this, fine_x, fine_b, tolerance, 100);
+        x.copy_locally_owned_data_from(fine_x);
+        return iterations;
+      }
+    catch (const RunError &error)
+      {
+        throw RunError(std::string("geometric multigrid did not converge: ") +
+                       error.what());
+      }
   }
 
 
@@ -266,10 +328,12 @@ namespace SlipStep
     const Vector &displacement,
     Vector       &forces) const
   {
-    plain_x.copy_locally_owned_data_from(displacement);
-    matrix.plain_vmult(plain_b, plain_x);
-    for (unsigned int i = 0; i < plain_b.locally_owned_size(); ++i)
-      forces.local_element(i) += plain_b.local_element(i);
+    matrix.initialize_dof_vector(fine_x, 1);
+    matrix.initialize_dof_vector(fine_b, 1);
+    fine_x.copy_locally_owned_data_from(displacement);
+    matrix.plain_vmult(fine_b, fine_x);
+    for (unsigned int i = 0; i < fine_b.locally_owned_size(); ++i)
+      forces.local_element(i) += fine_b.local_element(i);
   }
 
 
@@ -281,7 +345,7 @@ namespace SlipStep
     for (unsigned int l = 1; l < smoothed.size(); ++l)
       sum += smoothed[l].matrix->memory_consumption() +
              smoothed[l].transfer.memory_consumption() +
-             7 * smoothed[l].x.memory_consumption();
+             8 * smoothed[l].x.memory_consumption();
     return sum;
   }
 

@@ -78,6 +78,26 @@ TEST(Ranks, agree_on_the_levels_of_multigrid)
 
 
 
+TEST(Ranks, agree_with_much_friction_on_stiff_contact)
+{
+  const Settings much = {{"Friction/Effects", "subloading"},
+                         {"Friction/Static coefficient", "1"},
+                         {"Friction/Normal stiffness", "1e6 MPa/mm"},
+                         {"Friction/Tangential stiffness", "1e6 MPa/mm"},
+                         {"Block/Newton iterations", "40"},
+                         {"Block/Solver", "multigrid"},
+                         {"Loading/Programme",
+                          "press 5.8 MPa in 1 s; slide 1 mm/s for 0.01 mm"}};
+  compare<3>(much + Settings{{"Block/Size", "10 mm, 10 mm, 2.5 mm"},
+                             {"Block/Subdivisions", "4, 4, 2"},
+                             {"Block/Degree", "2"}});
+  compare<2>(much + Settings{{"Block/Dimension", "2"},
+                             {"Block/Size", "10 mm, 5 mm"},
+                             {"Block/Subdivisions", "8, 4"}});
+}
+
+
+
 TEST(Ranks, agree_with_a_flat_face)
 {
   // All unknowns of the face hang on one, which most ranks do not own.

@@ -1,0 +1,128 @@
+#include <slipstep/solid/block.h>
+
+#include <slipstep/utilities/exceptions.h>
+
+#include <sstream>
+
+namespace SlipStep
+{
+  using namespace dealii;
+
+  // @sect3{The linear solver, and what if it fails}
+
+  template <int dim>
+  void Block<dim>::choose_solver()
+  {
+    if (solver_in_use == SolverType::automatic)
+      solver_in_use = parameters.solver_for(dof_handler.n_dofs());
+    if (solver_in_use == SolverType::multigrid)
+      system = make_multigrid_system<dim>(parameters,
+                                          dof_handler,
+                                          homogeneous_constraints);
+    else
+      system = make_assembled_system<dim>(solver_in_use,
+                                          parameters,
+                                          dof_handler,
+                                          homogeneous_constraints,
+                                          relevant,
+                                          contact.quadrature());
+  }
+
+
+
+  // Whoever asks for a solver gets that one. 'automatic' goes on with the next
+  // one where one fails: geometric multigrid, algebraic multigrid, and a
+  // factorisation, if that may fit into memory.
+  template <int dim>
+  unsigned int Block<dim>::solve_linear_system(Vector      &update,
+                                               const double tolerance)
+  {
+    std::string failures;
+    while (true)
+      {
+        try
+          {
+            system->linearise(contact.tangent());
+            return system->solve(update, right_hand_side, tolerance);
+          }
+        catch (const RunError &error)
+          {
+            failures +=
+              (failures.empty() ? "" : "; ") + std::string(error.what());
+          }
+        if (parameters.solver != SolverType::automatic ||
+            !take_next_solver(failures))
+          break;
+      }
+    if (solver_in_use != SolverType::direct &&
+        parameters.solver != SolverType::automatic)
+      failures += "; 'set Solver = automatic' in section Block goes on with "
+                  "another solver where one fails";
+    // The tangent may be to blame: the next one begins anew.
+    begin_with_first_solver();
+    throw RunError(failures);
+  }
+
+
+
+  // Matrix and factors: what counts is the memory of one process.
+  template <int dim>
+  bool Block<dim>::take_next_solver(std::string &failures)
+  {
+    if (solver_in_use == SolverType::direct)
+      return false;
+    const bool was_multigrid = solver_in_use == SolverType::multigrid;
+    if (n_solver_failures[0] + n_solver_failures[1] == 0)
+      first_solver_failure = control.time();
+    ++n_solver_failures[was_multigrid ? 0 : 1];
+    if (!was_multigrid && parameters.memory_of_factors(dof_handler.n_dofs()) >
+                            parameters.refinement.most_memory)
+      {
+        failures += "; a factorisation may not fit into memory";
+        return false;
+      }
+    solver_in_use = was_multigrid ? SolverType::amg : SolverType::direct;
+    system.reset();
+    choose_solver();
+    return true;
+  }
+
+
+
+  // A solver that had to help stays for the rest of the statement, as what is
+  // hard for the first one usually lasts, but not for the rest of the run.
+  template <int dim>
+  void Block<dim>::begin_with_first_solver()
+  {
+    if (solver_in_use == parameters.solver_for(dof_handler.n_dofs()))
+      return;
+    solver_in_use = SolverType::automatic;
+    system.reset();
+    choose_solver();
+  }
+
+
+
+  template <int dim>
+  std::string Block<dim>::warning_of_solver() const
+  {
+    if (n_solver_failures[0] + n_solver_failures[1] == 0)
+      return "";
+    std::ostringstream message;
+    message << "the first choice of linear solver did not converge, first at t "
+               "= "
+            << first_solver_failure << " s: geometric multigrid failed "
+            << n_solver_failures[0] << " times, where algebraic multigrid took "
+            << "over for the rest of the statement";
+    if (n_solver_failures[1] > 0)
+      message << ", and that " << n_solver_failures[1]
+              << " times, where a factorisation did";
+    message << "; that takes longer, the results are as accurate";
+    return message.str();
+  }
+
+
+
+  template class Block<2>;
+  template class Block<3>;
+} // namespace SlipStep
