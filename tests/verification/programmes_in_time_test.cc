@@ -141,9 +141,12 @@ namespace
       for (unsigned int i = 1; i < errors.size(); ++i)
         if (errors[i].row > least_error)
           {
-            EXPECT_GE(errors[0].row / errors[i].row, std::pow(4.5, i) / 1.2)
-              << i;
+            EXPECT_GE(errors[i - 1].row / errors[i].row, 4.) << i;
           }
+      if (errors[2].row > least_error)
+        {
+          EXPECT_GE(errors[0].row / errors[2].row, 4.5 * 4.5);
+        }
     }
 
     /// Below, it is the reference that errs.
