@@ -4,31 +4,26 @@
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/calibration/campaign.h>
 #include <slipstep/experiment/measured_test.h>
-#include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/report.h>
 
 #include <cmath>
 #include <filesystem>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "../experiment/point_run.h"
 
 namespace SlipStep
 {
   namespace Testing
   {
-    using Settings = std::vector<std::pair<std::string, std::string>>;
-
     inline Parameters calibration_case(const Settings &settings)
     {
-      Parameters parameters;
-      declare_loading_parameters(parameters);
-      FrictionLaw::declare_parameters(parameters);
+      Parameters parameters = point_parameters({});
       declare_calibration_parameters(parameters);
       declare_report_parameters(parameters);
-      for (const auto &setting : settings)
-        parameters.set(setting.first, setting.second, "test");
+      set_all(settings, parameters);
       return parameters;
     }
 

@@ -1,7 +1,5 @@
 // Load point and contact: a spring in series with the friction law.
 
-#include <slipstep/experiment/point_driver.h>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <sstream>
 
 #include "../friction/law_test_tools.h"
+#include "point_run.h"
 
 using namespace SlipStep;
 using namespace SlipStep::Testing;
@@ -16,29 +15,9 @@ using dealii::Tensor;
 
 namespace
 {
-  Parameters make_parameters(const Settings &settings)
-  {
-    Parameters parameters;
-    declare_loading_parameters(parameters);
-    FrictionLaw::declare_parameters(parameters);
-    for (const auto &setting : settings)
-      parameters.set(setting.first, setting.second, "test");
-    return parameters;
-  }
-
   std::vector<HistoryRow> drive(const Settings &settings)
   {
-    const Parameters        parameters = make_parameters(settings);
-    const FrictionLaw       law(parameters);
-    const Programme         programme = parse_programme(parameters);
-    std::vector<HistoryRow> history;
-    drive_point(
-      law,
-      programme,
-      StepControl(parameters, programme, law),
-      [&](const HistoryRow &row) { history.push_back(row); },
-      Machine(parameters));
-    return history;
+    return point_history(point_parameters(settings));
   }
 } // namespace
 
@@ -74,7 +53,7 @@ TEST(Machine, an_isotropic_contact_feels_a_softer_stick)
     {"Tangential stiffness", std::to_string(k * alpha_t / (k + alpha_t))});
   const auto    contact = make_law(law), both = make_law(soft_law);
   const Machine machine(
-    make_parameters({{"Loading/Machine stiffness", "120"}}));
+    point_parameters({{"Loading/Machine stiffness", "120"}}));
   Slider                                 slider;
   ContactPoint                           a(*contact), b(*both);
   std::mt19937                           random(1);
@@ -107,7 +86,7 @@ TEST(Machine, rigid_is_the_law_itself)
   b.begin_second_stage(*law);
   b.update(*law, gamma * vector(1e-3, 2e-4), 5., gamma * 0.1);
   EXPECT_EQ(a.trial().traction, b.trial().traction);
-  EXPECT_TRUE(Machine(make_parameters({})).is_rigid());
+  EXPECT_TRUE(Machine(point_parameters({})).is_rigid());
 }
 
 
@@ -167,11 +146,12 @@ TEST(Machine, finds_equilibrium_with_anisotropy)
     make_law({{"Effects", "subloading, overstress, anisotropy, viscous"},
               {"anisotropy/Ratio", "0.3"},
               {"anisotropy/Angle", "20 deg"}});
-  const Machine machine(make_parameters({{"Loading/Machine stiffness", "40"}}));
-  ContactPoint  point(*law);
-  Slider        slider;
-  Tensor<1, 2>  load_point;
-  std::mt19937  random(1);
+  const Machine machine(
+    point_parameters({{"Loading/Machine stiffness", "40"}}));
+  ContactPoint                           point(*law);
+  Slider                                 slider;
+  Tensor<1, 2>                           load_point;
+  std::mt19937                           random(1);
   std::uniform_real_distribution<double> number(-1., 1.);
   for (unsigned int step = 0; step < 20000; ++step)
     {
@@ -207,12 +187,6 @@ namespace
     {"Loading/Machine stiffness", "50 MPa/mm"},
     {"Loading/Machine mass", "1e-4 MPa s^2/mm"}};
 
-  Settings joined(Settings settings, const Settings &more)
-  {
-    settings.insert(settings.end(), more.begin(), more.end());
-    return settings;
-  }
-
   /// Times at which the velocity of the contact comes to zero from above.
   std::vector<double> turning_times(const std::vector<HistoryRow> &history)
   {
@@ -240,11 +214,11 @@ TEST(MachineWithMass, swings_with_the_frequency_of_springs_and_mass)
   for (const char *tolerance : {"1e-4", "1e-5"})
     {
       const auto history =
-        drive(joined(elastic_oscillator,
-                     {{"Time stepping/Tolerance", tolerance},
-                      {"Loading/Programme",
-                       "press 5 MPa in 1 s; slide 1 m/s for 1 mm; hold 0.5 "
-                       "s"}}));
+        drive(elastic_oscillator +
+              Settings{{"Time stepping/Tolerance", tolerance},
+                       {"Loading/Programme",
+                        "press 5 MPa in 1 s; slide 1 m/s for 1 mm; hold 0.5 "
+                        "s"}});
       const auto times = turning_times(history);
       ASSERT_GT(times.size(), 100u);
       const double measured =
@@ -272,10 +246,10 @@ TEST(MachineWithMass, is_of_second_order)
     {
       double error = 0.;
       for (const HistoryRow &row :
-           drive(joined(elastic_oscillator,
-                        {{"Time stepping/Equal steps per statement", steps},
-                         {"Loading/Programme",
-                          "press 5 MPa in 1 s; slide 1 mm/s for 0.01 s"}})))
+           drive(elastic_oscillator +
+                 Settings{{"Time stepping/Equal steps per statement", steps},
+                          {"Loading/Programme",
+                           "press 5 MPa in 1 s; slide 1 mm/s for 0.01 s"}}))
         {
           const double t = std::max(0., row.time - 1.);
           error          = std::max(error,
@@ -308,7 +282,7 @@ TEST(MachineWithMass, a_light_one_is_the_spring_alone)
       std::ostringstream text;
       text << mass;
       const auto history =
-        drive(joined(slide, {{"Loading/Machine mass", text.str()}}));
+        drive(slide + Settings{{"Loading/Machine mass", text.str()}});
       ASSERT_EQ(history.size(), spring.size());
       double difference = 0.;
       for (unsigned int i = 0; i < history.size(); ++i)
@@ -364,12 +338,12 @@ TEST(MachineWithMass, flies_free_when_the_contact_opens)
 {
   // Off the plane the mass swings on its spring alone and loses nothing more.
   const auto history = drive(
-    joined(elastic_oscillator,
-           {{"Time stepping/Least steps per statement", "2000"},
-            {"Friction/Static coefficient", "1"},
-            {"Loading/Programme",
-             "press 5 MPa in 1 s; slide 1 mm/s for 0.02 mm; press 0 MPa in "
-             "0.1 s; hold 0.5 s"}}));
+    elastic_oscillator +
+    Settings{{"Time stepping/Least steps per statement", "2000"},
+             {"Friction/Static coefficient", "1"},
+             {"Loading/Programme",
+              "press 5 MPa in 1 s; slide 1 mm/s for 0.02 mm; press 0 MPa in "
+              "0.1 s; hold 0.5 s"}});
   const auto   times    = turning_times(history);
   const double measured = times.back() - times[times.size() - 2];
   EXPECT_NEAR(measured,
@@ -388,11 +362,11 @@ TEST(MachineWithMass, flies_free_when_the_contact_opens)
 
 TEST(Machine, is_checked_when_read)
 {
-  EXPECT_THROW(Machine(make_parameters({{"Loading/Machine mass", "1e-3"}})),
+  EXPECT_THROW(Machine(point_parameters({{"Loading/Machine mass", "1e-3"}})),
                InputError);
   for (const char *text : {"soft", "0", "-3 MPa/mm", "5 mm"})
     EXPECT_THROW(Machine(
-                   make_parameters({{"Loading/Machine stiffness", text}})),
+                   point_parameters({{"Loading/Machine stiffness", text}})),
                  InputError)
       << text;
 }

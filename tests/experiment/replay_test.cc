@@ -1,29 +1,18 @@
 // The same point as that of a programme, and smooth in the parameters.
 
-#include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/replay.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "../friction/law_test_tools.h"
+#include "point_run.h"
 
 using namespace SlipStep;
 using namespace SlipStep::Testing;
 
 namespace
 {
-  Parameters make_parameters(const Settings &settings)
-  {
-    Parameters parameters;
-    declare_loading_parameters(parameters);
-    FrictionLaw::declare_parameters(parameters);
-    for (const auto &setting : settings)
-      parameters.set(setting.first, setting.second, "test");
-    return parameters;
-  }
-
   // 1 mm forth and 0.5 mm back, then under more pressure, and to the side.
   MeasuredTest zigzag()
   {
@@ -56,19 +45,14 @@ namespace
 
 TEST(Replay, AgreesWithTheProgrammeOfTheSameMotion)
 {
-  const Parameters parameters = make_parameters(
+  const Parameters parameters = point_parameters(
     {{"Loading/Programme",
       "press 5.8 MPa in 1 s; slide 0.1 mm/s for 1 mm; slide -0.1 mm/s for 0.5 "
       "mm; press 8 MPa in 1 s; slide 0.125 mm/s for 0.5 mm at 36.86989764584402 "
       "deg"},
      {"Time stepping/Tolerance", "1e-8"}});
-  const FrictionLaw       law(parameters);
-  const Programme         programme = parse_programme(parameters);
-  std::vector<HistoryRow> history;
-  drive_point(law,
-              programme,
-              StepControl(parameters, programme, law),
-              [&](const HistoryRow &row) { history.push_back(row); });
+  const FrictionLaw law(parameters);
+  const auto        history = point_history(parameters);
 
   Replay replay(zigzag());
   replay.plan(law, Machine(), 1e-8);
@@ -96,7 +80,7 @@ TEST(Replay, AgreesWithTheProgrammeOfTheSameMotion)
 
 TEST(Replay, ErrorFallsWithTheTolerance)
 {
-  const Parameters          parameters = make_parameters({});
+  const Parameters          parameters = point_parameters({});
   const std::vector<double> times      = {1., 9., 12., 18., 20.};
   const auto                exact      = friction_at(parameters, 1e-9, times);
   for (const double tolerance : {1e-3, 1e-4, 1e-5})
@@ -121,9 +105,9 @@ TEST(Replay, FollowsTheCurveBetweenTheEndsOfSteps)
        {"subloading", "subloading, softening", "subloading, overstress"})
     {
       const Parameters parameters =
-        make_parameters({{"Friction/Effects", effects},
-                         {"Friction/subloading/Rate", "50"},
-                         {"Friction/Static coefficient", "0.13"}});
+        point_parameters({{"Friction/Effects", effects},
+                          {"Friction/subloading/Rate", "50"},
+                          {"Friction/Static coefficient", "0.13"}});
       const auto error = [&](const double row_distance) {
         const std::vector<double> exact =
           friction_at(parameters, 1e-7, times, 0., 1e-3);
@@ -146,8 +130,8 @@ TEST(Replay, FollowsTheCurveBetweenTheEndsOfSteps)
 TEST(Replay, FollowsTheFrictionWhileThePressureGrows)
 {
   const FrictionLaw law(
-    make_parameters({{"Friction/Effects", "subloading"},
-                     {"Friction/Static coefficient", "0.13"}}));
+    point_parameters({{"Friction/Effects", "subloading"},
+                      {"Friction/Static coefficient", "0.13"}}));
   for (const double rest : {0., 1000.})
     {
       MeasuredTest test;
@@ -189,7 +173,7 @@ TEST(Replay, MovesOffThePlane)
   test.displacement = {0., 1., 0.5, 0.5};
   test.pressure     = {0., 0., 0., 0.};
   test.friction.assign(4, 0.);
-  const FrictionLaw law(make_parameters({{"Friction/Effects", "subloading"}}));
+  const FrictionLaw law(point_parameters({{"Friction/Effects", "subloading"}}));
   Replay            replay(test);
   replay.plan(law, Machine(), 5e-4, 1000);
   Replay::Curve curve;
@@ -203,7 +187,7 @@ TEST(Replay, MovesOffThePlane)
 // What halving leaves is a third of what it took away: steps of second order.
 TEST(Replay, HalvingTheStepsQuartersTheError)
 {
-  const Parameters          parameters = make_parameters({});
+  const Parameters          parameters = point_parameters({});
   const FrictionLaw         law(parameters);
   const std::vector<double> times = {0.05, 9.};
   Replay                    replay(zigzag());
@@ -229,12 +213,12 @@ TEST(Replay, IsSmoothInTheParameters)
   const auto friction = [](const double viscosity) {
     static Replay     replay(zigzag());
     static const bool planned = [] {
-      const Parameters parameters = make_parameters({});
+      const Parameters parameters = point_parameters({});
       replay.plan(FrictionLaw(parameters), Machine(), 1e-5);
       return true;
     }();
     EXPECT_TRUE(planned);
-    const Parameters parameters = make_parameters(
+    const Parameters parameters = point_parameters(
       {{"Friction/overstress/Viscosity", std::to_string(viscosity)}});
     Replay::Curve curve;
     replay.simulate(FrictionLaw(parameters), Machine(), curve);
@@ -251,7 +235,7 @@ TEST(Replay, IsSmoothInTheParameters)
 
 TEST(Replay, ALeadInStartsWhileSliding)
 {
-  const Parameters  parameters = make_parameters({});
+  const Parameters  parameters = point_parameters({});
   const FrictionLaw law(parameters);
   Replay            replay(zigzag(), 500.);
   replay.plan(law, Machine(), 1e-5);

@@ -1,7 +1,6 @@
 // An end to every run, warnings before those that no stiffness holds, and the
 // same rows by a replay as by a programme.
 
-#include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/replay.h>
 #include <slipstep/experiment/resample.h>
 #include <slipstep/experiment/stability.h>
@@ -12,38 +11,14 @@
 #include <cmath>
 #include <fstream>
 
-#include "../friction/law_test_tools.h"
 #include "../temporary_folder.h"
+#include "point_run.h"
 
 using namespace SlipStep;
 using namespace SlipStep::Testing;
 
 namespace
 {
-  Parameters make_parameters(const Settings &settings)
-  {
-    Parameters parameters;
-    declare_loading_parameters(parameters);
-    FrictionLaw::declare_parameters(parameters);
-    for (const auto &setting : settings)
-      parameters.set(setting.first, setting.second, "test");
-    return parameters;
-  }
-
-  std::vector<HistoryRow> drive(const Parameters &parameters)
-  {
-    const FrictionLaw       law(parameters);
-    const Programme         programme = parse_programme(parameters);
-    std::vector<HistoryRow> history;
-    drive_point(
-      law,
-      programme,
-      StepControl(parameters, programme, law),
-      [&](const HistoryRow &row) { history.push_back(row); },
-      Machine(parameters));
-    return history;
-  }
-
   std::vector<std::string> warnings(const Parameters &parameters)
   {
     return instability_warnings(FrictionLaw(parameters),
@@ -66,7 +41,7 @@ TEST(StepControl, EndsARunThatWouldHaveNone)
 {
   try
     {
-      drive(make_parameters(falling));
+      point_history(point_parameters(falling));
       FAIL() << "it ended by itself";
     }
   catch (const RunError &error)
@@ -84,7 +59,7 @@ TEST(StepControl, EndsARunThatWouldHaveNone)
 
 TEST(StepControl, WarnsBeforeSlidingThatNothingHolds)
 {
-  const auto text = warnings(make_parameters(falling));
+  const auto text = warnings(point_parameters(falling));
   ASSERT_EQ(text.size(), 1u);
   EXPECT_NE(text[0].find("(stribeck) between "), std::string::npos) << text[0];
   EXPECT_NE(text[0].find("1 mm/s under 5 MPa"), std::string::npos) << text[0];
@@ -92,7 +67,7 @@ TEST(StepControl, WarnsBeforeSlidingThatNothingHolds)
   // Slower than the fall and faster than it there is nothing to warn of.
   for (const char *speed : {"0.001", "100"})
     {
-      Parameters other = make_parameters(falling);
+      Parameters other = point_parameters(falling);
       other.set("Loading/Programme",
                 std::string("press 5 MPa in 1 s; slide ") + speed +
                   " mm/s for 10 mm",
@@ -100,9 +75,9 @@ TEST(StepControl, WarnsBeforeSlidingThatNothingHolds)
       EXPECT_TRUE(warnings(other).empty()) << speed;
     }
   // Nor of the paper's law, on any spring or none.
-  EXPECT_TRUE(warnings(make_parameters({})).empty());
+  EXPECT_TRUE(warnings(point_parameters({})).empty());
   EXPECT_TRUE(
-    warnings(make_parameters({{"Loading/Machine stiffness", "50"}})).empty());
+    warnings(point_parameters({{"Loading/Machine stiffness", "50"}})).empty());
 }
 
 
@@ -114,9 +89,9 @@ TEST(StepControl, TwoStatementsAreAsGoodAsOne)
                        {"Friction/stribeck/Rise", "0.7"},
                        {"Friction/stribeck/Speed", "0.1 mm/s"}};
   const auto end    = [&](const std::string &slides) {
-    Parameters parameters = make_parameters(settings);
+    Parameters parameters = point_parameters(settings);
     parameters.set("Loading/Programme", "press 5.8 MPa in 1 s; " + slides, "");
-    return drive(parameters);
+    return point_history(parameters);
   };
   const auto one = end("slide 10 mm/s for 10.01 mm");
   const auto ten =
@@ -155,12 +130,12 @@ TEST(StepControl, ReplayAndProgrammeAgreeAtEveryRow)
       out << test.time[i] << ',' << test.displacement[i] << ','
           << test.pressure[i] << ',' << test.friction[i] << '\n';
   }
-  const Parameters parameters = make_parameters(
+  const Parameters parameters = point_parameters(
     {{"Friction/Effects", "subloading, overstress, softening, pressure"},
      {"Friction/pressure/Exponent", "0.3"},
      {"Friction/softening/Rate", "1"},
      {"Loading/Programme", "press 5 MPa in 1 s; follow " + file.string()}});
-  const auto history = drive(parameters);
+  const auto history = point_history(parameters);
 
   const FrictionLaw law(parameters);
   Replay            replay(resample(test).test, 0., 0.1);

@@ -1,4 +1,3 @@
-#include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/quantities.h>
 #include <slipstep/experiment/report.h>
 #include <slipstep/experiment/summary.h>
@@ -13,9 +12,11 @@
 #include <sstream>
 #include <string>
 
+#include "point_run.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
+using namespace SlipStep::Testing;
 
 namespace
 {
@@ -266,9 +267,7 @@ TEST(Summary, TheEnergyBalanceIsRelativeToTheWork)
 
 TEST(Summary, StepsTooLongForTheEnergyAreWarnedOf)
 {
-  Parameters parameters;
-  FrictionLaw::declare_parameters(parameters);
-  declare_loading_parameters(parameters);
+  Parameters parameters = point_parameters({});
   declare_report_parameters(parameters);
   declare_quantities(parameters);
   RunOptions options;
@@ -355,22 +354,14 @@ TEST(Summary, AFollowedTestIsOneSlideAtItsSpeed)
 // after months of rest seems to resolve.
 TEST(Summary, SlidesAfterALongRestAreToldApart)
 {
-  Parameters parameters;
-  declare_loading_parameters(parameters);
-  FrictionLaw::declare_parameters(parameters);
-  parameters.set("Loading/Programme",
-                 "press 5.8 MPa in 1 s; hold 1e5 s; slide 10 mm/s for 1 mm; "
-                 "slide -10 mm/s for 1 mm",
-                 "test");
-  const FrictionLaw       law(parameters);
-  const Programme         programme = parse_programme(parameters);
-  std::vector<HistoryRow> history;
-  drive_point(law,
-              programme,
-              StepControl(parameters, programme, law),
-              [&](const HistoryRow &row) { history.push_back(row); });
+  const Parameters parameters = point_parameters(
+    {{"Loading/Programme",
+      "press 5.8 MPa in 1 s; hold 1e5 s; slide 10 mm/s for 1 mm; "
+      "slide -10 mm/s for 1 mm"}});
   Summary summary;
-  summarise_history(history, programme, summary);
+  summarise_history(point_history(parameters),
+                    parse_programme(parameters),
+                    summary);
   ASSERT_EQ(summary.slides.size(), 2u);
   EXPECT_GT(summary.slides[0].kinetic, 0.98 * summary.slides[0].peak);
   EXPECT_GT(summary.slides[1].kinetic, 0.98 * summary.slides[1].peak);

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 using namespace SlipStep;
 using namespace SlipStep::Testing;
@@ -35,28 +34,15 @@ namespace
   }
 
   class EveryLaw
-    : public ::testing::TestWithParam<std::pair<std::string, Settings>>
+    : public ::testing::TestWithParam<std::pair<std::string, Settings>>,
+      protected RandomLoads
   {
   protected:
+    EveryLaw()
+      : RandomLoads(42)
+    {}
+
     std::unique_ptr<FrictionLaw> law = make_law(GetParam().second);
-    std::mt19937                 random{42};
-
-    double uniform(const double from, const double to)
-    {
-      return std::uniform_real_distribution<double>(from, to)(random);
-    }
-
-    // Between 10^from and 10^to.
-    double magnitude(const double from, const double to)
-    {
-      return std::pow(10., uniform(from, to));
-    }
-
-    Tensor<1, 2> random_slip(const double from, const double to)
-    {
-      const double size = magnitude(from, to), angle = uniform(0., 6.3);
-      return vector(size * std::cos(angle), size * std::sin(angle));
-    }
   };
 } // namespace
 
@@ -108,24 +94,8 @@ TEST_P(EveryLaw, random_loading_never_fails)
   double       last_path = 0., last_dissipation = 0.;
   for (unsigned int step = 0; step < 1000000 / laws().size(); ++step)
     {
-      // Every so often: no slip, no contact, tiny pressure.
-      const double       choice = uniform(0., 1.);
-      const Tensor<1, 2> slip =
-        choice < 0.1 ? vector(0.) : random_slip(-9., 2.);
-      const double f_n =
-        choice > 0.97 ? -1. : magnitude(choice > 0.9 ? -9. : -2., 3.);
-      const bool has_two_stages = uniform(0., 1.) < 0.5;
-      if (has_two_stages)
-        {
-          point.update(*law,
-                       random_slip(-9., 2.),
-                       uniform(-0.1, 1.) * magnitude(-2., 3.),
-                       magnitude(-6., 6.));
-          point.begin_second_stage(*law);
-        }
-      const ContactResponse response =
-        point.update(*law, slip, f_n, magnitude(-6., 6.));
-      if (has_two_stages)
+      const Step made = make_any_step(*law, point);
+      if (made.has_two_stages)
         {
           ASSERT_TRUE(point.error(*law).measure() >= 0.) << "step " << step;
           ASSERT_TRUE(std::isfinite(point.error(*law).measure()));
@@ -133,17 +103,14 @@ TEST_P(EveryLaw, random_loading_never_fails)
       point.commit();
 
       const ContactState &state = point.committed();
-      ASSERT_TRUE(std::isfinite(response.traction.norm()) &&
-                  std::isfinite(response.d_slip.norm()) &&
-                  std::isfinite(response.d_normal.norm()))
-        << "step " << step;
+      ASSERT_TRUE(is_finite(made.response)) << "step " << step;
       ASSERT_GE(state.loading_ratio, 0.);
       ASSERT_LT(state.loading_ratio, r_m) << "step " << step;
       ASSERT_GE(state.normal_ratio, 0.);
       ASSERT_LE(state.normal_ratio, 1.);
       // r >= r_s always, up to round-off.
       if (GetParam().first != "coulomb" &&
-          GetParam().first != "no_subloading" && f_n > 0.)
+          GetParam().first != "no_subloading" && made.pressure > 0.)
         {
           ASSERT_GE(state.loading_ratio, state.normal_ratio - 1e-9)
             << "step " << step;
@@ -165,14 +132,9 @@ TEST_P(EveryLaw, tangent_matches_finite_differences)
   ContactPoint point(*law);
   for (unsigned int step = 0; step < 4000; ++step)
     {
-      const Tensor<1, 2> slip = random_slip(-6., -2.);
-      const double       f_n  = magnitude(0., 1.5);
-      const double       dt   = magnitude(-3., 2.);
-      if (step % 2 == 1)
-        {
-          point.update(*law, random_slip(-6., -2.), magnitude(0., 1.5), dt);
-          point.begin_second_stage(*law);
-        }
+      const Load         load = begin_plain_step(*law, step % 2 == 1, point);
+      const Tensor<1, 2> slip = load.slip;
+      const double       f_n = load.pressure, dt = load.duration;
 
       const ContactResponse response = point.update(*law, slip, f_n, dt);
       const ContactState    start    = point.committed();

@@ -59,6 +59,18 @@ namespace
       }
   }
 
+  // A point that is pressed in one step, then moved in many.
+  ContactPoint moved_point(const FrictionLaw &law,
+                           const Move        &move,
+                           const unsigned int n_steps,
+                           const double       pressure = 5.8)
+  {
+    ContactPoint point(law);
+    advance(law, {vector(0.), pressure, 1.}, 1, point);
+    advance(law, move, n_steps, point);
+    return point;
+  }
+
   const std::string paper = "subloading, overstress, softening";
 
   struct SmoothCase
@@ -120,11 +132,9 @@ TEST(TwoStages, second_order_in_time)
 {
   for (const SmoothCase &one : smooth_cases())
     {
-      const auto   law = make_law(one.settings);
-      ContactPoint start(*law);
-      advance(*law, {vector(0.), 5.8, 1.}, 1, start);
-      advance(*law, one.before, 1000, start);
-      const auto result = [&](const unsigned int n_steps) {
+      const auto         law    = make_law(one.settings);
+      const ContactPoint start  = moved_point(*law, one.before, 1000);
+      const auto         result = [&](const unsigned int n_steps) {
         ContactPoint point = start;
         advance(*law, one.move, n_steps, point);
         return point.committed();
@@ -154,10 +164,8 @@ TEST(TwoStages, estimate_bounds_the_error_of_a_step)
 {
   for (const SmoothCase &one : smooth_cases())
     {
-      const auto   law = make_law(one.settings);
-      ContactPoint start(*law);
-      advance(*law, {vector(0.), 5.8, 1.}, 1, start);
-      advance(*law, one.before, 1000, start);
+      const auto         law   = make_law(one.settings);
+      const ContactPoint start = moved_point(*law, one.before, 1000);
       for (const double share : {1e-3, 1e-2, 0.1})
         {
           const double old   = start.committed().normal_traction;
@@ -189,9 +197,8 @@ TEST(TwoStages, estimate_sees_what_hides)
                             const Move     &move,
                             const double    pressure = 5.8) {
     const auto   law = make_law(settings);
-    ContactPoint point(*law);
-    advance(*law, {vector(0.), pressure, 1.}, 1, point);
-    advance(*law, {vector(V), pressure, 1.}, 1000, point);
+    ContactPoint point =
+      moved_point(*law, {vector(V), pressure, 1.}, 1000, pressure);
     make_step(*law, move, pressure, 1., point);
     return point.error(*law);
   };
@@ -228,13 +235,11 @@ TEST(TwoStages, estimate_sees_what_hides)
 // whatever the steps, and one that sticks does not.
 TEST(TwoStages, sliding_goes_on_where_it_can)
 {
-  const auto   law = make_law({{"Effects", "subloading, overstress, stribeck"},
-                               {"stribeck/Rise", "0.7"},
-                               {"stribeck/Speed", "0.1 mm/s"}});
-  ContactPoint start(*law);
-  advance(*law, {vector(0.), 5.8, 1.}, 1, start);
-  advance(*law, {vector(10.), 5.8, 1.}, 2000, start);
-  const double friction = start.committed().traction[0];
+  const auto law = make_law({{"Effects", "subloading, overstress, stribeck"},
+                             {"stribeck/Rise", "0.7"},
+                             {"stribeck/Speed", "0.1 mm/s"}});
+  const ContactPoint start    = moved_point(*law, {vector(10.), 5.8, 1.}, 2000);
+  const double       friction = start.committed().traction[0];
   for (const double duration : {1e-9, 1e-7, 1e-5, 1e-3, 1.})
     {
       ContactPoint point = start;
@@ -263,9 +268,7 @@ TEST(TwoStages, names_the_effect_that_weakens)
 {
   const auto law =
     make_law({{"Effects", "subloading, overstress, stribeck, viscous"}});
-  ContactPoint point(*law);
-  advance(*law, {vector(0.), 5.8, 1.}, 1, point);
-  advance(*law, {vector(0.5), 5.8, 10.}, 1000, point);
+  const ContactPoint point = moved_point(*law, {vector(0.5), 5.8, 10.}, 1000);
   EXPECT_EQ(law->weakening_effects(point.committed()),
             std::vector<std::string>{"stribeck"});
 }

@@ -29,7 +29,7 @@ TEST(FlatSurface, contact_point)
     {
       const Parameters parameters =
         make_parameters({{"Loading/Speed", golden.speed}}, case_file);
-      const auto history = run_point_case(parameters);
+      const auto history = point_history(parameters);
       Summary    summary;
       summarise_history(history, parse_programme(parameters), summary);
       EXPECT_NEAR(summary.slides[0].peak, golden.peak, 1e-7) << golden.speed;

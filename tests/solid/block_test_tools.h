@@ -1,19 +1,17 @@
 #ifndef tests_solid_block_test_tools_h
 #define tests_solid_block_test_tools_h
 
-#include <slipstep/experiment/point_driver.h>
 #include <slipstep/solid/block.h>
 #include <slipstep/solid/case.h>
 
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "../experiment/point_run.h"
 
 namespace SlipStep::Testing
 {
-  using Settings = std::vector<std::pair<std::string, std::string>>;
-
   /// The defaults of all parameters but with Q1 elements, which are quicker on
   /// few cells; or a case file; with settings on top.
   inline Parameters make_parameters(const Settings    &settings,
@@ -25,15 +23,8 @@ namespace SlipStep::Testing
       parameters.set("Block/Degree", "1", "test");
     else
       parameters.read(std::string(SLIPSTEP_SOURCE_DIR) + "/prm/" + case_file);
-    for (const auto &setting : settings)
-      parameters.set(setting.first, setting.second, "test");
+    set_all(settings, parameters);
     return parameters;
-  }
-
-  inline Settings operator+(Settings first, const Settings &second)
-  {
-    first.insert(first.end(), second.begin(), second.end());
-    return first;
   }
 
   struct BlockResult
@@ -79,20 +70,6 @@ namespace SlipStep::Testing
     if (inspect)
       inspect(block);
     return result;
-  }
-
-  inline std::vector<HistoryRow> run_point_case(const Parameters &parameters)
-  {
-    const FrictionLaw       law(parameters);
-    const Programme         programme = parse_programme(parameters);
-    std::vector<HistoryRow> history;
-    drive_point(
-      law,
-      programme,
-      StepControl(parameters, programme, law),
-      [&](const HistoryRow &row) { history.push_back(row); },
-      Machine(parameters));
-    return history;
   }
 
   /// Friction of a history at a time, by linear interpolation.

@@ -56,7 +56,7 @@ namespace
     const Programme programme = parse_programme(parameters);
     return evaluate_quantities(parse_quantities(parameters, programme),
                                programme,
-                               run_point_case(parameters),
+                               point_history(parameters),
                                0)[0]
       .value;
   }
@@ -133,7 +133,7 @@ TEST(Refinement, order_of_the_time_step)
 
 TEST(Refinement, equal_steps_are_equal)
 {
-  const auto history = run_point_case(make_parameters(
+  const auto history = point_history(make_parameters(
     {{"Loading/Programme", "press 5.8 MPa in 1 s; slide 1 mm/s for 3 mm"},
      {"Time stepping/Equal steps per statement", "7"}}));
   ASSERT_EQ(history.size(), 14u);

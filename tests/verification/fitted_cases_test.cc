@@ -53,7 +53,7 @@ TEST(FittedCases, pins_on_a_block)
        {"Loading/Programme", "press 1.197 MPa in 1 s; slide 0.15 m/s for 20 m"},
        {"Output/Fields", "none"}};
   const double point =
-    run_point_case(make_parameters(settings, file)).back().friction;
+    point_history(make_parameters(settings, file)).back().friction;
   const auto on_block = [&](const std::string &size) {
     return run_block_case<3>(
              make_parameters(settings + Settings{{"Block/Size", size}}, file))

@@ -96,9 +96,9 @@ TEST(FlatSurface, step_size_control)
 {
   for (const double V : {1., 200.})
     {
-      const auto normal = run_point_case(flat_surface(V));
+      const auto normal = point_history(flat_surface(V));
       const auto fine =
-        run_point_case(flat_surface(V, {{"Time stepping/Tolerance", "5e-6"}}));
+        point_history(flat_surface(V, {{"Time stepping/Tolerance", "5e-6"}}));
       EXPECT_GT(fine.size(), 2 * normal.size());
       EXPECT_LT(largest_difference(normal, fine), 1e-3) << V;
     }
@@ -133,7 +133,7 @@ TEST(OneElement, equals_the_contact_point)
       const auto block = run_block_case<3>(flat_surface(V, element));
       ASSERT_EQ(block.failure, "");
       const double series = 1. / (1. / 1e4 + H / G);
-      const auto   point  = run_point_case(flat_surface(
+      const auto   point  = point_history(flat_surface(
         V, {{"Friction/Tangential stiffness", std::to_string(series)}}));
       EXPECT_LT(largest_difference(block.history, point), 5e-3) << V;
     }
@@ -150,7 +150,7 @@ TEST(OneElement, tilt_changes_the_transition_only)
                             {"Block/Poisson ratio", "0"}};
   const auto     block   = run_block_case<3>(flat_surface(1., element));
   const double   series  = 1. / (1. / 1e4 + H / G);
-  const auto     point   = run_point_case(
+  const auto     point   = point_history(
     flat_surface(1.,
                  {{"Friction/Tangential stiffness", std::to_string(series)}}));
   EXPECT_GT(largest_difference(block.history, point), 5e-3);

@@ -2,7 +2,6 @@
 // formulas of the catalogue they must agree in every protocol.
 
 #include <slipstep/experiment/machine.h>
-#include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/replay.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/planting/protocols.h>
@@ -16,8 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "../experiment/point_run.h"
+
 using namespace SlipStep;
 using namespace SlipStep::Planting;
+using namespace SlipStep::Testing;
 
 namespace
 {
@@ -36,12 +38,10 @@ namespace
     const std::vector<TruthParameter> added =
       hidden_effect(effect, Formula::catalogue)
         .add(twin.contact, amplitude, random);
-    declare_loading_parameters(twin.parameters);
-    FrictionLaw::declare_parameters(twin.parameters);
     std::string effects = "subloading, overstress, softening";
     if (effects.find(effect) == std::string::npos && effect != "compliance")
       effects += ", " + effect;
-    twin.parameters.set("Friction/Effects", effects, "test");
+    twin.parameters = point_parameters({{"Friction/Effects", effects}});
     for (const auto &parameters : {base_parameters(twin.contact), added})
       for (const TruthParameter &parameter : parameters)
         twin.parameters.set(parameter.name,

@@ -20,7 +20,7 @@ namespace
   std::vector<SlideSummary> slides(const Parameters &parameters)
   {
     Summary summary;
-    summarise_history(run_point_case(parameters),
+    summarise_history(point_history(parameters),
                       parse_programme(parameters),
                       summary);
     return summary.slides;
@@ -154,7 +154,7 @@ TEST(AnisotropicPath, traction_lies_on_the_ellipse)
     make_parameters({}, "anisotropic_path/anisotropic_path.prm");
   const FrictionLaw law(parameters);
   const Programme   programme = parse_programme(parameters);
-  const auto        history   = run_point_case(parameters);
+  const auto        history   = point_history(parameters);
   unsigned int      n_checked = 0;
   for (const Segment &segment : programme.segments())
     if (segment.end.velocity.norm() > 0.)
@@ -227,7 +227,7 @@ TEST(StickSlip, is_an_undamped_swing_about_kinetic_friction)
     {
       const Parameters  parameters = stick_slip(speed);
       const FrictionLaw law(parameters);
-      const Swing       found   = swing(run_point_case(parameters), 2.);
+      const Swing       found   = swing(point_history(parameters), 2.);
       const double      half    = (found.highest - found.lowest) / 2.;
       const double      kinetic = 0.2 * law.steady_ratio(found.fastest / 2.);
       const double      period =
@@ -254,7 +254,7 @@ TEST(StickSlip, ends_where_the_machine_is_stiffer_than_critical)
       const bool           is_stable = machine.stiffness() > limit.stiffness;
       EXPECT_EQ(is_stable, velocity[0] > 10.) << speed;
 
-      const auto history = run_point_case(
+      const auto history = point_history(
         stick_slip(speed,
                    {{"Loading/Programme",
                      is_stable ? "press 5 MPa in 1 s; slide for 60 mm" :

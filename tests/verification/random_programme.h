@@ -1,7 +1,7 @@
 #ifndef tests_verification_random_programme_h
 #define tests_verification_random_programme_h
 
-#include "point_run.h"
+#include "../experiment/point_run.h"
 
 #include <slipstep/utilities/csv.h>
 

@@ -1,7 +1,7 @@
 // The reference of the programmes in time is right itself: closed forms, and
 // that its own error is far below those it measures.
 
-#include "point_run.h"
+#include "../experiment/point_run.h"
 #include "reference_contact.h"
 
 #include <deal.II/base/numbers.h>

@@ -29,7 +29,7 @@ TEST(SheetBetweenTools, steady_level_is_that_of_a_point)
   const Parameters parameters = sheet();
   const auto       result     = run_block_case<3>(parameters);
   ASSERT_EQ(result.failure, "");
-  const double point = run_point_case(parameters).back().friction;
+  const double point = point_history(parameters).back().friction;
   EXPECT_NEAR(result.history.back().friction / point, 1., 1e-3);
   EXPECT_EQ(result.history.back().slip_fraction, 1.);
   EXPECT_LT(result.force_imbalance, 1e-8);

@@ -21,7 +21,8 @@ namespace
        {"Friction/Tangential stiffness", "1e6"},
        {"Block/Size", "10 mm, 5 mm, 10 mm"},
        {"Block/Subdivisions", "4, 2, 3"},
-       {"Time stepping/Tolerance", "1e-3"},
+       {"Time stepping/Tolerance", "0.01"},
+       {"Time stepping/Least steps per statement", "3"},
        {"Output/Quantities",
         "pressure at (5 mm, 2.5 mm); pressure at (9.9 mm, 0.1 mm); slip front "
         "at r = 0.9"}});

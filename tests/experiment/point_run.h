@@ -1,33 +1,28 @@
-#ifndef tests_verification_point_run_h
-#define tests_verification_point_run_h
+#ifndef tests_experiment_point_run_h
+#define tests_experiment_point_run_h
 
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/utilities/csv.h>
 
-#include <string>
-#include <utility>
 #include <vector>
+
+#include "../settings.h"
 
 namespace SlipStep::Testing
 {
-  using Settings = std::vector<std::pair<std::string, std::string>>;
-
+  /// The parameters of one contact point.
   inline Parameters point_parameters(const Settings &settings)
   {
     Parameters parameters;
     declare_loading_parameters(parameters);
     FrictionLaw::declare_parameters(parameters);
-    for (const auto &setting : settings)
-      parameters.set(setting.first, setting.second, "test");
+    set_all(settings, parameters);
     return parameters;
   }
 
   /// The rows of a run on one contact point.
-  /// @param tolerance instead of the one of the case
-  inline std::vector<HistoryRow> point_history(Parameters   parameters,
-                                               const double tolerance)
+  inline std::vector<HistoryRow> point_history(const Parameters &parameters)
   {
-    parameters.set("Time stepping/Tolerance", exact_text(tolerance), "test");
     const FrictionLaw       law(parameters);
     const Programme         programme = parse_programme(parameters);
     std::vector<HistoryRow> history;
@@ -38,6 +33,14 @@ namespace SlipStep::Testing
       [&](const HistoryRow &row) { history.push_back(row); },
       Machine(parameters));
     return history;
+  }
+
+  /// @param tolerance instead of the one of the case
+  inline std::vector<HistoryRow> point_history(Parameters   parameters,
+                                               const double tolerance)
+  {
+    parameters.set("Time stepping/Tolerance", exact_text(tolerance), "test");
+    return point_history(parameters);
   }
 } // namespace SlipStep::Testing
 
