@@ -26,7 +26,7 @@ namespace SlipStep
 
     // Grows when an older program could not read what this one writes, or the
     // other way round.
-    constexpr unsigned int manifest_format = 3;
+    constexpr unsigned int manifest_format = 4;
 
     const char *const manifest_name = "manifest.json";
 

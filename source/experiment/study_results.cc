@@ -231,9 +231,11 @@ namespace SlipStep
             if (!is_finished(point.summary))
               problems.insert("  " + point.label +
                               " failed: " + point.summary.reason + "\n");
-            if (!point.summary.missing_energy().empty())
-              problems.insert("  " + point.label + ": warning: " +
-                              point.summary.missing_energy() + "\n");
+            for (const std::string &doubt : {point.summary.missing_energy(),
+                                             point.summary.missed_tolerance()})
+              if (!doubt.empty())
+                problems.insert("  " + point.label + ": warning: " + doubt +
+                                "\n");
           }
         for (const std::string column : {"unknowns", "steps"})
           {

@@ -37,6 +37,7 @@ namespace SlipStep
     , contact(parameters, law)
     , control(control)
     , marker(parameters)
+    , tolerance(parameters.refinement)
   {
     make_grid();
     setup_system();
@@ -85,6 +86,8 @@ namespace SlipStep
         row.time      = control.time();
         row.step_size = step_size;
         accept_step(totals, row);
+        if (is_marked)
+          tolerance.add(row.time, last_marked);
         observe(row);
         check_contact(totals);
         old_step    = step_size;

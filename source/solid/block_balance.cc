@@ -163,6 +163,7 @@ namespace SlipStep
     summary.rejected_steps    = control.n_rejected();
     summary.newton_iterations = n_newton_total;
     summary.linear_iterations = n_linear_total;
+    summary.mesh_error        = tolerance.summary();
     summary.warnings.clear();
     if (smallest_contact_share < 0.99)
       summary.warnings.push_back(
@@ -175,6 +176,9 @@ namespace SlipStep
         "the mesh reached the limit set in section Block/Adaptivity: at worst " +
         std::to_string(std::llround(most_cells_wanted)) +
         " more cells were wanted than are allowed");
+    if (!summary.missed_tolerance().empty())
+      summary.warnings.push_back(summary.missed_tolerance() + ": " +
+                                 tolerance.remedy());
     if (largest_jump > 1e-3)
       {
         std::ostringstream message;

@@ -18,6 +18,7 @@
 #include <slipstep/solid/contact_face.h>
 #include <slipstep/solid/mesh_change.h>
 #include <slipstep/solid/mesh_marker.h>
+#include <slipstep/solid/mesh_tolerance.h>
 #include <slipstep/solid/tangent_system.h>
 
 #include <filesystem>
@@ -86,7 +87,7 @@ namespace SlipStep
       archive &control &old_step &n_newton_total &n_linear_total &external_work
         &largest_imbalance &largest_normal_load &contact_share
           &smallest_contact_share &steps_since_check &most_cells_wanted
-            &largest_jump &mesh_changes &mesh_is_new;
+            &largest_jump &mesh_changes &mesh_is_new &tolerance;
     }
 
     /// Cells, unknowns and iterations so far.
@@ -100,6 +101,12 @@ namespace SlipStep
     const dealii::DoFHandler<dim> &unknowns() const
     {
       return dof_handler;
+    }
+
+    /// Estimated error of the meshes of accepted steps.
+    const MeshErrorSummary &mesh_error() const
+    {
+      return tolerance.summary();
     }
 
     /// What the mesh did so far.
@@ -145,6 +152,7 @@ namespace SlipStep
 
     // Another mesh during the run.
     bool        adapt_to_trial(BlockOutput<dim> *output);
+    bool        is_time_to_check() const;
     void        adapt_after_step(BlockOutput<dim> *output);
     MarkedCells mark_cells();
     void        change_mesh(const MarkedCells &marked,
@@ -246,6 +254,7 @@ namespace SlipStep
     // Adaptivity.
     MeshMarker<dim> marker;
     MarkedCells     last_marked;
+    MeshTolerance   tolerance;
     bool            is_marked         = false;
     unsigned int    n_repeats         = 0; // of the present step
     bool            mesh_is_new       = false;
