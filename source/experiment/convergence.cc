@@ -2,6 +2,7 @@
 
 #include <boost/math/tools/roots.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +11,7 @@ namespace SlipStep
   namespace
   {
     constexpr double undefined   = std::numeric_limits<double>::quiet_NaN();
+    constexpr double infinite    = std::numeric_limits<double>::infinity();
     constexpr double least_order = 0.1, largest_order = 20.;
   } // namespace
 
@@ -57,5 +59,106 @@ namespace SlipStep
     const double order =
       std::log(std::abs(error_1 / error_2)) / std::log(h_1 / h_2);
     return std::isfinite(order) ? order : undefined;
+  }
+
+
+
+  namespace
+  {
+    std::vector<double> without_last(std::vector<double> values)
+    {
+      values.pop_back();
+      return values;
+    }
+
+    // U_n of the documentation.
+    double uncertainty_of_last(const std::vector<double> &sizes,
+                               const std::vector<double> &values)
+    {
+      const std::size_t n = values.size();
+      if (n < 2)
+        return infinite;
+      const bool is_one_sided =
+        n > 2 &&
+        (values[n - 3] - values[n - 2]) * (values[n - 2] - values[n - 1]) > 0.;
+      const double order = richardson(sizes, values).order;
+      if (is_one_sided && std::isnan(order))
+        return infinite;
+      // More values than three would show the order, if there is one.
+      const double q =
+        n == 3 && is_one_sided ? std::min(std::max(order / 2., 0.5), 1.) : 0.5;
+      double result = 0.;
+      for (std::size_t j = n < 3 ? 0 : n - 3; j + 1 < n; ++j)
+        {
+          if (!(sizes[j] > sizes[n - 1]))
+            return infinite;
+          result = std::max(result,
+                            std::abs(values[j] - values[n - 1]) /
+                              (std::pow(sizes[j] / sizes[n - 1], q) - 1.));
+        }
+      return result;
+    }
+
+    // Digits that a value has at all.
+    ReferenceValue with_round_off(ReferenceValue reference)
+    {
+      reference.uncertainty =
+        std::max(reference.uncertainty,
+                 16. * std::numeric_limits<double>::epsilon() *
+                   std::abs(reference.value));
+      return reference;
+    }
+  } // namespace
+
+
+
+  double shown_order(const std::vector<double> &sizes,
+                     const std::vector<double> &values)
+  {
+    if (values.size() < 4 || sizes.size() != values.size())
+      return undefined;
+    const double order = richardson(sizes, values).order;
+    const double order_before =
+      richardson(without_last(sizes), without_last(values)).order;
+    return std::abs(order - order_before) <=
+               0.15 * std::max(order, order_before) ?
+             order :
+             undefined;
+  }
+
+
+
+  ReferenceValue extrapolated_reference(const std::vector<double> &sizes,
+                                        const std::vector<double> &values)
+  {
+    const Extrapolation found = richardson(sizes, values);
+    if (!std::isfinite(found.limit))
+      return finest_reference(sizes, values);
+    const double correction = std::abs(found.limit - values.back());
+    if (std::isnan(shown_order(sizes, values)))
+      return with_round_off(
+        {found.limit, uncertainty_of_last(sizes, values) + correction, true});
+    const double limit_before =
+      richardson(without_last(sizes), without_last(values)).limit;
+    return with_round_off(
+      {found.limit,
+       std::max(std::abs(found.limit - limit_before), correction / 2.),
+       true});
+  }
+
+
+
+  ReferenceValue finest_reference(const std::vector<double> &sizes,
+                                  const std::vector<double> &values)
+  {
+    if (values.empty() || sizes.size() != values.size())
+      return {undefined, infinite, false};
+    double uncertainty = uncertainty_of_last(sizes, values);
+    if (std::isfinite(shown_order(sizes, values)))
+      {
+        const ReferenceValue limit = extrapolated_reference(sizes, values);
+        uncertainty = std::abs(limit.value - values.back()) + limit.uncertainty;
+      }
+    return with_round_off({values.back(), uncertainty, false});
   }
 } // namespace SlipStep

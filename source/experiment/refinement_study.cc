@@ -164,7 +164,8 @@ namespace SlipStep
       "Richardson",
       Anything(),
       "What the meshes are compared with: 'Richardson' extrapolates the last "
-      "three uniform ones with the order they show; 'uniform <number>' or "
+      "three uniform ones with the order they show (a fourth one tells how far "
+      "that may be off); 'uniform <number>' or "
       "'adaptive <tolerance>' is a finer run of its own.");
     parameters.declare(
       section + "Time steps",

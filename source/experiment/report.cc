@@ -176,6 +176,13 @@ namespace SlipStep
       std::vector<TableLine> lines    = {{"run"}};
       if (has_mesh)
         lines[0].insert(lines[0].end(), {"cells", "unknowns", "ranks"});
+      const bool is_adaptive =
+        std::any_of(runs.begin(), runs.end(), [](const RunResults &run) {
+          return run.summary.mesh_error.tolerance > 0.;
+        });
+      if (is_adaptive)
+        lines[0].insert(lines[0].end(),
+                        {"estimated error of the mesh [%]", "at worst [%]"});
       lines[0].insert(lines[0].end(), {"steps", "rejected"});
       if (has_mesh)
         lines[0].insert(lines[0].end(),
@@ -194,6 +201,11 @@ namespace SlipStep
                         {std::to_string(s.cells),
                          std::to_string(s.dofs),
                          std::to_string(s.ranks)});
+          if (is_adaptive)
+            for (const double error : {s.mesh_error.last, s.mesh_error.largest})
+              line.push_back(s.mesh_error.tolerance > 0. ?
+                               short_text(100. * error, 2) :
+                               "–");
           line.insert(line.end(),
                       {std::to_string(s.steps),
                        std::to_string(s.rejected_steps)});
@@ -359,6 +371,10 @@ namespace SlipStep
       if (!run.summary.missing_energy().empty())
         text += "  " + run_name(run) +
                 ": warning: " + run.summary.missing_energy() + "\n";
+    for (const RunResults &run : results)
+      if (!run.summary.missed_tolerance().empty())
+        text += "  " + run_name(run) +
+                ": warning: " + run.summary.missed_tolerance() + "\n";
     for (const std::string &problem : problems)
       text += "  " + problem + "\n";
     return text;

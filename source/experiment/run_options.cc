@@ -105,8 +105,11 @@ namespace SlipStep
   void remove_earlier_results(const fs::path &folder)
   {
     std::error_code error;
-    for (const char *name :
-         {"history.csv", "summary.json", "report.html", "refinement.csv"})
+    for (const char *name : {"history.csv",
+                             "summary.json",
+                             "report.html",
+                             "refinement.csv",
+                             "refinement.json"})
       fs::remove(folder / name, error);
     CheckpointStore(folder).remove();
   }

@@ -4,6 +4,7 @@
 #include <slipstep/experiment/report_drawing.h>
 #include <slipstep/experiment/report_html.h>
 #include <slipstep/experiment/study_results.h>
+#include <slipstep/utilities/csv.h>
 
 #include <cmath>
 
@@ -21,30 +22,27 @@ namespace SlipStep
                "lc rgb '#009E73' dt (4,3) pt 9 ps 1.1 lw 2";
     }
 
-    /// A straight line below the curve with the order that it shows.
-    struct Guide
+    /// Steps, or unknowns.
+    double count(const StudyPoint &point, const bool is_time)
     {
-      double order = std::numeric_limits<double>::quiet_NaN();
-      Rows   rows;
-    };
+      return is_time ? point.summary.steps : point.summary.dofs;
+    }
 
-    /// From the last two errors of the curve, half as high.
-    Guide guide_of(const StudyCurve &curve, const bool is_time)
+    /// A straight line below the last two errors of the curve with the order
+    /// that it shows; no rows if it shows none.
+    Rows guide_of(const StudyCurve &curve, const bool is_time)
     {
-      Guide guide;
-      for (std::size_t i = 1; i < curve.points.size(); ++i)
-        {
-          const StudyPoint &a = curve.points[i - 1], &b = curve.points[i];
-          if (!std::isfinite(b.order))
-            continue;
-          const auto n = [is_time](const StudyPoint &point) {
-            return static_cast<double>(is_time ? point.summary.steps :
-                                                 point.summary.dofs);
-          };
-          guide.order = b.order;
-          guide.rows  = {{n(a), a.error / 2.}, {n(b), b.error / 2.}};
-        }
-      return guide;
+      std::vector<const StudyPoint *> shown;
+      for (const StudyPoint &point : curve.points)
+        if (std::isfinite(point.error))
+          shown.push_back(&point);
+      if (shown.size() < 2 || !std::isfinite(curve.order))
+        return {};
+      const StudyPoint &a = *shown[shown.size() - 2], &b = *shown.back();
+      const double      n_a = count(a, is_time), n_b = count(b, is_time);
+      const double      slope = curve.order / (is_time ? 1. : curve.dimension);
+      return {{n_a, a.error / 2.},
+              {n_b, a.error / 2. * std::pow(n_a / n_b, slope)}};
     }
 
     Picture draw(const std::filesystem::path           &folder,
@@ -89,12 +87,19 @@ namespace SlipStep
         }
       if (n_points == 0)
         return {};
-      const Guide guide = guide_of(first, is_time);
-      if (std::isfinite(guide.order))
+      const Rows guide = guide_of(first, is_time);
+      if (!guide.empty())
         plots[0] +=
-          ", " + figure.add_data("slope", {"size", "error"}, guide.rows) +
+          ", " + figure.add_data("slope", {"size", "error"}, guide) +
           " using 1:2 with lines lc rgb '#888888' dt (2,2) lw 1.5 title " +
-          gnuplot_text("order " + fixed_text(guide.order, 2));
+          gnuplot_text("order " + fixed_text(first.order, 2));
+      // Below nothing can be told.
+      const double uncertainty = first.relative_uncertainty();
+      if (uncertainty > 0. && std::isfinite(uncertainty))
+        for (std::string &plot : plots)
+          plot += ", " + exact_text(uncertainty) +
+                  " with lines lc rgb '#888888' lw 1.5 title " +
+                  gnuplot_text("uncertainty of the reference");
 
       figure.script() << axes_style
                       << "set key inside left bottom Left reverse\n"
@@ -106,12 +111,13 @@ namespace SlipStep
                       << "\nset ylabel ''\nset format x '%g'\n"
                          "set xlabel 'CPU time [s]'\nplot "
                       << plots[1] << "\nunset multiplot\n";
-      std::string caption =
+      const std::string caption =
         "Relative to " + short_text(first.reference, 6) + " " + first.unit +
         " (" + first.reference_name +
         (std::isfinite(first.order) ? ", order " + fixed_text(first.order, 2) :
                                       "") +
-        ").";
+        "), which is itself uncertain by " + short_text(uncertainty, 2) +
+        " of it. Runs whose difference is not above that are not shown.";
       return finish(figure, title, caption, warnings);
     }
   } // namespace
@@ -144,7 +150,15 @@ namespace SlipStep
   std::string study_html(const std::vector<StudyCurve> &curves,
                          const std::vector<Picture>    &pictures)
   {
-    std::string html;
+    std::string html =
+      "<h2>What was found</h2>\n" + html_table(study_summary(curves)) +
+      "<p>Errors are relative; \"&lt;\" stands where the "
+      "difference to the reference is not above the "
+      "reference's own uncertainty, \"?\" where no limit is "
+      "in sight. An order takes three monotone differences. "
+      "The cheapest run for 1 % is the one with the least "
+      "unknowns times steps whose error, and that of all "
+      "finer ones, is at most 1 % with that uncertainty.</p>\n";
     for (const Picture &picture : pictures)
       html += figure_element(picture);
     std::vector<TableLine> lines = {{"quantity",
@@ -168,8 +182,8 @@ namespace SlipStep
            std::to_string(point.summary.steps),
            fixed_text(point.summary.cpu_time, 2),
            short_text(point.value, 7),
-           short_text(point.error, 3),
-           fixed_text(point.order, 2)});
+           point.error_text(),
+           std::isfinite(point.order) ? fixed_text(point.order, 2) : "–"});
     return html + "<h2>Convergence</h2>\n" + html_table(lines);
   }
 } // namespace SlipStep

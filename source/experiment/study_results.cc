@@ -1,10 +1,13 @@
 #include <slipstep/experiment/study_results.h>
 
 #include <slipstep/experiment/convergence.h>
+#include <slipstep/experiment/report_data.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/version.h>
+#include <slipstep/utilities/write_file.h>
 
-#include <deal.II/base/convergence_table.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -45,20 +48,13 @@ namespace SlipStep
       return summary.status == "finished";
     }
 
-    /// Size of the mesh or of the time step of a run of a sequence, in units
-    /// that do not matter.
-    double size_of(const StudyCurve &curve, const std::size_t i)
+    /// Size of the mesh or of the time step of a run, in units that do not
+    /// matter.
+    double size_of(const StudyCurve &curve, const Summary &summary)
     {
-      const Summary &summary = curve.points[i].summary;
-      switch (curve.kind)
-        {
-          case StudySequence::Kind::uniform:
-            return std::pow(0.5, i);
-          case StudySequence::Kind::adaptive:
-            return std::pow(summary.dofs, -1. / curve.dimension);
-          default:
-            return 1. / summary.steps;
-        }
+      return curve.kind == StudySequence::Kind::time_step ?
+               1. / summary.steps :
+               std::pow(summary.dofs, -1. / curve.dimension);
     }
 
     const QuantityValue *find(const Summary &summary, const std::string &name)
@@ -78,59 +74,92 @@ namespace SlipStep
 
 
 
-    struct ReferenceValue
+    /// The runs of a curve that came to a value, coarse to fine.
+    struct Series
     {
-      double      value = undefined;
-      double      order = undefined;
-      std::string name;
+      std::vector<double> sizes, values;
+      std::string         finest; ///< label
+    };
+
+    /// @param n_points of the curve that are looked at
+    Series series_of(const StudyCurve &curve, const std::size_t n_points)
+    {
+      Series series;
+      for (std::size_t i = 0; i < n_points; ++i)
+        if (std::isfinite(curve.points[i].value))
+          {
+            // Uniform meshes are halved exactly.
+            series.sizes.push_back(curve.kind == StudySequence::Kind::uniform ?
+                                     std::pow(0.5, i) :
+                                     size_of(curve, curve.points[i].summary));
+            series.values.push_back(curve.points[i].value);
+            series.finest = curve.points[i].label;
+          }
+      return series;
+    }
+
+
+
+    struct NamedReference
+    {
+      ReferenceValue found = {undefined, undefined, false};
+      std::string    name;
     };
 
     /// From the last three runs that finished, or else the last of them.
-    ReferenceValue extrapolate(const StudyCurve &curve)
+    NamedReference extrapolate(const StudyCurve &curve)
     {
-      std::vector<double> sizes, values;
-      std::string         finest;
-      for (std::size_t i = 0; i < curve.points.size(); ++i)
-        if (std::isfinite(curve.points[i].value))
-          {
-            sizes.push_back(size_of(curve, i));
-            values.push_back(curve.points[i].value);
-            finest = curve.points[i].label;
-          }
-      if (values.empty())
+      const auto [sizes, values, finest] =
+        series_of(curve, curve.points.size());
+      const std::size_t n = values.size();
+      if (n == 0)
         return {};
       // Solvers do not do better than that.
-      const std::size_t n = values.size();
       if (n >= 2 && std::abs(values[n - 1] - values[n - 2]) <=
                       1e-9 * std::abs(values[n - 1]))
-        return {values.back(),
-                undefined,
+        return {finest_reference(sizes, values),
                 finest + ", because the last two values agree"};
-      const Extrapolation extrapolation = richardson(sizes, values);
-      if (std::isfinite(extrapolation.limit))
-        return {extrapolation.limit, extrapolation.order, "Richardson"};
-      return {values.back(),
-              undefined,
-              finest + ", because the last three values show no order"};
+      const ReferenceValue found = extrapolated_reference(sizes, values);
+      if (found.is_extrapolated)
+        return {found, "Richardson"};
+      return {found, finest + ", because the last three values show no order"};
     }
 
-    void compare(const ReferenceValue &reference, StudyCurve &curve)
+    /// A finer run, at the end of the curve's runs.
+    NamedReference finer_run(const StudyCurve  &curve,
+                             const std::string &label,
+                             const Summary     &summary)
     {
-      curve.reference      = reference.value;
+      const double value = value_in(summary, curve.quantity);
+      if (!std::isfinite(value))
+        return {{undefined, undefined, false}, label};
+      StudyCurve complete = curve;
+      complete.kind       = curve.kind == StudySequence::Kind::time_step ?
+                              curve.kind :
+                              StudySequence::Kind::adaptive; // by unknowns
+      complete.points.push_back({label, summary, value});
+      const Series series = series_of(complete, complete.points.size());
+      return {finest_reference(series.sizes, series.values), label};
+    }
+
+    void compare(const NamedReference &reference, StudyCurve &curve)
+    {
+      curve.reference      = reference.found.value;
+      curve.uncertainty    = reference.found.uncertainty;
       curve.reference_name = reference.name;
-      curve.order          = reference.order;
       const double scale =
-        reference.value == 0. ? 1. : std::abs(reference.value);
+        curve.reference == 0. ? 1. : std::abs(curve.reference);
       for (std::size_t i = 0; i < curve.points.size(); ++i)
         {
-          StudyPoint  &point = curve.points[i];
-          const double error = std::abs(point.value - reference.value) / scale;
-          point.error        = error > 0. ? error : undefined;
-          if (i > 0)
-            point.order = observed_order(curve.points[i - 1].error,
-                                         point.error,
-                                         size_of(curve, i - 1),
-                                         size_of(curve, i));
+          StudyPoint &point = curve.points[i];
+          if (!std::isfinite(point.value))
+            continue;
+          const double difference = std::abs(point.value - curve.reference);
+          if (difference > curve.uncertainty)
+            point.error = difference / scale;
+          point.error_bound   = (difference + curve.uncertainty) / scale;
+          const Series series = series_of(curve, i + 1);
+          curve.order = point.order = shown_order(series.sizes, series.values);
         }
     }
 
@@ -180,34 +209,168 @@ namespace SlipStep
     std::vector<StudyCurve> curves;
     for (const std::string &quantity : quantities)
       {
-        ReferenceValue mesh_reference;
+        const std::size_t first = curves.size();
         for (const StudySequence &sequence : study.sequences())
+          curves.push_back(collect(sequence, quantity, summaries));
+        const auto curve_of = [&](const StudySequence::Kind kind) {
+          for (std::size_t i = first; i < curves.size(); ++i)
+            if (curves[i].kind == kind)
+              return &curves[i];
+          return static_cast<StudyCurve *>(nullptr);
+        };
+        StudyCurve *uniform  = curve_of(StudySequence::Kind::uniform);
+        StudyCurve *adaptive = curve_of(StudySequence::Kind::adaptive);
+        StudyCurve *steps    = curve_of(StudySequence::Kind::time_step);
+
+        NamedReference  mesh;
+        const StudyRun &finer_mesh = study.mesh_reference();
+        if (finer_mesh.label.empty())
           {
-            StudyCurve curve = collect(sequence, quantity, summaries);
-            const bool is_time =
-              sequence.kind == StudySequence::Kind::time_step;
-            const StudyRun &finer =
-              is_time ? study.time_reference() : study.mesh_reference();
-            ReferenceValue reference;
-            if (!finer.label.empty())
-              reference = {value_in(summaries.at(finer.folder), quantity),
-                           undefined,
-                           finer.label};
-            else if (sequence.kind == StudySequence::Kind::adaptive)
-              reference = {mesh_reference.value,
-                           undefined,
-                           mesh_reference.name + " of the uniform meshes"};
-            else
-              reference = extrapolate(curve);
-            // The uniform sequence comes before the adaptive one.
-            if (sequence.kind == StudySequence::Kind::uniform)
-              mesh_reference = reference;
-            compare(reference, curve);
-            curves.push_back(curve);
+            if (uniform != nullptr)
+              mesh = extrapolate(*uniform);
           }
+        else
+          {
+            const bool is_adaptive = finer_mesh.label.rfind("adaptive", 0) == 0;
+            StudyCurve *own        = is_adaptive ? adaptive : uniform;
+            if (own == nullptr)
+              own = is_adaptive ? uniform : adaptive;
+            mesh = finer_run(*own,
+                             finer_mesh.label,
+                             summaries.at(finer_mesh.folder));
+          }
+        if (uniform != nullptr)
+          compare(mesh, *uniform);
+        if (finer_mesh.label.empty())
+          mesh.name += " of the uniform meshes";
+        if (adaptive != nullptr)
+          compare(mesh, *adaptive);
+
+        const StudyRun &finer_step = study.time_reference();
+        if (steps != nullptr)
+          compare(finer_step.label.empty() ?
+                    extrapolate(*steps) :
+                    finer_run(*steps,
+                              finer_step.label,
+                              summaries.at(finer_step.folder)),
+                  *steps);
       }
     return curves;
   }
+
+
+
+  std::string StudyPoint::error_text() const
+  {
+    return std::isfinite(error)       ? short_text(error, 3) :
+           std::isfinite(error_bound) ? "< " + short_text(error_bound, 2) :
+           std::isfinite(value)       ? "?" :
+                                        "–";
+  }
+
+
+
+  double StudyCurve::relative_uncertainty() const
+  {
+    return reference == 0. ? uncertainty : uncertainty / std::abs(reference);
+  }
+
+
+
+  const StudyPoint *StudyCurve::finest() const
+  {
+    const auto found =
+      std::find_if(points.rbegin(), points.rend(), [](const StudyPoint &point) {
+        return std::isfinite(point.value);
+      });
+    return found == points.rend() ? nullptr : &*found;
+  }
+
+
+
+  // A coarse run may be close by accident, so finer ones must be, too.
+  const StudyPoint *StudyCurve::cheapest(const double error) const
+  {
+    const StudyPoint *result = nullptr;
+    for (auto point = points.rbegin(); point != points.rend(); ++point)
+      {
+        if (!std::isfinite(point->value))
+          continue;
+        if (!(point->error_bound <= error))
+          break;
+        const auto cost = [](const Summary &summary) {
+          return static_cast<double>(summary.dofs) * summary.steps;
+        };
+        if (result == nullptr || cost(point->summary) < cost(result->summary))
+          result = &*point;
+      }
+    return result;
+  }
+
+
+
+  std::vector<TableLine> study_summary(const std::vector<StudyCurve> &curves)
+  {
+    std::vector<TableLine> lines = {{"quantity",
+                                     "runs",
+                                     "reference",
+                                     "error of the finest",
+                                     "order",
+                                     "cheapest for 1 %"}};
+    for (const StudyCurve &curve : curves)
+      {
+        const StudyPoint *finest   = curve.finest();
+        const StudyPoint *cheapest = curve.cheapest(0.01);
+        lines.push_back(
+          {curve.quantity + (curve.unit.empty() ? "" : " [" + curve.unit + "]"),
+           curve.sequence,
+           short_text(curve.reference, 6),
+           finest == nullptr ? "–" : finest->error_text(),
+           std::isfinite(curve.order) ? fixed_text(curve.order, 2) : "–",
+           cheapest == nullptr ?
+             "–" :
+             cheapest->label + " (" +
+               short_text(cheapest->summary.cpu_time, 2) + " s)"});
+      }
+    return lines;
+  }
+
+
+
+  namespace
+  {
+    TableLine run_line(const StudyPoint &point)
+    {
+      return {point.label,
+              std::to_string(point.summary.dofs),
+              std::to_string(point.summary.steps),
+              fixed_text(point.summary.cpu_time, 2),
+              short_text(point.value, 7),
+              point.error_text(),
+              std::isfinite(point.order) ? fixed_text(point.order, 2) : "–"};
+    }
+
+    std::string reference_text(const StudyCurve &curve)
+    {
+      if (!std::isfinite(curve.reference))
+        return "no reference";
+      std::ostringstream out;
+      out << "reference " << curve.reference << " (" << curve.reference_name
+          << (std::isfinite(curve.order) ?
+                ", order " + fixed_text(curve.order, 2) :
+                "")
+          << "), ";
+      if (std::isfinite(curve.uncertainty))
+        out << "uncertain by " << short_text(curve.uncertainty, 2)
+            << (curve.reference == 0. ?
+                  "" :
+                  " (relative " + short_text(curve.relative_uncertainty(), 2) +
+                    ")");
+      else
+        out << "but the values are not seen to approach a limit";
+      return out.str();
+    }
+  } // namespace
 
 
 
@@ -215,65 +378,28 @@ namespace SlipStep
   {
     std::ostringstream    out;
     std::set<std::string> problems;
+    out << '\n' << text_table(study_summary(curves));
     for (const StudyCurve &curve : curves)
       {
-        const bool is_time = curve.kind == StudySequence::Kind::time_step;
-        dealii::ConvergenceTable table;
+        std::vector<TableLine> lines = {
+          {"run", "unknowns", "steps", "CPU [s]", "value", "error", "order"}};
         for (const StudyPoint &point : curve.points)
           {
-            table.add_value("run", point.label);
-            table.add_value("unknowns",
-                            static_cast<double>(point.summary.dofs));
-            table.add_value("steps", static_cast<double>(point.summary.steps));
-            table.add_value("CPU [s]", point.summary.cpu_time);
-            table.add_value("value", point.value);
-            table.add_value("error", point.error);
+            lines.push_back(run_line(point));
             if (!is_finished(point.summary))
               problems.insert("  " + point.label +
                               " failed: " + point.summary.reason + "\n");
-            if (!point.summary.missing_energy().empty())
-              problems.insert("  " + point.label + ": warning: " +
-                              point.summary.missing_energy() + "\n");
+            for (const std::string &doubt : {point.summary.missing_energy(),
+                                             point.summary.missed_tolerance()})
+              if (!doubt.empty())
+                problems.insert("  " + point.label + ": warning: " + doubt +
+                                "\n");
           }
-        for (const std::string column : {"unknowns", "steps"})
-          {
-            table.set_scientific(column, false);
-            table.set_precision(column, 0);
-          }
-        table.set_scientific("CPU [s]", false);
-        table.set_precision("CPU [s]", 2);
-        table.set_scientific("value", true);
-        table.set_precision("value", 6);
-        table.set_scientific("error", true);
-        table.set_precision("error", 2);
-        using dealii::ConvergenceTable;
-        if (curve.points.size() < 2)
-          ;
-        else if (curve.kind == StudySequence::Kind::uniform)
-          table.evaluate_convergence_rates(
-            "error", ConvergenceTable::reduction_rate_log2);
-        else
-          table.evaluate_convergence_rates(
-            "error",
-            is_time ? "steps" : "unknowns",
-            ConvergenceTable::reduction_rate_log2,
-            is_time ? 1 : curve.dimension);
-
         out << '\n'
             << curve.quantity
             << (curve.unit.empty() ? "" : " [" + curve.unit + "]") << ", "
-            << curve.sequence << ": ";
-        if (std::isfinite(curve.reference))
-          {
-            out << "reference " << curve.reference << " ("
-                << curve.reference_name;
-            if (std::isfinite(curve.order))
-              out << ", order " << curve.order;
-            out << ")\n";
-          }
-        else
-          out << "no reference\n";
-        table.write_text(out);
+            << curve.sequence << ": " << reference_text(curve) << '\n'
+            << text_table(lines);
       }
     // Once, not for every quantity.
     out << (problems.empty() ? "" : "\n");
@@ -289,7 +415,8 @@ namespace SlipStep
   {
     std::ofstream out(file);
     out << "sequence,run,status,cells,unknowns,steps,cpu_s,memory_MB,quantity,"
-           "unit,value,reference,relative_error,order\n";
+           "unit,value,reference,relative_error,order,"
+           "reference_uncertainty,error_bound\n";
     const auto quoted = [](const std::string &text) {
       return "\"" + text + "\"";
     };
@@ -305,9 +432,51 @@ namespace SlipStep
             << text(point.summary.peak_memory) << ',' << quoted(curve.quantity)
             << ',' << curve.unit << ',' << text(point.value) << ','
             << text(curve.reference) << ',' << text(point.error) << ','
-            << text(point.order) << '\n';
+            << text(point.order) << ',' << text(curve.uncertainty) << ','
+            << text(point.error_bound) << '\n';
     if (!out.flush())
       throw RunError(file.string() +
                      ": this file cannot be written (is the disk full?)");
+  }
+
+
+
+  void write_study_json(const std::filesystem::path   &file,
+                        const std::vector<StudyCurve> &curves)
+  {
+    using json         = nlohmann::ordered_json;
+    const auto numeric = [](const double value) {
+      return std::isfinite(value) ? json(value) : json();
+    };
+    json list = json::array();
+    for (const StudyCurve &curve : curves)
+      {
+        json runs = json::array();
+        for (const StudyPoint &point : curve.points)
+          runs.push_back({{"run", point.label},
+                          {"status", point.summary.status},
+                          {"unknowns", point.summary.dofs},
+                          {"steps", point.summary.steps},
+                          {"cpu_s", point.summary.cpu_time},
+                          {"value", numeric(point.value)},
+                          {"relative_error", numeric(point.error)},
+                          {"error_bound", numeric(point.error_bound)},
+                          {"order", numeric(point.order)}});
+        const StudyPoint *cheapest = curve.cheapest(0.01);
+        list.push_back({{"quantity", curve.quantity},
+                        {"unit", curve.unit},
+                        {"sequence", curve.sequence},
+                        {"reference", numeric(curve.reference)},
+                        {"reference_from", curve.reference_name},
+                        {"reference_uncertainty", numeric(curve.uncertainty)},
+                        {"order", numeric(curve.order)},
+                        {"cheapest_for_1_percent",
+                         cheapest == nullptr ? json() : json(cheapest->label)},
+                        {"runs", runs}});
+      }
+    write_file(file,
+               json({{"version", version()}, {"curves", list}})
+                   .dump(2, ' ', false, json::error_handler_t::replace) +
+                 "\n");
   }
 } // namespace SlipStep

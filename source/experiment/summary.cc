@@ -92,6 +92,33 @@ namespace SlipStep
       return stability;
     }
 
+    // Of a mesh that is not adaptive nothing is known.
+    json mesh_error_to_json(const MeshErrorSummary &error)
+    {
+      if (error.tolerance == 0.)
+        return nullptr;
+      return {{"tolerance", error.tolerance},
+              {"last", error.last},
+              {"largest", error.largest},
+              {"at_s", error.time_of_largest},
+              {"steps_checked", error.n_checked},
+              {"steps_missed", error.n_missed}};
+    }
+
+    MeshErrorSummary mesh_error_from_json(const json &object)
+    {
+      MeshErrorSummary error;
+      if (object.is_null())
+        return error;
+      error.tolerance       = number(object, "tolerance");
+      error.last            = number(object, "last");
+      error.largest         = number(object, "largest");
+      error.time_of_largest = number(object, "at_s");
+      object.at("steps_checked").get_to(error.n_checked);
+      object.at("steps_missed").get_to(error.n_missed);
+      return error;
+    }
+
     json to_json(const Summary &summary)
     {
       json quantities = json::array();
@@ -138,6 +165,7 @@ namespace SlipStep
               {"slides", slides},
               {"quantities", quantities},
               {"stability", stability},
+              {"mesh_error", mesh_error_to_json(summary.mesh_error)},
               {"warnings", summary.warnings}};
     }
 
@@ -181,6 +209,8 @@ namespace SlipStep
       // Older files have none.
       for (const json &sliding : object.value("stability", json::array()))
         summary.stability.push_back(stability_from_json(sliding));
+      summary.mesh_error =
+        mesh_error_from_json(object.value("mesh_error", json()));
       object.at("warnings").get_to(summary.warnings);
       return summary;
     }
@@ -332,6 +362,27 @@ namespace SlipStep
     return std::string(share) +
            " % of the work is neither stored nor dissipated (balance_error in "
            "summary.json)";
+  }
+
+
+
+  std::string Summary::missed_tolerance() const
+  {
+    if (mesh_error.n_missed == 0)
+      return "";
+    char text[200];
+    std::snprintf(text,
+                  sizeof(text),
+                  "the estimated error of the mesh is %.2g at worst (t = %.4g "
+                  "s) and %.2g at the end, the tolerance is %g; it was missed "
+                  "in %llu of %llu steps looked at",
+                  mesh_error.largest,
+                  mesh_error.time_of_largest,
+                  mesh_error.last,
+                  mesh_error.tolerance,
+                  mesh_error.n_missed,
+                  mesh_error.n_checked);
+    return text;
   }
 
 

@@ -38,6 +38,7 @@ namespace SlipStep
     , first_step(control.step_size())
     , control(control)
     , marker(parameters)
+    , tolerance(parameters.refinement)
   {
     make_grid();
     setup_system();
@@ -86,6 +87,8 @@ namespace SlipStep
         row.time      = control.time();
         row.step_size = step_size;
         accept_step(totals, row);
+        if (is_marked)
+          tolerance.add(row.time, last_marked);
         observe(row);
         check_contact(totals);
         old_step    = step_size;

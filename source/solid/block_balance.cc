@@ -158,6 +158,7 @@ namespace SlipStep
     summary.rejected_steps    = control.n_rejected();
     summary.newton_iterations = n_newton_total;
     summary.linear_iterations = n_linear_total;
+    summary.mesh_error        = tolerance.summary();
     summary.warnings.clear();
     const Segment &first = programme.segments().front();
     if (load_cases[gradual].force.l2_norm() > 0. &&
@@ -180,6 +181,9 @@ namespace SlipStep
         "the mesh reached the limit set in section Block/Adaptivity: at worst " +
         std::to_string(std::llround(most_cells_wanted)) +
         " more cells were wanted than are allowed");
+    if (!summary.missed_tolerance().empty())
+      summary.warnings.push_back(summary.missed_tolerance() + ": " +
+                                 tolerance.remedy());
     if (largest_jump > 1e-3)
       {
         std::ostringstream message;

@@ -182,6 +182,7 @@ namespace SlipStep
           << change.n_refined << ',' << change.n_merged << ',' << change.n_cells
           << ',' << change.n_unknowns;
       for (const double value : {change.error,
+                                 change.error_before,
                                  change.tangential_load,
                                  change.dissipated,
                                  change.load_jump,
@@ -305,21 +306,30 @@ namespace SlipStep
     const auto write_rows = [&]() {
       if (rank != 0)
         return;
-      std::size_t n_written_rows = changes.size() - 1;
+      const std::filesystem::path file = folder / "refinement.csv";
       if (!mesh_changes.is_open())
         {
-          mesh_changes.open(folder / "refinement.csv");
+          mesh_changes.open(file);
           mesh_changes << "time_s,repeats_step,refined,merged,cells,dofs,"
-                          "estimated_error,tangential_load_N,"
+                          "estimated_error,estimated_error_before,"
+                          "tangential_load_N,"
                           "dissipated_energy_Nmm,load_jump,dissipation_jump,"
                           "equilibrium_load_jump,"
                           "equilibrium_dissipation_jump\n";
-          n_written_rows = 0;
         }
-      for (; n_written_rows < changes.size(); ++n_written_rows)
-        write_row(mesh_changes, changes[n_written_rows]);
+      else
+        {
+          std::filesystem::resize_file(file, final_bytes);
+          mesh_changes.seekp(final_bytes);
+        }
+      for (; n_final_changes < changes.size(); ++n_final_changes)
+        {
+          final_bytes = mesh_changes.tellp();
+          write_row(mesh_changes, changes[n_final_changes]);
+        }
+      --n_final_changes;
       if (!mesh_changes.flush())
-        throw RunError((folder / "refinement.csv").string() +
+        throw RunError(file.string() +
                        ": cannot be written (is the disk full?)");
     };
     const std::string failure = attempt_together(communicator, write_rows);

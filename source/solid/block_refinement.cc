@@ -24,16 +24,32 @@ namespace SlipStep
   {
     is_marked = false;
     if (parameters.refinement.type != RefinementType::adaptive ||
-        (n_repeats == 0 &&
-         steps_since_check + 1 < parameters.refinement.check_interval))
+        !is_time_to_check())
       return false;
     const MarkedCells marked = mark_cells();
+    if (!mesh_changes.empty() && std::isnan(mesh_changes.back().error))
+      {
+        mesh_changes.back().error = marked.error;
+        if (output != nullptr)
+          output->write_mesh_changes(mesh_changes);
+      }
     if (marked.n_refined == 0 ||
         n_repeats >= parameters.refinement.most_repeats)
       return false;
     ++n_repeats;
     change_mesh(marked, true, output);
     return true;
+  }
+
+
+
+  // The last mesh is looked at, too: what the run ends with has an error.
+  template <int dim>
+  bool Block<dim>::is_time_to_check() const
+  {
+    return n_repeats > 0 ||
+           steps_since_check + 1 >= parameters.refinement.check_interval ||
+           control.end_of_step() >= programme.end_time();
   }
 
 
@@ -105,7 +121,7 @@ namespace SlipStep
     change.repeats_step    = repeats_step;
     change.n_refined       = marked.n_refined;
     change.n_merged        = marked.n_merged;
-    change.error           = marked.error;
+    change.error_before    = marked.error;
     change.n_cells         = triangulation.n_global_active_cells();
     change.n_unknowns      = dof_handler.n_dofs();
     change.tangential_load = before.tangential_load[0];

@@ -173,8 +173,9 @@ namespace SlipStep
     sum_above    = Utilities::MPI::sum(sum_above, communicator);
     largest      = Utilities::MPI::max(largest, communicator);
     result.error = squared_norm > 0. ? std::sqrt(sum / squared_norm) : 0.;
-    const double allowed       = limit * n_cells;
-    const bool   is_worthwhile = sum > allowed && sum_above > 0.05 * allowed;
+    const double allowed = limit * n_cells;
+    const bool   is_worthwhile =
+      sum > allowed && sum_above > 2. * MarkedCells::slack * allowed;
 
     // Errors of smooth solutions grow with h^(p + d/2) per cell.
     const double merging = std::pow(refinement.merging_share, 2) * limit /

@@ -114,6 +114,7 @@ namespace SlipStep
     {
       const auto curves = study_curves(study, output);
       write_study_csv(output / "refinement.csv", curves);
+      write_study_json(output / "refinement.json", curves);
       std::vector<ReportedRun> runs;
       for (const StudyRun &run : study.runs())
         if (fs::exists(output / run.folder / "history.csv"))

@@ -69,7 +69,8 @@ namespace SlipStep
       "from jumps of stress, from the misfit of tractions and from the border "
       "between stick and slip, relative to the energy norm of the block. A "
       "cell is refined if its part of the error is more than if all had the "
-      "same. Between 1e-6 and 1, no unit.");
+      "same. Where limits leave more error than that, it is warned of. Between "
+      "1e-6 and 1, no unit.");
     parameters.declare(
       section + "/Merging share",
       "0.5",

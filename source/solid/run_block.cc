@@ -10,12 +10,27 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <iomanip>
+#include <sstream>
+
 namespace SlipStep
 {
   using namespace dealii;
 
   namespace
   {
+    // Of an adaptive mesh: its size, and its error in the last step looked at.
+    template <int dim>
+    std::string note(const Block<dim> &block)
+    {
+      std::ostringstream text;
+      text << block.n_cells() << " cells, mesh error " << std::setprecision(2)
+           << 100. * block.mesh_error().last << " %";
+      return text.str();
+    }
+
+
+
     template <int dim>
     void run_block_in(const BlockParameters &block_parameters,
                       const Parameters      &parameters,
@@ -45,7 +60,7 @@ namespace SlipStep
             &output,
             [&](const HistoryRow &row) {
               if (block_parameters.refinement.type == RefinementType::adaptive)
-                recorder.note = std::to_string(block.n_cells()) + " cells";
+                recorder.note = note(block);
               HistoryRow with_probes = row;
               with_probes.probes =
                 probes.values(block.contact_face(), communicator);

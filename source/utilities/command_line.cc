@@ -62,8 +62,10 @@ namespace SlipStep
          "Runs the case on the meshes and with the time steps of its section\n"
          "\"Refinement study\", each in a process of its own, and compares the\n"
          "quantities of interest (Output/Quantities): tables on the screen,\n"
-         "refinement.csv, and pictures of the error over unknowns and CPU time\n"
-         "in report.html. A run that fails is reported; the others go on. Of a\n"
+         "refinement.csv, refinement.json, and pictures of the error over\n"
+         "unknowns and CPU time in report.html. Differences that are not above\n"
+         "the reference's own uncertainty are not shown as errors, and an order\n"
+         "takes four runs. A run that fails is reported; the others go on. Of a\n"
          "sweep, choose one member with --variant. --resume keeps the runs that\n"
          "are finished and goes on with the others.\n",
          1,

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <regex>
 #include <sstream>
@@ -38,7 +40,7 @@ namespace
     "  set Faces/top = pressure programme; flat\n"
     "  set Faces/right = drive\n"
     "end\n"
-    "set Refinement study/Uniform meshes = 3\n";
+    "set Refinement study/Uniform meshes = 4\n";
 
   std::string cell(const std::string &line, const unsigned int n)
   {
@@ -81,14 +83,22 @@ TEST(Refine, finds_order_and_limit)
 
   const std::string csv    = process.read("output/strip/refinement.csv");
   const std::string force  = "friction force at 0.00002 mm";
-  const std::string finest = row(csv, "uniform 2", force);
+  const std::string finest = row(csv, "uniform 3", force);
   EXPECT_EQ(cell(finest, 2), "finished") << csv;
-  EXPECT_EQ(cell(finest, 4), std::to_string(2 * 17 * 5));
+  EXPECT_EQ(cell(finest, 4), std::to_string(2 * 33 * 9));
   EXPECT_NEAR(std::stod(cell(finest, 10)), exact_force, 1e-2 * exact_force);
   EXPECT_NEAR(std::stod(cell(finest, 11)), exact_force, 1e-3 * exact_force);
   EXPECT_NEAR(std::stod(cell(finest, 13)), 2., 0.2);
   EXPECT_GT(std::stod(cell(row(csv, "uniform 0", force), 12)),
             10. * std::stod(cell(finest, 12)));
+  // First of all a summary: quantity, runs, reference, error, order, cheapest.
+  EXPECT_TRUE(std::regex_search(
+    result.out,
+    std::regex("quantity +runs +reference +error of the finest +order +"
+               "cheapest for 1 %\n[ -]+\n +friction force at 0.00002 mm "
+               "\\[N/mm\\] +uniform +0.00[0-9]+ +0.00[0-9]+ +(1.9|2.0)[0-9] "
+               "+uniform 1 \\(")))
+    << result.out;
   // It is the same on all meshes: no order, and that is said.
   EXPECT_NE(result.out.find("because the last two values agree"),
             std::string::npos);
@@ -101,6 +111,49 @@ TEST(Refine, finds_order_and_limit)
   EXPECT_GT(summary.cpu_time, 0.);
   EXPECT_NE(process.read("output/strip/report.html").find("Convergence of the"),
             std::string::npos);
+}
+
+
+
+// What three runs cannot tell is not shown: no order, and no error of the run
+// that the reference was extrapolated from.
+TEST(Refine, shows_nothing_below_the_uncertainty_of_the_reference)
+{
+  const SlipstepProcess process;
+  process.write("strip.prm", strip);
+  const auto result = process.run(
+    {"refine", "strip.prm", "--set=Refinement study/Uniform meshes=3"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string force = "friction force at 0.00002 mm";
+  const std::string csv   = process.read("output/strip/refinement.csv");
+  const std::string fine  = row(csv, "uniform 2", force);
+  EXPECT_EQ(cell(fine, 12), "nan") << csv;
+  EXPECT_EQ(cell(fine, 13), "nan") << csv;
+  // The truth is within the uncertainty, and the bound is one.
+  const double uncertainty = std::stod(cell(fine, 14));
+  EXPECT_LT(std::abs(std::stod(cell(fine, 11)) - exact_force), uncertainty);
+  EXPECT_LT(std::abs(std::stod(cell(fine, 10)) - exact_force),
+            std::stod(cell(fine, 15)) * exact_force);
+  EXPECT_TRUE(
+    std::regex_search(result.out, std::regex("uniform 2 .* < 0.0[0-9]+ +–\n")))
+    << result.out;
+
+  // Every error that is shown is above it, here and for programs.
+  const auto object =
+    nlohmann::json::parse(process.read("output/strip/refinement.json"));
+  unsigned int n_shown = 0;
+  for (const auto &curve : object.at("curves"))
+    for (const auto &run : curve.at("runs"))
+      {
+        EXPECT_TRUE(run.at("order").is_null());
+        if (run.at("relative_error").is_null())
+          continue;
+        ++n_shown;
+        EXPECT_GT(run.at("relative_error").get<double>(),
+                  curve.at("reference_uncertainty").get<double>() /
+                    curve.at("reference").get<double>());
+      }
+  EXPECT_GT(n_shown, 0u);
 }
 
 
@@ -118,14 +171,14 @@ TEST(Refine, time_steps_against_a_finer_run)
                  "--set=Friction/overstress/Viscosity=1e3",
                  "--set=Friction/Static coefficient=0.002",
                  "--set=Refinement study/Uniform meshes=0",
-                 "--set=Refinement study/Time steps=equal steps 20, 40",
+                 "--set=Refinement study/Time steps=equal steps 10, 20, 40, 80",
                  "--set=Refinement study/Time reference=equal steps 640"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, "");
   const std::string csv   = process.read("here/refinement.csv");
   const std::string force = "friction force at 0.00002 mm";
-  const std::string fine  = row(csv, "equal steps 40", force);
-  EXPECT_EQ(cell(fine, 5), "80") << csv;
+  const std::string fine  = row(csv, "equal steps 80", force);
+  EXPECT_EQ(cell(fine, 5), "160") << csv;
   EXPECT_GT(std::stod(cell(fine, 13)), 1.5) << csv;
 }
 
@@ -169,7 +222,7 @@ TEST(Refine, refuses_a_sweep_but_takes_a_member)
   ASSERT_EQ(taken.exit_code, 0) << taken.err;
   const std::string csv = process.read("output/strip/Degree_2/refinement.csv");
   EXPECT_NEAR(
-    std::stod(cell(row(csv, "uniform 1", "friction force at 0.00002 mm"), 13)),
+    std::stod(cell(row(csv, "uniform 3", "friction force at 0.00002 mm"), 13)),
     4.,
     0.3)
     << csv;
@@ -207,5 +260,13 @@ TEST(Refine, adaptive_meshes)
   const std::string fine     = row(csv, "adaptive 0.05", quantity);
   EXPECT_EQ(cell(fine, 0), "adaptive");
   EXPECT_GT(std::stod(cell(fine, 4)), std::stod(cell(coarse, 4))) << csv;
-  EXPECT_LT(std::stod(cell(fine, 12)), std::stod(cell(coarse, 12))) << csv;
+  const auto difference = [](const std::string &line) {
+    return std::abs(std::stod(cell(line, 10)) - std::stod(cell(line, 11)));
+  };
+  EXPECT_LT(difference(fine), difference(coarse)) << csv;
+  // Adaptive values still run away from each other by as much (0.110 and
+  // 0.119 MPa): no limit is in sight, and the reference tells no errors.
+  EXPECT_EQ(cell(fine, 12), "nan");
+  EXPECT_NE(result.out.find("not seen to approach a limit"), std::string::npos)
+    << result.out;
 }

@@ -70,6 +70,7 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
   Summary summary;
   summary.slides.resize(1);
   summary.stability.resize(1);
+  summary.mesh_error.tolerance = 0.01;
   write_summary(scratch_file(), summary);
   std::ifstream in(scratch_file());
   const auto    object = nlohmann::json::parse(in);
@@ -88,10 +89,13 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                        "wall_s",   "cpu_s",          "linear_iterations",
                        "friction", "energy",         "peak_memory_MB",
                        "slides",   "quantities",     "warnings",
-                       "sessions", "stability"});
+                       "sessions", "stability",      "mesh_error"});
   has_exactly(object["friction"], {"peak", "at_displacement_mm", "final"});
   has_exactly(object["energy"],
               {"work", "stored", "dissipated", "balance_error"});
+  has_exactly(
+    object["mesh_error"],
+    {"tolerance", "last", "largest", "at_s", "steps_checked", "steps_missed"});
   has_exactly(object["slides"][0],
               {"speed_mm_per_min",
                "pressure_MPa",

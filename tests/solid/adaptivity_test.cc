@@ -243,6 +243,102 @@ TEST(Adaptivity, limit_of_cells)
 
 
 
+// Whatever keeps the mesh from being fine enough is said, with numbers.
+TEST(Adaptivity, missed_tolerance_is_told)
+{
+  const auto warning_of = [](const Settings &mesh, MeshErrorSummary &error) {
+    const auto result = run_block_case<2>(
+      make_parameters(pulled + programme(partial_slip) + adaptive + mesh));
+    EXPECT_EQ(result.failure, "");
+    error = result.summary.mesh_error;
+    EXPECT_GE(error.largest, error.last);
+    std::string missed;
+    for (const std::string &text : result.summary.warnings)
+      if (text.find("tolerance is") != std::string::npos)
+        missed += text;
+    return missed;
+  };
+
+  MeshErrorSummary  error;
+  const std::string by_levels =
+    warning_of({{"Block/Refinement", "adaptive 1"},
+                {"Block/Adaptivity/Tolerance", "0.001"}},
+               error);
+  EXPECT_NE(by_levels.find("tolerance is 0.001"), std::string::npos)
+    << by_levels;
+  EXPECT_NE(by_levels.find("'Refinement = adaptive 1' allows no finer cells"),
+            std::string::npos)
+    << by_levels;
+  EXPECT_GT(error.last, 0.001);
+  EXPECT_GT(error.n_missed, 0u);
+  EXPECT_LE(error.n_missed, error.n_checked);
+
+  const std::string by_cells =
+    warning_of({{"Block/Adaptivity/Most cells", "60"},
+                {"Block/Adaptivity/Beyond the limit", "warn"}},
+               error);
+  EXPECT_NE(by_cells.find("'Most cells'"), std::string::npos) << by_cells;
+  EXPECT_GT(error.largest, 0.01);
+
+  const std::string by_repeats =
+    warning_of({{"Block/Adaptivity/Most repeats", "0"}}, error);
+  EXPECT_NE(by_repeats.find("'Most repeats'"), std::string::npos) << by_repeats;
+
+  // With enough of everything the tolerance is met, and nothing is said.
+  EXPECT_EQ(warning_of({{"Block/Refinement", "adaptive 10"},
+                        {"Block/Adaptivity/Tolerance", "0.03"},
+                        {"Block/Adaptivity/Most repeats", "20"}},
+                       error),
+            "");
+  EXPECT_EQ(error.n_missed, 0u);
+  EXPECT_GT(error.n_checked, 10u);
+  EXPECT_LE(error.largest, 0.03 * (1. + MarkedCells::slack));
+}
+
+
+
+// The error shown beside a mesh is that of the step made on it: the one before
+// the change of the next.
+TEST(Adaptivity, error_shown_is_that_of_the_mesh_beside_it)
+{
+  unsigned int n_chained = 0;
+  run_block_case<2>(
+    make_parameters(pulled + programme(partial_slip) + adaptive +
+                    Settings{{"Block/Adaptivity/Tolerance", "0.002"}}),
+    MPI_COMM_SELF,
+    [&](const Block<2> &block) {
+      const auto &changes = block.changes_of_mesh();
+      ASSERT_GT(changes.size(), 3u);
+      for (const MeshChange &change : changes)
+        EXPECT_TRUE(std::isfinite(change.error));
+      for (unsigned int i = 1; i < changes.size(); ++i)
+        if (changes[i].repeats_step && changes[i - 1].repeats_step &&
+            changes[i].time == changes[i - 1].time)
+          {
+            ++n_chained;
+            EXPECT_EQ(changes[i].error_before, changes[i - 1].error);
+            EXPECT_LT(changes[i].error, changes[i].error_before);
+          }
+      EXPECT_EQ(changes.back().time < block.step_control().time(), true);
+      EXPECT_GT(block.mesh_error().last, 0.);
+    });
+  EXPECT_GT(n_chained, 0u);
+}
+
+
+
+// A rare check leaves out steps, but not the last one.
+TEST(Adaptivity, what_the_run_ends_with_is_looked_at)
+{
+  const auto result = run_block_case<2>(make_parameters(
+    pulled + programme(partial_slip) + adaptive +
+    Settings{{"Block/Adaptivity/Steps between checks", "1000000"}}));
+  EXPECT_EQ(result.summary.mesh_error.n_checked, 1u);
+  EXPECT_GT(result.summary.cells, 20u);
+}
+
+
+
 // Newton's method may fail after a change of the mesh: the step gets smaller,
 // the mesh stays.
 TEST(Adaptivity, failure_of_newton_makes_the_step_smaller)

@@ -21,12 +21,53 @@ namespace SlipStep
   Extrapolation richardson(const std::vector<double> &sizes,
                            const std::vector<double> &values);
 
+  /// The order that a sequence shows at its end: that of richardson(), if the
+  /// last three differences are monotone and the first two of them show it as
+  /// well, within 15 % of the larger of both. NaN else, for it takes two
+  /// differences to compute an order and a third one to see that there is one.
+  double shown_order(const std::vector<double> &sizes,
+                     const std::vector<double> &values);
+
   /// Order p of errors C h^p between two members of a sequence; NaN if
   /// undefined.
   double observed_order(const double error_1,
                         const double error_2,
                         const double h_1,
                         const double h_2);
+
+  /// A value that others are compared with, and how far it may be from the
+  /// limit of its sequence.
+  struct ReferenceValue
+  {
+    double value           = 0.; ///< NaN if there is none
+    double uncertainty     = 0.; ///< infinite if no limit is in sight
+    bool   is_extrapolated = false;
+  };
+
+  /// What a sequence tends to: Richardson's limit L, or the last value v_n if
+  /// the last three do not have one.
+  ///
+  /// If three differences show an order, L is uncertain by
+  /// \f[ U = \max(|L - L'|, |L - v_n| / 2), \f]
+  /// where L' is the limit that the sequence had without its last value: its
+  /// error is larger than that of L by the order of what both leave out, so
+  /// their difference is about the error of L' and more than that of L. The
+  /// second term is for the chance that the two agree by accident.
+  ///
+  /// Without that evidence only this is used: errors fall at least as fast as
+  /// h^q. Then v_j - v_n = C (h_j^q - h_n^q) leaves v_n within
+  /// \f[ U_n = \max_{j = n-1, n-2} \frac{|v_j - v_n|}{(h_j/h_n)^q - 1} \f]
+  /// of the limit, and L within U_n + |L - v_n|. Two differences are taken
+  /// because one may be small by accident. q is 1/2; if there are but three
+  /// values, it is half the order of L, between 1/2 and 1. If differences have
+  /// one sign and do not fall, no limit is in sight.
+  ReferenceValue extrapolated_reference(const std::vector<double> &sizes,
+                                        const std::vector<double> &values);
+
+  /// The last value as reference for the others: within |v_n - L| + U of the
+  /// limit if three differences show an order, else within U_n (see above).
+  ReferenceValue finest_reference(const std::vector<double> &sizes,
+                                  const std::vector<double> &values);
 } // namespace SlipStep
 
 #endif

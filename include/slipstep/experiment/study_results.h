@@ -4,6 +4,7 @@
 #include <slipstep/experiment/refinement_study.h>
 #include <slipstep/experiment/report_figures.h>
 #include <slipstep/experiment/summary.h>
+#include <slipstep/experiment/text_table.h>
 
 #include <filesystem>
 #include <string>
@@ -18,12 +19,19 @@ namespace SlipStep
     Summary     summary; ///< status "failed" with the reason if it did
     double      value = QuantityOfInterest::undefined;
     /// |value - reference| / |reference|, or the difference itself if the
-    /// reference is 0; NaN for a failed run and for the reference itself.
+    /// reference is 0; NaN for a failed run, and where it is not above the
+    /// reference's own uncertainty, for then it says nothing.
     double error = QuantityOfInterest::undefined;
-    /// Order of the error since the run before, in terms of the cell size, of
-    /// the mean one on adaptive meshes (n^(-1/dim) for n unknowns), or of the
-    /// time step.
+    /// Difference plus uncertainty of the reference, relative alike: the error
+    /// is below. NaN for a failed run, infinite if nothing is known.
+    double error_bound = QuantityOfInterest::undefined;
+    /// Order that the runs up to this one show by three monotone differences
+    /// (shown_order()), in terms of the cell size, of the mean one on adaptive
+    /// meshes (n^(-1/dim) for n unknowns), or of the time step; else NaN.
     double order = QuantityOfInterest::undefined;
+
+    /// "0.0123", "< 0.002", "?" if nothing is known, "–" for a failed run.
+    std::string error_text() const;
   };
 
   /// Convergence of one quantity along one sequence.
@@ -34,23 +42,39 @@ namespace SlipStep
     std::string         quantity;
     std::string         unit;
     double              reference = QuantityOfInterest::undefined;
-    std::string         reference_name; ///< where it comes from
-    /// Order of the Richardson extrapolation, NaN without one.
+    /// How far the reference may be from the truth, in units of the quantity;
+    /// see ReferenceValue.
+    double      uncertainty = QuantityOfInterest::undefined;
+    std::string reference_name; ///< where it comes from
+    /// Order that the last runs show, NaN without one.
     double                  order     = QuantityOfInterest::undefined;
     unsigned int            dimension = 3;
     std::vector<StudyPoint> points;
+
+    /// The uncertainty relative to the reference, as the errors are.
+    double relative_uncertainty() const;
+
+    /// The finest run that finished, or nullptr.
+    const StudyPoint *finest() const;
+
+    /// Of the runs whose error, and that of all finer ones, is surely at most
+    /// this (relative), the one with the least unknowns times steps, which does
+    /// not depend on what else the machine does; or nullptr.
+    const StudyPoint *cheapest(const double error) const;
   };
 
   /// Compare the runs of a study, whose folders are in @p output.
   ///
   /// Richardson's reference of the meshes comes from the uniform sequence, that
   /// of time steps from their own. If the last three values do not converge,
-  /// the finest run that finished takes its place, and its name says so.
+  /// the finest run that finished takes its place, and its name says so. How
+  /// far a finer run is from the truth is found from the sequence of its own
+  /// kind, or else from the one that it is compared with.
   std::vector<StudyCurve> study_curves(const RefinementStudy       &study,
                                        const std::filesystem::path &output);
 
-  /// deal.II's ConvergenceTable of every curve, one below the other, with the
-  /// reasons of runs that failed and the energy that is missing.
+  /// A table of what was found, one row per curve; then one table per curve,
+  /// the reasons of runs that failed, and what is doubtful about others.
   std::string study_tables(const std::vector<StudyCurve> &curves);
 
   /// Write refinement.csv: one row per quantity and run.
@@ -58,11 +82,21 @@ namespace SlipStep
   void write_study_csv(const std::filesystem::path   &file,
                        const std::vector<StudyCurve> &curves);
 
+  /// Write refinement.json: the same for programs, with the cheapest run for
+  /// an error of 1 % in every curve.
+  /// @throws RunError if the disk refuses
+  void write_study_json(const std::filesystem::path   &file,
+                        const std::vector<StudyCurve> &curves);
+
   /// Error against unknowns and against processor time, a picture per
   /// quantity, with data and scripts in @p folder.
   std::vector<Picture> draw_study(const std::filesystem::path   &folder,
                                   const std::vector<StudyCurve> &curves,
                                   std::vector<std::string>      &warnings);
+
+  /// What was found, one line per curve: quantity, runs, reference, error of
+  /// the finest run, order, cheapest run for 1 %.
+  std::vector<TableLine> study_summary(const std::vector<StudyCurve> &curves);
 
   /// The part of report.html about a study.
   std::string study_html(const std::vector<StudyCurve> &curves,

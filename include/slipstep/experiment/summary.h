@@ -43,6 +43,25 @@ namespace SlipStep
     }
   };
 
+  /// Estimated error of an adaptive mesh, of the steps that were accepted on it
+  /// and looked at; relative, in the energy norm.
+  struct MeshErrorSummary
+  {
+    double             tolerance       = 0.; ///< 0: the mesh is not adaptive
+    double             last            = 0.;
+    double             largest         = 0.;
+    double             time_of_largest = 0.; ///< [s]
+    unsigned long long n_checked       = 0;  ///< steps
+    unsigned long long n_missed        = 0;  ///< with more than the tolerance
+
+    /// For boost::serialization.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &tolerance &last &largest &time_of_largest &n_checked &n_missed;
+    }
+  };
+
   /// The content of summary.json.
   ///
   /// Of a resumed run, times add up what led to the result: sessions up to the
@@ -79,6 +98,7 @@ namespace SlipStep
     std::vector<QuantityValue> quantities;
     /// Empty without a spring.
     std::vector<StabilitySummary> stability;
+    MeshErrorSummary              mesh_error;
     std::vector<std::string>      warnings;
 
     /// Whether a slide is faster or slower than the machine allows to be
@@ -88,6 +108,10 @@ namespace SlipStep
     /// In words, which share of the work is missing in the energy balance, or
     /// "" if that is at most 1 %.
     std::string missing_energy() const;
+
+    /// In words, by how much and how often the mesh missed its tolerance, or ""
+    /// if it never did.
+    std::string missed_tolerance() const;
   };
 
   /// Write atomically (a temporary file renamed into place).

@@ -18,6 +18,7 @@
 #include <slipstep/solid/contact_face.h>
 #include <slipstep/solid/mesh_change.h>
 #include <slipstep/solid/mesh_marker.h>
+#include <slipstep/solid/mesh_tolerance.h>
 #include <slipstep/solid/tangent_system.h>
 
 #include <filesystem>
@@ -86,7 +87,7 @@ namespace SlipStep
       archive &control &old_step &n_newton_total &n_linear_total &external_work
         &largest_imbalance &largest_normal_load &contact_share
           &smallest_contact_share &steps_since_check &most_cells_wanted
-            &largest_jump &mesh_changes &mesh_is_new &solver_in_use
+            &largest_jump &mesh_changes &mesh_is_new &tolerance &solver_in_use
               &n_solver_failures &first_solver_failure;
     }
 
@@ -104,6 +105,12 @@ namespace SlipStep
     const dealii::DoFHandler<dim> &unknowns() const
     {
       return dof_handler;
+    }
+
+    /// Estimated error of the meshes of accepted steps.
+    const MeshErrorSummary &mesh_error() const
+    {
+      return tolerance.summary();
     }
 
     /// What the mesh did so far.
@@ -156,6 +163,7 @@ namespace SlipStep
 
     // Another mesh during the run.
     bool        adapt_to_trial(BlockOutput<dim> *output);
+    bool        is_time_to_check() const;
     void        adapt_after_step(BlockOutput<dim> *output);
     MarkedCells mark_cells();
     void        change_mesh(const MarkedCells &marked,
@@ -256,6 +264,7 @@ namespace SlipStep
     // Adaptivity.
     MeshMarker<dim> marker;
     MarkedCells     last_marked;
+    MeshTolerance   tolerance;
     bool            is_marked         = false;
     unsigned int    n_repeats         = 0; // of the present step
     bool            mesh_is_new       = false;

@@ -40,8 +40,9 @@ namespace SlipStep
                       const bool                     is_end_of_statement,
                       const bool                     is_end);
 
-    /// Write the last change into refinement.csv; the first time all of them,
-    /// because a run that goes on has earlier ones (all ranks take part).
+    /// Write the last change into refinement.csv, anew if it is there already;
+    /// the first time all of them, because a run that goes on has earlier ones
+    /// (all ranks take part).
     void write_mesh_changes(const std::vector<MeshChange> &changes);
 
     /// Write contact_face.csv (all ranks take part).
@@ -70,7 +71,9 @@ namespace SlipStep
     const MPI_Comm              communicator;
     const unsigned int          rank;
     unsigned int                n_written = 0;
-    std::ofstream               mesh_changes; ///< refinement.csv
+    std::ofstream               mesh_changes;        ///< refinement.csv
+    std::size_t                 n_final_changes = 0; ///< all but the last in it
+    std::uintmax_t              final_bytes     = 0; ///< of the file
 
     std::vector<std::pair<double, std::string>> volume_files, contact_files;
   };

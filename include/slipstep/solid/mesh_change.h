@@ -1,6 +1,8 @@
 #ifndef slipstep_solid_mesh_change_h
 #define slipstep_solid_mesh_change_h
 
+#include <limits>
+
 namespace SlipStep
 {
   /// A change of the mesh during a run, and what it did to the forces.
@@ -12,9 +14,12 @@ namespace SlipStep
     unsigned long long n_merged     = 0;     ///< parents of merged cells
     unsigned long long n_cells      = 0;     ///< of the new mesh
     unsigned long long n_unknowns   = 0;     ///< of the new mesh
-    double             error = 0.; ///< estimated on the old mesh, relative
-    double             tangential_load = 0.; ///< on the old mesh [N]
-    double             dissipated      = 0.; ///< on the old mesh [N mm]
+    double error_before = 0.; ///< estimated on the old mesh, relative
+    /// Estimated on the new mesh in the step made on it, relative; NaN until
+    /// that is looked at.
+    double error           = std::numeric_limits<double>::quiet_NaN();
+    double tangential_load = 0.; ///< on the old mesh [N]
+    double dissipated      = 0.; ///< on the old mesh [N mm]
     /// Integral of the traction as carried over, minus that on the old mesh,
     /// relative to the load (to a tenth of that at full slip, if more).
     double load_jump = 0.;
@@ -31,8 +36,8 @@ namespace SlipStep
     void serialize(Archive &archive, const unsigned int)
     {
       archive &time &repeats_step &n_refined &n_merged &n_cells &n_unknowns
-        &error &tangential_load &dissipated &load_jump &dissipation_jump
-          &equilibrium_load_jump &equilibrium_dissipation_jump;
+        &error_before &error &tangential_load &dissipated &load_jump &
+          dissipation_jump &equilibrium_load_jump &equilibrium_dissipation_jump;
     }
   };
 } // namespace SlipStep

@@ -15,10 +15,14 @@ namespace SlipStep
     dealii::types::global_cell_index n_refined = 0;
     /// Parents that take the place of their children.
     dealii::types::global_cell_index n_merged = 0;
-    /// Estimated error relative to the energy norm.
+    /// Estimated error relative to the energy norm, of the mesh as it is.
     double error = 0.;
     /// Cells wanted beyond the limit; 0 if it is not reached.
     double n_too_many = 0.;
+
+    /// By this share the error may exceed the tolerance before cells are
+    /// refined that may still be: they hold 5 % of the squared one at most.
+    static constexpr double slack = 0.025;
   };
 
   /// Decides which cells are refined or merged.
