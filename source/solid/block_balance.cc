@@ -147,6 +147,47 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // Subdivisions that cannot be halved leave a coarsest mesh for multigrid
+    // which is factorised in every Newton step; others nearby can. "" if it is
+    // small enough.
+    std::string warning_of_subdivisions(const BlockParameters &parameters)
+    {
+      const auto   begin = parameters.subdivisions.begin();
+      const auto   end   = begin + parameters.dimension;
+      unsigned int most = 1, factor = 1; // powers of 2
+      while (2 * most <= std::min(*std::min_element(begin, end), 8u))
+        most *= 2;
+      const auto is_divisible = [&](const unsigned int n) {
+        return n % (2 * factor) == 0;
+      };
+      while (std::all_of(begin, end, is_divisible))
+        factor *= 2;
+      double             n_coarse = parameters.dimension;
+      std::ostringstream present, better;
+      for (auto n = begin; n != end; ++n)
+        {
+          n_coarse *= 1. + *n / factor;
+          present << (n == begin ? "" : ", ") << *n;
+          better << (n == begin ? "" : ", ") << (*n + most / 2) / most * most;
+        }
+      if (n_coarse < 3000. || factor >= most)
+        return "";
+      return "the subdivisions " + present.str() +
+             " cannot be halved often enough for multigrid: its coarsest mesh "
+             "has " +
+             std::to_string(std::lround(n_coarse)) +
+             " unknowns, and they are solved directly in every iteration; "
+             "'set Subdivisions = " +
+             better.str() +
+             "' in section Block is "
+             "cheaper";
+    }
+  } // namespace
+
+
+
   template <int dim>
   void Block<dim>::fill(Summary &summary) const
   {
@@ -176,6 +217,12 @@ namespace SlipStep
     const std::string solver_warning = warning_of_solver();
     if (!solver_warning.empty())
       summary.warnings.push_back(solver_warning);
+    if (parameters.solver_for(dof_handler.n_dofs()) == SolverType::multigrid)
+      {
+        const std::string warning = warning_of_subdivisions(parameters);
+        if (!warning.empty())
+          summary.warnings.push_back(warning);
+      }
     if (most_cells_wanted > 0.)
       summary.warnings.push_back(
         "the mesh reached the limit set in section Block/Adaptivity: at worst " +

@@ -51,10 +51,12 @@ namespace
                          {"Block/Size", "10 mm, 1 mm"},
                          {"Block/Subdivisions", "8, 64"},
                          {"Block/Degree", "2"},
-                         {"Block/Poisson ratio", "0.4999"}};
+                         {"Block/Poisson ratio", "0.4999"},
+                         {"Block/Newton tolerance", "1e-8"}};
 
-  template <int dim>
-  void expect_equal(const BlockResult &result, const BlockResult &expected)
+  void expect_equal(const BlockResult &result,
+                    const BlockResult &expected,
+                    const double       tolerance)
   {
     EXPECT_EQ(result.failure, "");
     EXPECT_EQ(expected.failure, "");
@@ -62,8 +64,8 @@ namespace
     for (unsigned int i = 0; i < result.history.size(); ++i)
       {
         const HistoryRow &a = result.history[i], &b = expected.history[i];
-        ASSERT_NEAR(a.friction, b.friction, 1e-8);
-        ASSERT_NEAR(a.normal_load, b.normal_load, 1e-8 * b.normal_load);
+        ASSERT_NEAR(a.friction, b.friction, tolerance);
+        ASSERT_NEAR(a.normal_load, b.normal_load, tolerance * b.normal_load);
       }
   }
 } // namespace
@@ -128,6 +130,10 @@ TEST(Multigrid, holds_for_all_coefficients_of_friction)
     const auto   direct = problem.system(SolverType::direct);
     const Vector b      = problem.random();
     Vector       x = problem.zero(), expected = problem.zero();
+    // Within a hundred iterations, of which nearly incompressible material
+    // takes sixty for eight digits.
+    const double most_exact =
+      (problem.parameters.poisson_ratio > 0.4 ? 1e-10 : 1e-11) * b.l2_norm();
     for (const auto pattern :
          {ContactPattern::mixed, ContactPattern::slip, ContactPattern::turning})
       for (const double stiffness : {1e3, 1e6, 1e8})
@@ -147,9 +153,9 @@ TEST(Multigrid, holds_for_all_coefficients_of_friction)
                 << problem.parameters.poisson_ratio << ", pattern "
                 << static_cast<int>(pattern) << ", k " << stiffness << ", mu "
                 << coefficient;
-              system->solve(x, b, 1e-11 * b.l2_norm());
+              system->solve(x, b, most_exact);
               direct->linearise(tangent);
-              direct->solve(expected, b, 1e-11 * b.l2_norm());
+              direct->solve(expected, b, most_exact);
               x -= expected;
               EXPECT_LT(x.l2_norm(), 1e-8 * expected.l2_norm());
             }
@@ -178,7 +184,7 @@ TEST(Multigrid, slides_a_block_with_much_friction_on_stiff_contact)
                           Settings{{"Block/Solver", solver}}));
       };
       const BlockResult result = run("1", "multigrid");
-      expect_equal<2>(result, run("1", "direct"));
+      expect_equal(result, run("1", "direct"), 1e-8);
       const BlockResult little = run("0.1", "multigrid");
       EXPECT_EQ(little.failure, "");
       const auto per_newton_step = [](const Summary &summary) {
@@ -201,7 +207,7 @@ TEST(Fallback, another_solver_takes_over_and_the_summary_says_so)
   };
   const BlockResult result = run("automatic");
   EXPECT_GT(result.summary.dofs, 3000u);
-  expect_equal<2>(result, run("direct"));
+  expect_equal(result, run("direct"), 1e-6);
   ASSERT_EQ(result.summary.warnings.size(), 1u);
   EXPECT_NE(result.summary.warnings[0].find("multigrid"), std::string::npos)
     << result.summary.warnings[0];

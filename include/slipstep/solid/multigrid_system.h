@@ -205,7 +205,7 @@ namespace SlipStep
 
   // A smoothing leaves mu times the coupling of normal and tangential tractions
   // by the block, up to a half: for more than mu = 1 that is a bad smoother,
-  // and two of them are a good one.
+  // and two or three of them are a good one.
   template <int dim, int degree, typename Simd>
   unsigned int MultigridSystem<dim, degree, Simd>::smoothings_for(
     const ContactTangent<dim> &tangent) const
@@ -221,7 +221,7 @@ namespace SlipStep
     largest =
       dealii::Utilities::MPI::max(largest,
                                   levels[0].triangulation->get_communicator());
-    return largest <= 1.01 ? 1 : largest <= 2.01 ? 2 : 3;
+    return largest <= 1.01 ? 1 : largest <= 1.51 ? 2 : 3;
   }
 
 
