@@ -14,18 +14,18 @@ namespace SlipStep
 {
   using dealii::Tensor;
 
+  std::vector<std::string> face_names(const unsigned int dim)
+  {
+    return dim == 3 ?
+             std::vector<std::string>{
+               "left", "right", "front", "back", "bottom", "top"} :
+             std::vector<std::string>{"left", "right", "bottom", "top"};
+  }
+
+
+
   namespace
   {
-    std::vector<std::string> face_names(const unsigned int dim)
-    {
-      return dim == 3 ?
-               std::vector<std::string>{
-                 "left", "right", "front", "back", "bottom", "top"} :
-               std::vector<std::string>{"left", "right", "bottom", "top"};
-    }
-
-
-
     // Reads the conditions of one face, e.g. "pressure programme; drive; flat".
     class FaceReader
     {

@@ -39,6 +39,9 @@ namespace SlipStep
     direct
   };
 
+  /// "left", "right", ..., in deal.II's order.
+  std::vector<std::string> face_names(const unsigned int dim);
+
   /// When volume and contact-face fields are written.
   enum class FieldOutput
   {
