@@ -55,7 +55,8 @@ namespace SlipStep
     {
       return path == "Loading/Programme" || path == "Loading/Speed" ||
              path == "Output/Directory" || path == "Output/Fields" ||
-             begins_with(path, "Checkpoint/") || begins_with(path, "Report/") ||
+             path == "Output/Lines" || begins_with(path, "Checkpoint/") ||
+             begins_with(path, "Report/") ||
              begins_with(path, "Refinement study/");
     }
 

@@ -109,6 +109,7 @@ namespace SlipStep
                              "summary.json",
                              "report.html",
                              "refinement.csv",
+                             "lines.csv",
                              "refinement.json"})
       fs::remove(folder / name, error);
     CheckpointStore(folder).remove();

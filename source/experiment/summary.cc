@@ -165,6 +165,9 @@ namespace SlipStep
               {"slides", slides},
               {"quantities", quantities},
               {"stability", stability},
+              {"opening",
+               {{"largest_share", summary.opening.share},
+                {"at_s", summary.opening.time}}},
               {"mesh_error", mesh_error_to_json(summary.mesh_error)},
               {"warnings", summary.warnings}};
     }
@@ -211,6 +214,9 @@ namespace SlipStep
         summary.stability.push_back(stability_from_json(sliding));
       summary.mesh_error =
         mesh_error_from_json(object.value("mesh_error", json()));
+      if (object.contains("opening"))
+        summary.opening = {number(object.at("opening"), "largest_share"),
+                           number(object.at("opening"), "at_s")};
       object.at("warnings").get_to(summary.warnings);
       return summary;
     }

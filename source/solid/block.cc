@@ -1,5 +1,6 @@
 #include <slipstep/solid/block.h>
 
+#include <slipstep/experiment/sliding_path.h>
 #include <slipstep/solid/supports.h>
 #include <slipstep/utilities/exceptions.h>
 
@@ -58,6 +59,7 @@ namespace SlipStep
                        const std::function<void(const HistoryRow &)> &observe,
                        const std::function<void()> &between_steps)
   {
+    const SlidingPath path(programme);
     old_loading = programme.at(control.time());
     while (!control.is_finished())
       {
@@ -69,6 +71,7 @@ namespace SlipStep
           }
 
         const ContactTotals totals    = contact.totals(communicator);
+        const double        start     = control.time();
         const double        step_size = control.step_size();
         // On a new mesh the contact finds another equilibrium at once, however
         // short the step; the step's length was fine before.
@@ -98,9 +101,13 @@ namespace SlipStep
                                solution,
                                old_loading.displacement,
                                contact,
-                               row.time,
-                               control.is_first_of_statement(),
-                               control.is_finished());
+                               {start,
+                                row.time,
+                                path.at(start),
+                                path.at(row.time),
+                                control.n_accepted(),
+                                control.is_first_of_statement(),
+                                control.is_finished()});
         adapt_after_step(output);
         if (control.is_first_of_statement())
           begin_with_first_solver();

@@ -95,9 +95,13 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::check_contact(const ContactTotals &totals)
   {
-    largest_normal_load    = std::max(largest_normal_load, totals.normal_load);
-    contact_share          = totals.area / parameters.nominal_contact_area();
-    smallest_contact_share = std::min(smallest_contact_share, contact_share);
+    largest_normal_load = std::max(largest_normal_load, totals.normal_load);
+    contact_share       = totals.area / parameters.nominal_contact_area();
+    if (contact_share < smallest_contact_share)
+      {
+        smallest_contact_share = contact_share;
+        time_of_opening        = control.time();
+      }
     if (totals.normal_load <= 1e-6 * largest_normal_load)
       {
         std::ostringstream message;
@@ -208,12 +212,18 @@ namespace SlipStep
         "loads of the faces grow during the first statement of the programme, "
         "while the block slides; 'hold 1 s' before it, or 'at once' behind the "
         "load, lets them act before it slides");
-    if (smallest_contact_share < 0.99)
-      summary.warnings.push_back(
-        "part of the contact face lifted off the plane: at worst " +
-        std::to_string(std::lround(100. * smallest_contact_share)) +
-        " % of it stayed in contact (friction turns a block that is high for "
-        "its length)");
+    // Round-off of sums of areas opens nothing.
+    if (smallest_contact_share < 1. - 1e-9)
+      {
+        summary.opening = {1. - smallest_contact_share, time_of_opening};
+        std::ostringstream message;
+        message << "part of the contact face lifted off the plane: at worst "
+                << std::setprecision(2) << 100. * summary.opening.share
+                << " % of it was open, at t = " << std::setprecision(6)
+                << time_of_opening
+                << " s (friction turns a block that is high for its length)";
+        summary.warnings.push_back(message.str());
+      }
     const std::string solver_warning = warning_of_solver();
     if (!solver_warning.empty())
       summary.warnings.push_back(solver_warning);

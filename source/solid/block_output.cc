@@ -213,16 +213,12 @@ namespace SlipStep
                                       const Vector           &displacement,
                                       const Tensor<1, 2>     &frame,
                                       const ContactFace<dim> &contact,
-                                      const double            time,
-                                      const bool is_end_of_statement,
-                                      const bool is_end)
+                                      const FinishedStep     &step)
   {
-    if (parameters.fields == FieldOutput::none ||
-        !(is_end || (parameters.fields == FieldOutput::statements &&
-                     is_end_of_statement)))
+    if (!parameters.fields.is_due(step))
       return;
-    write_volume(dof_handler, displacement, frame, time);
-    write_contact(contact, time);
+    write_volume(dof_handler, displacement, frame, step.time);
+    write_contact(contact, step.time);
     ++n_written;
   }
 

@@ -14,18 +14,18 @@ namespace SlipStep
 {
   using dealii::Tensor;
 
+  std::vector<std::string> face_names(const unsigned int dim)
+  {
+    return dim == 3 ?
+             std::vector<std::string>{
+               "left", "right", "front", "back", "bottom", "top"} :
+             std::vector<std::string>{"left", "right", "bottom", "top"};
+  }
+
+
+
   namespace
   {
-    std::vector<std::string> face_names(const unsigned int dim)
-    {
-      return dim == 3 ?
-               std::vector<std::string>{
-                 "left", "right", "front", "back", "bottom", "top"} :
-               std::vector<std::string>{"left", "right", "bottom", "top"};
-    }
-
-
-
     // Reads the conditions of one face, e.g. "pressure programme; drive; flat".
     class FaceReader
     {
@@ -307,12 +307,7 @@ namespace SlipStep
                        Integer(2, 1000),
                        "Iterations after which the time step is cut. 2 or "
                        "more.");
-    parameters.declare("Output/Fields",
-                       "statements",
-                       Selection("none|end|statements"),
-                       "When volume and contact-face fields are written for "
-                       "ParaView: never, at the end, or at the end of every "
-                       "statement of the programme.");
+    FieldSchedule::declare_parameters(parameters);
   }
 
 
@@ -326,6 +321,7 @@ namespace SlipStep
     , poisson_ratio(parameters.number("Block/Poisson ratio"))
     , newton_tolerance(parameters.number("Block/Newton tolerance"))
     , newton_iterations(parameters.integer("Block/Newton iterations"))
+    , fields(parameters)
   {
     const auto lengths = parameters.list("Block/Size");
     const auto cells   = parameters.list("Block/Subdivisions");
@@ -453,10 +449,6 @@ namespace SlipStep
               solver_name == "amg"       ? SolverType::amg :
               solver_name == "multigrid" ? SolverType::multigrid :
                                            SolverType::automatic);
-    const std::string fields_name = parameters.text("Output/Fields");
-    fields                        = (fields_name == "none" ? FieldOutput::none :
-                                     fields_name == "end"  ? FieldOutput::end :
-                                                            FieldOutput::statements);
   }
 
 

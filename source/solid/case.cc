@@ -12,6 +12,7 @@
 #include <slipstep/friction/law.h>
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/face_probes.h>
+#include <slipstep/solid/point_lines.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 
@@ -30,6 +31,7 @@ namespace SlipStep
     BlockParameters::declare_parameters(parameters);
     declare_output_parameters(parameters);
     declare_quantities(parameters);
+    declare_lines(parameters);
     RefinementStudy::declare_parameters(parameters);
     declare_checkpoint_parameters(parameters);
     declare_calibration_parameters(parameters);
@@ -172,6 +174,7 @@ namespace SlipStep
     const StepControl     control(parameters, programme, law);
     const Machine         machine(parameters);
     check_probes(parameters, block, parse_quantities(parameters, programme));
+    parse_lines(parameters, block);
     check_report_parameters(parameters);
     check_diagnosis_parameters(parameters);
     for (const std::string &path : parameters.paths("Refinement study/"))

@@ -75,30 +75,45 @@ namespace SlipStep
                     const BlockParameters                 &block,
                     const std::vector<QuantityOfInterest> &quantities)
   {
-    const std::string  key    = "Output/Quantities";
-    const unsigned int n_axes = block.dimension - 1;
+    const std::string key = "Output/Quantities";
     for (const QuantityOfInterest &quantity : quantities)
       {
-        if (quantity.kind != QuantityOfInterest::Kind::pressure)
+        const std::string where = "'" + quantity.name + "': ";
+        const bool        is_of_face =
+          quantity.kind == QuantityOfInterest::Kind::pressure;
+        if (quantity.kind == QuantityOfInterest::Kind::moment &&
+            block.dimension == 2 && quantity.component != 2)
+          parameters.reject(key, where + "a moment in 2-D is about z");
+        if (quantity.has_component() && quantity.component >= block.dimension &&
+            quantity.kind != QuantityOfInterest::Kind::moment)
+          parameters.reject(key, where + "a block in 2-D has the axes x and y");
+        const auto faces = face_names(block.dimension);
+        if (!quantity.face.empty() &&
+            std::find(faces.begin(), faces.end(), quantity.face) == faces.end())
+          parameters.reject(key, where + "a block in 2-D has no such face");
+        if (quantity.position.empty())
           continue;
-        if (quantity.position.size() != n_axes)
+
+        const unsigned int n =
+          is_of_face ? block.dimension - 1 : block.dimension;
+        if (quantity.position.size() != n)
           parameters.reject(key,
-                            "'" + quantity.name +
-                              "': a point of the face of a "
-                              "block in " +
-                              std::to_string(block.dimension) + "-D has " +
-                              std::to_string(n_axes) +
-                              (n_axes == 1 ? " coordinate" : " coordinates"));
-        for (unsigned int i = 0; i < n_axes; ++i)
+                            where + "a point of the " +
+                              (is_of_face ? "face of a block" : "block") +
+                              " in " + std::to_string(block.dimension) +
+                              "-D has " + std::to_string(n) +
+                              (n == 1 ? " coordinate" : " coordinates"));
+        for (unsigned int i = 0; i < n; ++i)
           {
-            const unsigned int axis = block.tangential_axis(i);
+            const unsigned int axis = is_of_face ? block.tangential_axis(i) : i;
             if (quantity.position[i] >= 0. &&
                 quantity.position[i] <= block.size[axis])
               continue;
             std::ostringstream message;
-            message << "'" << quantity.name << "': along "
-                    << "xyz"[axis] << " the contact face reaches from 0 to "
-                    << block.size[axis] << " mm";
+            message << where << "along "
+                    << "xyz"[axis] << " the "
+                    << (is_of_face ? "contact face" : "block")
+                    << " reaches from 0 to " << block.size[axis] << " mm";
             parameters.reject(key, message.str());
           }
       }
@@ -134,11 +149,48 @@ namespace SlipStep
   {
     std::vector<double> result;
     for (const QuantityOfInterest &probe : probes)
-      result.push_back(
-        probe.kind == QuantityOfInterest::Kind::pressure ?
-          pressure(contact, probe.position, communicator) :
-          slip_front(contact, probe.loading_ratio, communicator));
+      if (probe.is_on_contact_face())
+        result.push_back(value(probe, contact, communicator));
     return result;
+  }
+
+
+
+  template <int dim>
+  double FaceProbes<dim>::value(const QuantityOfInterest &probe,
+                                const ContactFace<dim>   &contact,
+                                const MPI_Comm           &communicator) const
+  {
+    using Kind = QuantityOfInterest::Kind;
+    switch (probe.kind)
+      {
+        case Kind::pressure:
+          return pressure(contact, probe.position, communicator);
+        case Kind::slip_front:
+          return slip_front(contact, probe.loading_ratio, communicator);
+        default:
+          return extreme_pressure(contact,
+                                  probe.kind == Kind::largest_pressure,
+                                  communicator);
+      }
+  }
+
+
+
+  template <int dim>
+  double FaceProbes<dim>::extreme_pressure(const ContactFace<dim> &contact,
+                                           const bool              is_largest,
+                                           const MPI_Comm &communicator) const
+  {
+    const double sign    = is_largest ? 1. : -1.;
+    double       extreme = -std::numeric_limits<double>::infinity();
+    for (const auto &cell_face : contact.cell_faces())
+      for (const auto &point : cell_face.points)
+        extreme =
+          std::max(extreme,
+                   sign *
+                     std::max(point.point.committed().normal_traction, 0.));
+    return sign * Utilities::MPI::max(extreme, communicator);
   }
 
 

@@ -4,7 +4,8 @@
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/solid/attempt_together.h>
 #include <slipstep/solid/block.h>
-#include <slipstep/solid/face_probes.h>
+#include <slipstep/solid/block_probes.h>
+#include <slipstep/solid/point_lines.h>
 #include <slipstep/solid/run_checkpoints.h>
 #include <slipstep/utilities/exceptions.h>
 
@@ -47,9 +48,9 @@ namespace SlipStep
                        StepControl(parameters, programme, law),
                        communicator);
       BlockOutput<dim> output(block_parameters, options.output, communicator);
-      const FaceProbes<dim> probes(block_parameters,
-                                   programme,
-                                   parse_quantities(parameters, programme));
+      const BlockProbes<dim> probes(block_parameters,
+                                    programme,
+                                    parse_quantities(parameters, programme));
       checkpoints.resume(block, output, recorder);
       block.fill(recorder.summary);
 
@@ -62,8 +63,7 @@ namespace SlipStep
               if (block_parameters.refinement.type == RefinementType::adaptive)
                 recorder.note = note(block);
               HistoryRow with_probes = row;
-              with_probes.probes =
-                probes.values(block.contact_face(), communicator);
+              with_probes.probes     = probes.values(block, communicator);
               // A full disk hits one rank only: all must stop together.
               const std::string failure = attempt_together(communicator, [&]() {
                 recorder.record(with_probes);
@@ -78,6 +78,10 @@ namespace SlipStep
           reason = error.what();
         }
       output.write_contact_table(block.contact_face());
+      write_lines(options.output,
+                  parse_lines(parameters, block_parameters),
+                  block,
+                  communicator);
       block.fill(recorder.summary);
       const ResourceUsage usage = ResourceUsage::now();
       recorder.summary.cpu_time =

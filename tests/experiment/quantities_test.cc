@@ -103,8 +103,18 @@ TEST(Quantities, are_read)
     parse("friction force at 5 um, 0.02 mm; peak coefficient;"
           "displacement at  peak; pressure at (9.5 mm, 5 mm);"
           "pressure at 1 mm after 0.01 mm; slip front;"
-          "slip front at r = 0.9 after 0.02 mm; dissipated energy");
-  ASSERT_EQ(quantities.size(), 9u);
+          "slip front at r = 0.9 after 0.02 mm; dissipated energy;"
+          "displacement y at (1 mm, 2 mm, 3 mm); force x on left after 0.01 mm;"
+          "moment z on top; largest pressure; smallest pressure after 5 um");
+  ASSERT_EQ(quantities.size(), 14u);
+  EXPECT_EQ(quantities[9].component, 1u);
+  EXPECT_EQ(quantities[9].position, (std::vector<double>{1., 2., 3.}));
+  EXPECT_EQ(quantities[10].face, "left");
+  EXPECT_EQ(quantities[10].component, 0u);
+  EXPECT_DOUBLE_EQ(quantities[10].displacement, 0.01);
+  EXPECT_EQ(quantities[11].face, "top");
+  EXPECT_EQ(quantities[11].component, 2u);
+  EXPECT_DOUBLE_EQ(quantities[13].displacement, 0.005);
   EXPECT_EQ(quantities[0].name, "friction force at 5 um");
   EXPECT_DOUBLE_EQ(quantities[0].displacement, 0.005);
   EXPECT_EQ(quantities[1].name, "friction force at 0.02 mm");
@@ -115,7 +125,7 @@ TEST(Quantities, are_read)
   EXPECT_DOUBLE_EQ(quantities[5].displacement, 0.01);
   EXPECT_DOUBLE_EQ(quantities[6].loading_ratio, 0.99);
   EXPECT_DOUBLE_EQ(quantities[7].loading_ratio, 0.9);
-  EXPECT_EQ(probes_among(quantities).size(), 4u);
+  EXPECT_EQ(probes_among(quantities).size(), 9u);
   EXPECT_TRUE(parse("").empty());
 }
 
@@ -139,6 +149,13 @@ TEST(Quantities, wrong_ones_are_refused_in_words)
     {"slip front at 0.9", "write e.g. 'slip front at r = "},
     {"slip front at r = -1", "must be above 0"},
     {"slip front after 1 mm", "the drive moves by 0.15 mm"},
+    {"displacement at (1 mm, 2 mm)", "write e.g. 'displacement x at"},
+    {"displacement w at (1 mm, 2 mm)", "write e.g. 'displacement x at"},
+    {"displacement x", "write e.g. 'displacement x at"},
+    {"force x", "write e.g. 'force x on right"},
+    {"force x on rigth", "did you mean right"},
+    {"moment on left", "write e.g. 'moment z on right"},
+    {"largest presure", "did you mean 'largest pressure'"},
     {"peak coefficient; peak coefficient", "listed twice"}};
   for (const auto &entry : cases)
     EXPECT_NE(message(entry.first).find(entry.second), std::string::npos)

@@ -89,7 +89,8 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                        "wall_s",   "cpu_s",          "linear_iterations",
                        "friction", "energy",         "peak_memory_MB",
                        "slides",   "quantities",     "warnings",
-                       "sessions", "stability",      "mesh_error"});
+                       "sessions", "stability",      "mesh_error",
+                       "opening"});
   has_exactly(object["friction"], {"peak", "at_displacement_mm", "final"});
   has_exactly(object["energy"],
               {"work", "stored", "dissipated", "balance_error"});

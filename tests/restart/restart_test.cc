@@ -1,5 +1,7 @@
 // Stop and resume: signals, other numbers of ranks, solvers, sweeps.
 
+#include <regex>
+
 #include "restart_tools.h"
 
 using namespace SlipStep;
@@ -342,6 +344,43 @@ TEST_F(Restart, OnAnAdaptiveMeshGoesOnBitForBit)
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(history("parts") == history("whole"));
   EXPECT_EQ(changes("parts"), expected_changes);
+}
+
+
+
+// Fields are written at the same steps, and all of them are listed.
+TEST_F(Restart, OfFieldsEverySoOftenGoesOnWithTheSameCadence)
+{
+  for (const std::string every :
+       {"every 0.05 mm", "every 30 ms", "every 7 steps"})
+    {
+      SCOPED_TRACE(every);
+      const std::string folder  = every.substr(every.rfind(' ') + 1);
+      const std::string setting = "Output/Fields=" + every;
+      const auto        listed  = [&](const std::string &output) {
+        const std::string list = process.read(output + "/fields.pvd");
+        return list.substr(list.find("<VTKFile")); // a date goes before
+      };
+      ASSERT_EQ(run("whole" + folder, {"--quiet", "--set", setting}).exit_code,
+                0);
+      for (const std::size_t n_lines : {120, 220})
+        run_and_kill("parts" + folder,
+                     n_lines,
+                     {"--set", setting, "--set", often, "--resume"});
+      const auto result =
+        run("parts" + folder, {"--set", setting, "--resume", "--quiet"});
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      const std::string list = listed("whole" + folder);
+      EXPECT_EQ(listed("parts" + folder), list);
+      EXPECT_GT(std::count(list.begin(), list.end(), '\n'), 15);
+      // What is listed is there.
+      const std::regex name("file=\"([^\"]+)\"");
+      for (std::sregex_iterator it(list.begin(), list.end(), name), end;
+           it != end;
+           ++it)
+        EXPECT_TRUE(fs::exists(path("parts" + folder + "/" + (*it)[1].str())))
+          << (*it)[1];
+    }
 }
 
 

@@ -27,6 +27,11 @@ namespace SlipStep
       peak_coefficient,     ///< largest magnitude of friction
       displacement_at_peak, ///< path of the drive there [mm]
       pressure,             ///< at a point of the contact face [MPa]
+      largest_pressure,     ///< of the contact [MPa]
+      smallest_pressure,    ///< of the contact [MPa]
+      displacement,         ///< of a point of the block, in space [mm]
+      force,                ///< on the block through a face [N]
+      moment,               ///< the same about the face's centre [N mm]
       slip_front,           ///< coordinate along the sliding axis [mm]
       dissipated_energy     ///< [N mm]
     };
@@ -39,16 +44,33 @@ namespace SlipStep
     /// Path of the drive [mm]; NaN for the end of the run.
     double displacement = undefined;
     /// Of a pressure: coordinates along the axes of the contact plane [mm],
-    /// two in 3-D, one in 2-D.
+    /// two in 3-D, one in 2-D. Of a displacement: all coordinates.
     std::vector<double> position;
+    /// Of a displacement, a force or a moment: the axis, 0 to 2.
+    unsigned int component = 0;
+    /// Of a force or a moment: "left", ...
+    std::string face;
     /// Of a slip front: the loading ratio that marks it.
     double loading_ratio = 0.99;
 
-    /// Whether it is found on the contact face step by step (a column "probe_N"
-    /// of history.csv), so that a single contact point does not have it.
+    bool has_component() const
+    {
+      return kind == Kind::displacement || kind == Kind::force ||
+             kind == Kind::moment;
+    }
+
+    /// Whether it is found on the contact face alone.
+    bool is_on_contact_face() const
+    {
+      return kind == Kind::pressure || kind == Kind::largest_pressure ||
+             kind == Kind::smallest_pressure || kind == Kind::slip_front;
+    }
+
+    /// Whether it is found in the block step by step (a column "probe_N" of
+    /// history.csv), so that a single contact point does not have it.
     bool is_probe() const
     {
-      return kind == Kind::pressure || kind == Kind::slip_front;
+      return has_component() || is_on_contact_face();
     }
   };
 

@@ -62,6 +62,13 @@ namespace SlipStep
     }
   };
 
+  /// How much of the contact face was open at worst.
+  struct OpeningSummary
+  {
+    double share = 0.; ///< of the nominal area
+    double time  = 0.; ///< [s]
+  };
+
   /// The content of summary.json.
   ///
   /// Of a resumed run, times add up what led to the result: sessions up to the
@@ -99,6 +106,7 @@ namespace SlipStep
     /// Empty without a spring.
     std::vector<StabilitySummary> stability;
     MeshErrorSummary              mesh_error;
+    OpeningSummary                opening;
     std::vector<std::string>      warnings;
 
     /// Whether a slide is faster or slower than the machine allows to be

@@ -16,6 +16,7 @@
 #include <slipstep/solid/block_output.h>
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/contact_face.h>
+#include <slipstep/solid/face_action.h>
 #include <slipstep/solid/mesh_change.h>
 #include <slipstep/solid/mesh_marker.h>
 #include <slipstep/solid/mesh_tolerance.h>
@@ -88,7 +89,7 @@ namespace SlipStep
         &largest_imbalance &largest_normal_load &contact_share
           &smallest_contact_share &steps_since_check &most_cells_wanted
             &largest_jump &mesh_changes &mesh_is_new &tolerance &solver_in_use
-              &n_solver_failures &first_solver_failure;
+              &n_solver_failures &first_solver_failure &time_of_opening;
     }
 
     /// Cells, unknowns and iterations so far.
@@ -128,6 +129,25 @@ namespace SlipStep
     {
       return contact;
     }
+
+    /// At the end of the last step, ghosted, relative to the frame [mm].
+    const Vector &displacements() const
+    {
+      return old_solution;
+    }
+
+    /// Motion of the frame then, along the axes of the block [mm].
+    dealii::Tensor<1, dim> motion_of_frame() const
+    {
+      dealii::Tensor<1, dim> motion;
+      for (unsigned int i = 0; i < dim - 1; ++i)
+        motion[parameters.tangential_axis(i)] = old_loading.displacement[i];
+      return motion;
+    }
+
+    /// What acts on the block through one of its faces at the end of the step
+    /// just made; all ranks take part.
+    FaceAction action_on(const unsigned int face) const;
 
     /// Norms of the unbalanced forces in the Newton iterations of the last step
     /// tried, relative to the scale of the convergence test.
@@ -280,6 +300,7 @@ namespace SlipStep
     double largest_normal_load    = 0.;
     double contact_share          = 1.;
     double smallest_contact_share = 1.;
+    double time_of_opening        = 0.; // when it was that small [s]
   };
 } // namespace SlipStep
 

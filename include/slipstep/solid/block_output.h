@@ -36,9 +36,7 @@ namespace SlipStep
                       const Vector                  &displacement,
                       const dealii::Tensor<1, 2>    &frame,
                       const ContactFace<dim>        &contact,
-                      const double                   time,
-                      const bool                     is_end_of_statement,
-                      const bool                     is_end);
+                      const FinishedStep            &step);
 
     /// Write the last change into refinement.csv, anew if it is there already;
     /// the first time all of them, because a run that goes on has earlier ones

@@ -4,6 +4,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <slipstep/experiment/programme.h>
+#include <slipstep/solid/field_schedule.h>
 #include <slipstep/solid/loads.h>
 #include <slipstep/solid/refinement_parameters.h>
 #include <slipstep/utilities/parameters.h>
@@ -60,13 +61,8 @@ namespace SlipStep
     direct
   };
 
-  /// When volume and contact-face fields are written.
-  enum class FieldOutput
-  {
-    none,
-    end,
-    statements ///< at the end of every statement of the programme
-  };
+  /// "left", "right", ..., in deal.II's order.
+  std::vector<std::string> face_names(const unsigned int dim);
 
   /// The block: a box with lower corner at the origin.
   struct BlockParameters
@@ -88,7 +84,7 @@ namespace SlipStep
     SolverType                    solver       = SolverType::automatic;
     double                        newton_tolerance;
     unsigned int                  newton_iterations;
-    FieldOutput                   fields = FieldOutput::statements;
+    FieldSchedule                 fields; ///< when they are written
 
     static void declare_parameters(Parameters &parameters);
 

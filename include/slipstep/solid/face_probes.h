@@ -32,8 +32,14 @@ namespace SlipStep
                const Programme                       &programme,
                const std::vector<QuantityOfInterest> &quantities);
 
-    /// Values of the probes, in the order of probes_among(), for the committed
-    /// state of the face; the same on all ranks, which all take part.
+    /// Value of a probe for the committed state of the face; the same on all
+    /// ranks, which all take part.
+    double value(const QuantityOfInterest &probe,
+                 const ContactFace<dim>   &contact,
+                 const MPI_Comm           &communicator) const;
+
+    /// Values of those that are on the contact face, in the order of
+    /// probes_among().
     std::vector<double> values(const ContactFace<dim> &contact,
                                const MPI_Comm         &communicator) const;
 
@@ -41,6 +47,11 @@ namespace SlipStep
     double pressure(const ContactFace<dim>    &contact,
                     const std::vector<double> &position,
                     const MPI_Comm            &communicator) const;
+
+    /// Extreme pressure of the contact points.
+    double extreme_pressure(const ContactFace<dim> &contact,
+                            const bool              is_largest,
+                            const MPI_Comm         &communicator) const;
 
     double slip_front(const ContactFace<dim> &contact,
                       const double            loading_ratio,
