@@ -106,12 +106,9 @@ namespace SlipStep
         for (const auto &point : cell_face.points)
           add(point.position, -point.JxW * point.force);
 
-    result.force         = Utilities::MPI::sum(result.force, communicator);
-    result.moment        = Utilities::MPI::sum(result.moment, communicator);
-    const double outward = face_number % 2 == 0 ? -1. : 1.;
-    result.force += constant_share * area * face.traction;
-    if (face.has_programme_pressure)
-      result.force[face_number / 2] -= outward * loading.pressure * area;
+    result.force  = Utilities::MPI::sum(result.force, communicator);
+    result.moment = Utilities::MPI::sum(result.moment, communicator);
+    result.force += area * face.traction(load_factors);
     return result;
   }
 
