@@ -48,11 +48,11 @@ namespace SlipStep
   /// @f]
   /// is symmetric, and no eigenvalue of it is negative, whatever k,
   /// @f$\mathbf c@f$ and @f$\mathbf A@f$ are; nor is one of a sum of such
-  /// matrices with positive weights. Without coupling of n and t, which stays in
-  /// the residual, it is as stiff as the tangent: @f$\mathbf A =
-  /// \mathbf U|\mathbf A|@f$ with a rotation @f$\mathbf U@f$, so that all
-  /// singular values of @f$\mathbf A|\mathbf A|^{-1}@f$ are one. That matters
-  /// where strength depends on direction or falls with slip or speed: then the
+  /// matrices with positive weights. Without coupling of n and t, which stays
+  /// in the residual, it is as stiff as the tangent: @f$\mathbf A = \mathbf
+  /// U|\mathbf A|@f$ with a rotation @f$\mathbf U@f$, so that all singular
+  /// values of @f$\mathbf A|\mathbf A|^{-1}@f$ are one. That matters where
+  /// strength depends on direction or falls with slip or speed: then the
   /// symmetric part of @f$\mathbf A@f$ may be indefinite, too. Where
   /// @f$\mathbf A@f$ is symmetric and semidefinite, @f$|\mathbf A| =
   /// \mathbf A@f$.
