@@ -40,7 +40,7 @@
 
 #include <slipstep/solid/assembled_matrix.h>
 #include <slipstep/solid/conjugate_residuals.h>
-#include <slipstep/solid/elastic_operator.h>
+#include <slipstep/solid/elastic_operator.templates.h>
 #include <slipstep/solid/multigrid_levels.h>
 #include <slipstep/solid/preconditioner.h>
 #include <slipstep/solid/tangent_system.h>
