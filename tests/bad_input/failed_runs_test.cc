@@ -112,7 +112,7 @@ TEST(FailedRun, AFullDiskIsToldAndTheRowsBeforeAreKept)
   const SlipstepProcess process;
   process.write("case.prm", "set Loading/Speed = 2 mm/s\n");
   const auto result =
-    process.run({"point", "case.prm", "--quiet"}, "", "ulimit -f 40 &&");
+    process.run({"point", "case.prm", "--quiet"}, "", "ulimit -f 50 &&");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.err.find("is the disk full?"), std::string::npos)
     << result.err;
