@@ -321,10 +321,10 @@ namespace SlipStep
   template <int dim>
   double Block<dim>::line_search(const Vector &update, const double old_norm)
   {
-    const Vector start(solution);
-    const auto   residual_after = [&](const double share) {
-      solution = start;
-      solution.add(share, update);
+    double     taken          = 0.;
+    const auto residual_after = [&](const double share) {
+      solution.add(share - taken, update);
+      taken = share;
       solution.update_ghost_values();
       return compute_residual();
     };

@@ -17,9 +17,10 @@ namespace SlipStep
   Tensor<1, dim> Block<dim>::sum_by_component(const Vector &vector) const
   {
     Tensor<1, dim> sums;
+    const auto     first = vector.get_partitioner()->local_range().first;
     for (unsigned int d = 0; d < dim; ++d)
       for (const auto dof : dofs_of_component[d])
-        sums[d] += vector(dof);
+        sums[d] += vector.local_element(dof - first);
     return Utilities::MPI::sum(sums, communicator);
   }
 

@@ -297,7 +297,7 @@ namespace SlipStep
       "that does not converge, amg and then direct take over for the rest of "
       "the statement, with a warning.");
     parameters.declare("Block/Newton tolerance",
-                       "1e-10",
+                       "1e-8",
                        Quantity(Dimension::number, 1e-14, 1e-2),
                        "Norm of the unbalanced forces at which Newton's method "
                        "stops, relative to the contact forces. Between 1e-14 "

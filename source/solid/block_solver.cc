@@ -2,6 +2,8 @@
 
 #include <slipstep/utilities/exceptions.h>
 
+#include <malloc.h>
+
 #include <sstream>
 
 namespace SlipStep
@@ -26,6 +28,9 @@ namespace SlipStep
                                           homogeneous_constraints,
                                           relevant,
                                           contact.quadrature());
+    // What setting up needed is a tenth of all memory, in pieces too small for
+    // the vectors of the solver: the system may have it back.
+    malloc_trim(0);
   }
 
 

@@ -276,9 +276,11 @@ namespace SlipStep
   ContactTangent<dim> ContactFace<dim>::tangent() const
   {
     ContactTangent<dim> tangent;
+    tangent.reserve(faces.size());
     for (const CellFace &cell_face : faces)
       {
         tangent.push_back({cell_face.cell, {}});
+        tangent.back().values.reserve(cell_face.points.size());
         for (const QuadraturePoint &point : cell_face.points)
           tangent.back().values.push_back(point.tangent);
       }

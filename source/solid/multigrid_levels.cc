@@ -121,7 +121,8 @@ namespace SlipStep
         {
           double       share = 1.;
           unsigned int p = lexicographic[c], q = lexicographic[f];
-          for (unsigned int i = 0; i < dim - 1; ++i, p /= n_1d, q /= n_1d)
+          for (unsigned int i = 0; i < dim - 1 && share > 0.;
+               ++i, p /= n_1d, q /= n_1d)
             share *= shares[link.part[i] + 1](p % n_1d, q % n_1d);
           if (share > 0.)
             coarse[c] += share * fine[f];
@@ -220,14 +221,19 @@ namespace SlipStep
 
 
   template <int dim>
-  void MultigridLevels<dim>::release_setup_data()
+  void MultigridLevels<dim>::release_setup_data(const unsigned int l)
   {
-    for (unsigned int l = 0; l < levels.size(); ++l)
-      {
-        if (l > 0)
-          levels[l]->constraints.clear();
-        levels[l]->float_constraints.clear();
-      }
+    levels[l]->float_constraints.clear();
+    if (l == 0)
+      return;
+    levels[l]->constraints.clear();
+    if (!levels[l]->own_dof_handler)
+      return;
+    for (FaceTangent<dim> &face : levels[l]->tangent)
+      face.cell = typename Triangulation<dim>::active_cell_iterator();
+    levels[l]->own_dof_handler->clear();
+    levels[l]->dof_handler = nullptr;
+    levels[l]->triangulation.reset();
   }
 
 

@@ -28,7 +28,8 @@ namespace SlipStep
   ///
   /// The contact part is computed together with the cell that owns the face,
   /// from the same nodal values: constraints, hanging nodes and communication
-  /// come for free. Cells at the contact face share their SIMD batches.
+  /// come for free. Cells at the contact face share their SIMD batches. The
+  /// mesh is needed by the constructor only.
   /// @tparam Simd names the width
   template <int dim,
             int degree,
@@ -55,7 +56,7 @@ namespace SlipStep
 
     dealii::types::global_dof_index m() const
     {
-      return matrix_free.get_dof_handler().n_dofs();
+      return n_unknowns;
     }
 
     /// Replace the contact part.
@@ -139,6 +140,12 @@ namespace SlipStep
       std::vector<unsigned int> start_of_batch;
       std::vector<unsigned int> offsets;
 
+      bool operator==(const NodeTable &other) const
+      {
+        return start_of_batch == other.start_of_batch &&
+               offsets == other.offsets;
+      }
+
       std::size_t memory_consumption() const
       {
         return (start_of_batch.size() + offsets.size()) * sizeof(unsigned int);
@@ -148,6 +155,11 @@ namespace SlipStep
     using Tangents      = dealii::AlignedVector<Matrix>;
     using LoopOverCells = std::function<
       void(const Data &, VectorType &, const VectorType &, const Range &)>;
+
+    const NodeTable &nodes_without_constraints() const
+    {
+      return plain_nodes.start_of_batch.empty() ? nodes : plain_nodes;
+    }
 
     const Tangents &tangents_of_products() const
     {
@@ -182,16 +194,25 @@ namespace SlipStep
     void      find_face_nodes();
     unsigned int face_node(const unsigned int i) const;
 
-    const BlockParameters parameters;
-    Number                lambda, mu;
-    Data                  matrix_free;
-    NodeTable             nodes, plain_nodes;
+    const BlockParameters                 parameters;
+    const dealii::types::global_dof_index n_unknowns;
+    const bool                            with_plain_product;
+    Number                                lambda, mu;
+    Data                                  matrix_free;
+    NodeTable                             nodes;
+    NodeTable plain_nodes; // empty if like the others
 
     // Contact: of every batch of cells, the slot of its tangents or
     // invalid_unsigned_int; of every cell face (in the order of the mesh), slot
     // and lane. Tangents are times the weight of the point.
+    struct Place
+    {
+      unsigned int slot, lane;
+      double       area; // [mm^2]
+    };
+
     std::vector<unsigned int>                  slot_of_batch;
-    std::vector<Range>                         place_of_face;
+    std::vector<Place>                         place_of_face;
     unsigned int                               n_slots = 0;
     Tangents                                   tangents, definite_tangents;
     std::array<unsigned int, n_face>           face_nodes;

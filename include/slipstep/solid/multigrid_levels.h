@@ -110,8 +110,10 @@ namespace SlipStep
       return *levels[level];
     }
 
-    /// Forget the constraints of all levels but the coarsest.
-    void release_setup_data();
+    /// Forget constraints, unknowns and mesh of a level, except what the
+    /// block or the coarsest level needs: the library keeps the memory of the
+    /// finest mesh in all of them.
+    void release_setup_data(const unsigned int level);
 
     /// Take over the tangent of the contact face and average it down.
     void set_tangent(const ContactTangent<dim> &tangent);

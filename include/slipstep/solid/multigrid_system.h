@@ -157,8 +157,9 @@ namespace SlipStep
                                         levels[l].float_constraints,
                                         false);
         setup_level(l);
+        levels.release_setup_data(l - 1);
       }
-    levels.release_setup_data();
+    levels.release_setup_data(levels.n_levels() - 1);
     dealii::GrowingVectorMemory<FloatVector>::release_unused_memory();
   }
 
@@ -306,13 +307,10 @@ namespace SlipStep
   {
     matrix.initialize_dof_vector(fine_x);
     matrix.initialize_dof_vector(fine_b);
-    fine_b.copy_locally_owned_data_from(b);
     try
       {
-        const unsigned int iterations =
-          solver.solve(matrix, *this, fine_x, fine_b, tolerance, 100);
-        x.copy_locally_owned_data_from(fine_x);
-        return iterations;
+        return solver.solve(
+          matrix, *this, x, b, fine_b, fine_x, tolerance, 100);
       }
     catch (const RunError &error)
       {
