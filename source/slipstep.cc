@@ -175,6 +175,7 @@ namespace SlipStep
 
     Outcome guarded_with_mpi(const std::function<int()> &work)
     {
+      start_mpi_without_daemon();
       // MPI implementations want no arguments nowadays.
       int                                      argc = 0;
       char                                   **argv = nullptr;
