@@ -148,8 +148,17 @@ namespace SlipStep
       // "pressure 5 MPa", "pressure programme", "pressure 3 x programme".
       void read_pressure(std::string text, const bool is_sudden)
       {
+        const std::string given           = text;
+        const auto        reject_multiple = [&](const std::string &multiple) {
+          parameters.reject(path,
+                            "'" + multiple +
+                              "' is no multiple of the programme's pressure; "
+                                     "write e.g. 'pressure 3 x programme'");
+        };
         if (!take_off_end(text, "programme"))
           {
+            if (text.find("programme") != std::string::npos)
+              reject_multiple(given);
             face.tractions[is_sudden ? at_once : gradual][normal_axis] -=
               outward_sign * quantity(text, Dimension::stress);
             return;
@@ -159,17 +168,13 @@ namespace SlipStep
                             "the programme says when its pressure acts: remove "
                             "'at once'");
         set_once(has_programme_pressure, "pressure programme");
-        double            times = 1.;
-        const std::string given = text;
-        if (!given.empty())
+        double times = 1.;
+        if (!text.empty())
           {
+            const std::string multiple = text;
             if (!take_off_end(text, "x") ||
                 !dealii::Patterns::Double().match(text))
-              parameters.reject(path,
-                                "'" + given +
-                                  "' is no multiple of the programme's "
-                                  "pressure; write e.g. 'pressure 3 x "
-                                  "programme'");
+              reject_multiple(multiple);
             times = dealii::Utilities::string_to_double(text);
           }
         face.tractions[programme_pressure][normal_axis] -= outward_sign * times;
