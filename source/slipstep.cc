@@ -546,6 +546,8 @@ namespace SlipStep
           const Outcome outcome = guarded([&]() {
             if (fs::is_directory(file) || file.extension() == ".csv")
               check_tests(file, line);
+            else if (is_import_map(file))
+              check_import_map(file, line);
             else
               check_case_file(file, line);
             return done;
