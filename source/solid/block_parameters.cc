@@ -231,6 +231,26 @@ namespace SlipStep
                             "is flat already: remove 'flat'");
       }
     };
+
+
+
+    // They would go into the support, all of them.
+    void reject_loads_on_supports(const BlockParameters &block,
+                                  const Parameters      &parameters)
+    {
+      const auto names = face_names(block.dimension);
+      for (unsigned int f = 0; f < names.size(); ++f)
+        for (unsigned int d = 0; d < block.dimension; ++d)
+          if (block.faces[f].is_prescribed[d] ||
+              (block.faces[f].is_driven && d != block.normal_axis()))
+            for (const auto &traction : block.faces[f].tractions)
+              if (traction[d] != 0.)
+                parameters.reject("Block/Faces/" + names[f],
+                                  std::string("the displacement along ") +
+                                    "xyz"[d] +
+                                    " is prescribed, so a load along it "
+                                    "changes nothing: remove one of the two");
+    }
   } // namespace
 
 
@@ -401,6 +421,7 @@ namespace SlipStep
           parameters.reject("Block/Faces/" + names[f],
                             "'drive' prescribes the displacements in the "
                             "contact plane already");
+    reject_loads_on_supports(*this, parameters);
 
     bool slides = false;
     for (const Segment &segment : programme.segments())
