@@ -175,6 +175,7 @@ namespace SlipStep
 
     Outcome guarded_with_mpi(const std::function<int()> &work)
     {
+      start_mpi_without_daemon();
       // MPI implementations want no arguments nowadays.
       int                                      argc = 0;
       char                                   **argv = nullptr;
@@ -545,6 +546,8 @@ namespace SlipStep
           const Outcome outcome = guarded([&]() {
             if (fs::is_directory(file) || file.extension() == ".csv")
               check_tests(file, line);
+            else if (is_import_map(file))
+              check_import_map(file, line);
             else
               check_case_file(file, line);
             return done;

@@ -1,5 +1,7 @@
 // The main() of test executables that use MPI, alone or under mpirun. Every
 // rank runs every test; one failing rank fails the executable.
+#include <slipstep/utilities/process.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <gtest/gtest.h>
@@ -16,6 +18,7 @@ int main(int argc, char **argv)
         return RUN_ALL_TESTS();
       }
 
+  SlipStep::start_mpi_without_daemon();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   testing::InitGoogleTest(&argc, argv);
   const int failed = RUN_ALL_TESTS();

@@ -5,7 +5,9 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 
+#include <fstream>
 #include <iostream>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -23,11 +25,11 @@ namespace SlipStep
 
 
 
-    std::vector<Job> read_jobs(const CommandLine &line)
+    std::vector<Job> read_jobs(const fs::path &file, const CommandLine &line)
     {
       Parameters as_written;
       declare_import_parameters(as_written);
-      as_written.read(line.files.front());
+      as_written.read(file);
       const auto with_settings = [&](Parameters map) {
         for (const auto &setting : line.settings)
           map.set(setting.first, setting.second, "--set");
@@ -45,8 +47,8 @@ namespace SlipStep
                             variant.folder});
         }
       if (!line.variant.empty() && jobs.empty())
-        throw InputError("--variant " + line.variant + ": " +
-                         line.files.front().string() + " has no such variant" +
+        throw InputError("--variant " + line.variant + ": " + file.string() +
+                         " has no such variant" +
                          did_you_mean(line.variant, labels));
       if (jobs.empty())
         jobs.push_back({with_settings(as_written), ""});
@@ -90,9 +92,38 @@ namespace SlipStep
 
 
 
+  bool is_import_map(const fs::path &file)
+  {
+    std::ifstream stream(file);
+    std::string   text;
+    while (std::getline(stream, text))
+      {
+        std::istringstream words(text);
+        std::string        first, second;
+        words >> first >> second;
+        if ((first == "subsection" &&
+             (second == "Raw" || second == "Columns")) ||
+            (first == "set" && second.rfind("Columns/", 0) == 0))
+          return true;
+      }
+    return false;
+  }
+
+
+
+  void check_import_map(const fs::path &file, const CommandLine &line)
+  {
+    const std::size_t n_tests = read_jobs(file, line).size();
+    if (!line.quiet)
+      std::cout << file.string() << ": OK, a map for slipstep import, "
+                << n_tests << (n_tests == 1 ? " test" : " tests") << std::endl;
+  }
+
+
+
   int import_tests(const CommandLine &line)
   {
-    const std::vector<Job> jobs = read_jobs(line);
+    const std::vector<Job> jobs = read_jobs(line.files.front(), line);
     if (jobs.size() > 1 && line.files.size() > 1 &&
         !fs::is_directory(line.files[1]))
       throw InputError(line.files[1].string() +

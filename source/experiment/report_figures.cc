@@ -433,7 +433,9 @@ namespace SlipStep
                                      std::vector<std::string>      &warnings)
   {
     std::vector<Picture> pictures;
-    if (runs.empty())
+    if (std::all_of(runs.begin(), runs.end(), [](const RunResults &run) {
+          return curve(run).empty();
+        }))
       return pictures;
     pictures.push_back(friction_picture(folder, runs, reference, warnings));
     add_zoom_picture(folder, runs, reference, pictures, warnings);

@@ -145,6 +145,12 @@ namespace SlipStep
       message << "the block tips over: only "
               << std::round(100. * contact_share)
               << " % of its face is still in contact (" << failure << ")";
+    else if (control.time() == 0.)
+      message << "not even the beginning of the loads is in equilibrium: they "
+                 "lift the block or tip it over, or, if they do hold it on the "
+                 "plane, more Block/Newton iterations than "
+              << parameters.newton_iterations << " may help (" << failure
+              << ")";
     else
       message << failure;
     return message.str();

@@ -148,8 +148,17 @@ namespace SlipStep
       // "pressure 5 MPa", "pressure programme", "pressure 3 x programme".
       void read_pressure(std::string text, const bool is_sudden)
       {
+        const std::string given           = text;
+        const auto        reject_multiple = [&](const std::string &multiple) {
+          parameters.reject(path,
+                            "'" + multiple +
+                              "' is no multiple of the programme's pressure; "
+                                     "write e.g. 'pressure 3 x programme'");
+        };
         if (!take_off_end(text, "programme"))
           {
+            if (text.find("programme") != std::string::npos)
+              reject_multiple(given);
             face.tractions[is_sudden ? at_once : gradual][normal_axis] -=
               outward_sign * quantity(text, Dimension::stress);
             return;
@@ -159,17 +168,13 @@ namespace SlipStep
                             "the programme says when its pressure acts: remove "
                             "'at once'");
         set_once(has_programme_pressure, "pressure programme");
-        double            times = 1.;
-        const std::string given = text;
-        if (!given.empty())
+        double times = 1.;
+        if (!text.empty())
           {
+            const std::string multiple = text;
             if (!take_off_end(text, "x") ||
                 !dealii::Patterns::Double().match(text))
-              parameters.reject(path,
-                                "'" + given +
-                                  "' is no multiple of the programme's "
-                                  "pressure; write e.g. 'pressure 3 x "
-                                  "programme'");
+              reject_multiple(multiple);
             times = dealii::Utilities::string_to_double(text);
           }
         face.tractions[programme_pressure][normal_axis] -= outward_sign * times;
@@ -226,6 +231,26 @@ namespace SlipStep
                             "is flat already: remove 'flat'");
       }
     };
+
+
+
+    // They would go into the support, all of them.
+    void reject_loads_on_supports(const BlockParameters &block,
+                                  const Parameters      &parameters)
+    {
+      const auto names = face_names(block.dimension);
+      for (unsigned int f = 0; f < names.size(); ++f)
+        for (unsigned int d = 0; d < block.dimension; ++d)
+          if (block.faces[f].is_prescribed[d] ||
+              (block.faces[f].is_driven && d != block.normal_axis()))
+            for (const auto &traction : block.faces[f].tractions)
+              if (traction[d] != 0.)
+                parameters.reject("Block/Faces/" + names[f],
+                                  std::string("the displacement along ") +
+                                    "xyz"[d] +
+                                    " is prescribed, so a load along it "
+                                    "changes nothing: remove one of the two");
+    }
   } // namespace
 
 
@@ -396,6 +421,7 @@ namespace SlipStep
           parameters.reject("Block/Faces/" + names[f],
                             "'drive' prescribes the displacements in the "
                             "contact plane already");
+    reject_loads_on_supports(*this, parameters);
 
     bool slides = false;
     for (const Segment &segment : programme.segments())

@@ -68,6 +68,16 @@ namespace SlipStep
 
 
 
+  // Whoever has set the variable keeps its value. Other MPI implementations do
+  // not know it.
+  void start_mpi_without_daemon()
+  {
+    if (!is_under_mpirun())
+      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  }
+
+
+
   SignalGuard::SignalGuard(const bool is_patient)
   {
     caught_signal = 0;

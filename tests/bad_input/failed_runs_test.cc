@@ -73,6 +73,27 @@ TEST(FailedRun, ATippingBlockIsToldAndKept)
 
 
 
+// Three times the pressure from the side turns it over at once.
+TEST(FailedRun, LoadsThatNothingHoldsAreTold)
+{
+  const SlipstepProcess process;
+  process.write("case.prm",
+                "set Loading/Programme = press 5 MPa in 1 s\n"
+                "set Friction/Effects =\n"
+                "set Friction/Static coefficient = 0.1\n"
+                "set Block/Subdivisions = 2, 2, 2\n"
+                "set Block/Degree = 1\n"
+                "set Block/Faces/right = pressure 3 x programme\n");
+  const auto result = process.run({"run", "case.prm"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
+  EXPECT_NE(result.err.find("tip it over"), std::string::npos) << result.err;
+  EXPECT_NE(process.read("output/case/report.html").find("tip it over"),
+            std::string::npos);
+}
+
+
+
 TEST(FailedRun, LossOfPressureIsToldAndKept)
 {
   const SlipstepProcess process;

@@ -81,6 +81,27 @@ TEST(MeasuredTests, WarningsAreShownAndRightFilesDescribed)
 
 
 
+TEST(MeasuredTests, MapsCanBeChecked)
+{
+  const SlipstepProcess process;
+  process.write("paths.prm", map);
+  process.write("sections.prm",
+                "subsection Columns\n  set Time = t in s\nend\n"
+                "subsection Variants\n  subsection a\n"
+                "    set Raw file/Name = a.txt\n  end\n"
+                "  subsection b\n    set Raw file/Name = b.txt\n  end\nend\n");
+  const auto result = process.run({"check", "paths.prm", "sections.prm"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out,
+            "paths.prm: OK, a map for slipstep import, 1 test\n"
+            "sections.prm: OK, a map for slipstep import, 2 tests\n");
+  process.write("wrong.prm", map + "set Columns/Tine = t in s\n");
+  expect_refusal(process.run({"check", "wrong.prm"}),
+                 {"wrong.prm:4", "Columns/Tine", "Columns/Time"});
+}
+
+
+
 TEST(MeasuredTests, WrongFoldersAreRefused)
 {
   const SlipstepProcess process;

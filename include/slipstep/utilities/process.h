@@ -15,6 +15,10 @@ namespace SlipStep
   /// How many processes mpirun has started; 1 without it.
   unsigned int n_launched();
 
+  /// A process that mpirun did not start needs no daemon, which Open MPI would
+  /// start for it; before MPI_Init.
+  void start_mpi_without_daemon();
+
   /// While one lives, SIGINT and SIGTERM do not end the process but are
   /// remembered, so that files can be completed first. The same signal a second
   /// time ends it at once, unless @p is_patient. SIGUSR1 asks for a checkpoint.
