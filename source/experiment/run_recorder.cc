@@ -29,7 +29,7 @@ namespace SlipStep
     getrusage(RUSAGE_SELF, &process);
     for (const timeval &time : {process.ru_utime, process.ru_stime})
       usage.cpu_time += time.tv_sec + 1e-6 * time.tv_usec;
-    usage.peak_memory = process.ru_maxrss / 1024.;
+    usage.peak_memory = process.ru_maxrss * 1024. / 1e6;
     return usage;
   }
 

@@ -503,10 +503,10 @@ namespace SlipStep
 
   double BlockParameters::least_memory(const double n_unknowns) const
   {
-    // Mesh, vectors and matrix-free data of a run take 470 bytes per unknown of
+    // Mesh, vectors and matrix-free data of a run take 344 bytes per unknown of
     // Q2 elements, and more of Q1.
     if (solver_for(n_unknowns) == SolverType::multigrid)
-      return n_unknowns * 470. / 1e6;
+      return n_unknowns * 350. / 1e6;
     return memory_of_matrix(n_unknowns);
   }
 

@@ -253,18 +253,17 @@ namespace SlipStep
   {
     std::vector<types::global_dof_index> dofs(
       dof_handler->get_fe().dofs_per_cell);
+    std::vector<Tensor<1, dim>> weighted(face_quadrature.size());
     for (const CellFace &cell_face : faces)
       {
         cell_face.cell->get_dof_indices(dofs);
+        for (unsigned int q = 0; q < weighted.size(); ++q)
+          weighted[q] = cell_face.points[q].JxW * cell_face.points[q].force;
         for (const ShapeFunction &function : shape_functions)
           {
             double sum = 0.;
-            for (unsigned int q = 0; q < function.values.size(); ++q)
-              {
-                const QuadraturePoint &point = cell_face.points[q];
-                sum += function.values[q] * point.force[function.component] *
-                       point.JxW;
-              }
+            for (unsigned int q = 0; q < weighted.size(); ++q)
+              sum += function.values[q] * weighted[q][function.component];
             forces(dofs[function.dof]) += sum;
           }
       }

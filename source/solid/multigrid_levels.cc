@@ -5,9 +5,12 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
 
+#include <deal.II/distributed/tria.h>
+
 #include <deal.II/fe/fe_q.h>
 
 #include <deal.II/grid/cell_id.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <deal.II/multigrid/mg_transfer_global_coarsening.h>
 
@@ -55,6 +58,23 @@ namespace SlipStep
         if (cell->is_locally_owned() && cell->at_boundary(face))
           result.push_back({cell, std::vector<Tensor<2, dim>>(n_points)});
       return result;
+    }
+
+
+
+    // The library makes coarser meshes from copies, which keep the memory of
+    // the finest one.
+    template <int dim>
+    std::shared_ptr<const Triangulation<dim>>
+    coarsest_mesh(const Triangulation<dim> &triangulation)
+    {
+      const auto [vertices, cells, faces] =
+        GridTools::get_coarse_mesh_description(triangulation);
+      const auto mesh =
+        std::make_shared<parallel::distributed::Triangulation<dim>>(
+          triangulation.get_communicator());
+      mesh->create_triangulation(vertices, cells, faces);
+      return mesh;
     }
   } // namespace
 
@@ -166,9 +186,11 @@ namespace SlipStep
     : parameters(parameters)
     , quadrature(parameters.degree + 1)
   {
-    const auto meshes =
+    auto meshes =
       MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(
         dof_handler.get_triangulation());
+    if (meshes.size() > 1)
+      meshes.front() = coarsest_mesh(dof_handler.get_triangulation());
     if (parameters.degree > 1)
       add_level(meshes.front(), 1);
     for (unsigned int l = 0; l + 1 < meshes.size(); ++l)

@@ -198,6 +198,7 @@ TEST(Solvers, agree_for_a_whole_run)
       results.push_back(run_block_case<dim>(make_parameters(
         settings +
         Settings{{"Block/Solver", solver},
+                 {"Block/Newton tolerance", "1e-10"},
                  {"Time stepping/Tolerance", "1e-3"},
                  {"Time stepping/Least steps per statement", "3"}})));
     for (const BlockResult &result : results)
