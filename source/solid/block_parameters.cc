@@ -328,7 +328,7 @@ namespace SlipStep
                        "stops, relative to the contact forces. Between 1e-14 "
                        "and 0.01, no unit.");
     parameters.declare("Block/Newton iterations",
-                       "20",
+                       "40",
                        Integer(2, 1000),
                        "Iterations after which the time step is cut. 2 or "
                        "more.");
@@ -503,7 +503,7 @@ namespace SlipStep
 
   double BlockParameters::least_memory(const double n_unknowns) const
   {
-    // Mesh, vectors and matrix-free data of a run take 344 bytes per unknown of
+    // Mesh, vectors and matrix-free data of a run take 347 bytes per unknown of
     // Q2 elements, and more of Q1.
     if (solver_for(n_unknowns) == SolverType::multigrid)
       return n_unknowns * 350. / 1e6;

@@ -203,7 +203,7 @@ TEST(Solvers, direct_and_amg_agree)
 
 TEST(Newton, converges_quadratically)
 {
-  const auto result = run_block_case<3>(make_parameters(
+  const auto   result   = run_block_case<3>(make_parameters(
     slide + two_cells + Settings{{"Block/Newton tolerance", "1e-10"}}));
   unsigned int n_judged = 0;
   for (const auto &norms : result.newton_residuals)
