@@ -17,6 +17,7 @@ namespace SlipStep
 
     const std::string mesh_key      = "Block/Refinement";
     const std::string tolerance_key = "Block/Adaptivity/Tolerance";
+    const std::string goal_key      = "Block/Adaptivity/Goal";
 
     /// A kind of time steps: how a study names it, and the key that it varies.
     struct StepKind
@@ -52,16 +53,6 @@ namespace SlipStep
       return make_run("uniform " + level, {{mesh_key, "uniform " + level}});
     }
 
-    /// A mesh that the run refines until its estimated error is small enough.
-    StudyRun adaptive_mesh(const Parameters  &parameters,
-                           const std::string &tolerance)
-    {
-      return make_run(
-        "adaptive " + tolerance,
-        {{mesh_key, "adaptive " + parameters.text(section + "Adaptive levels")},
-         {tolerance_key, tolerance}});
-    }
-
     /// Say what is wrong with a value, as Parameters::set would.
     void check_value(const Parameters  &parameters,
                      const std::string &study_key,
@@ -76,6 +67,19 @@ namespace SlipStep
         {
           parameters.reject(study_key, error.what());
         }
+    }
+
+    /// A mesh that the run refines until its estimated error is small enough.
+    StudyRun adaptive_mesh(const Parameters  &parameters,
+                           const std::string &tolerance)
+    {
+      const std::string goal = parameters.text(section + "Adaptive goal");
+      check_value(parameters, section + "Adaptive goal", goal_key, goal);
+      return make_run(
+        "adaptive " + tolerance,
+        {{mesh_key, "adaptive " + parameters.text(section + "Adaptive levels")},
+         {goal_key, goal},
+         {tolerance_key, tolerance}});
     }
 
     double number_in(const std::string &text)
@@ -159,6 +163,11 @@ namespace SlipStep
                        Integer(1, 10),
                        "How often these may halve the cells of section Block, "
                        "see Block/Refinement. 1 to 10.");
+    parameters.declare(section + "Adaptive goal",
+                       "energy",
+                       Anything(),
+                       "What they are to be good for, as "
+                       "Block/Adaptivity/Goal.");
     parameters.declare(
       section + "Mesh reference",
       "Richardson",

@@ -79,14 +79,20 @@ namespace SlipStep
   template <int dim>
   MarkedCells Block<dim>::mark_cells()
   {
-    const auto errors =
+    auto errors =
       ErrorIndicator<dim>(parameters)
         .squared_errors(dof_handler, solution, contact, load_factors);
+    const GoalWeight<dim> goal(parameters);
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        errors[cell->active_cell_index()] *= goal.of(cell);
     try
       {
         last_marked = marker.mark(triangulation,
                                   errors,
-                                  2. * elastic_energy(),
+                                  goal.squared_norm(contact,
+                                                    elastic_energy(),
+                                                    communicator),
                                   dof_handler.n_dofs(),
                                   least_level);
       }

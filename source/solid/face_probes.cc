@@ -67,6 +67,40 @@ namespace SlipStep
                    (nodes.point(nearest)[0] - nodes.point(i)[0]);
       return value;
     }
+
+
+
+    // Where a curve through points passes a level between points i-1 and i: on
+    // the cubic through them and the next on both sides, so that the place is
+    // as good as the curve.
+    double crossing(const std::vector<std::pair<double, double>> &curve,
+                    const std::size_t                             i,
+                    const double                                  level)
+    {
+      const std::size_t begin  = i >= 2 ? i - 2 : i - 1;
+      const std::size_t end    = std::min(i + 2, curve.size());
+      const auto        excess = [&](const double x) {
+        double sum = -level;
+        for (std::size_t k = begin; k < end; ++k)
+          {
+            double value = curve[k].second;
+            for (std::size_t l = begin; l < end; ++l)
+              if (l != k)
+                value *=
+                  (x - curve[l].first) / (curve[k].first - curve[l].first);
+            sum += value;
+          }
+        return sum;
+      };
+      double     lower = curve[i - 1].first, upper = curve[i].first;
+      const bool rises = curve[i].second > curve[i - 1].second;
+      for (unsigned int bisection = 0; bisection < 60; ++bisection)
+        {
+          const double middle = 0.5 * (lower + upper);
+          ((excess(middle) < 0.) == rises ? lower : upper) = middle;
+        }
+      return 0.5 * (lower + upper);
+    }
   } // namespace
 
 
@@ -301,9 +335,7 @@ namespace SlipStep
         const double after  = profile[i].second - loading_ratio;
         if ((before < 0.) == (after < 0.))
           continue;
-        const double distance =
-          profile[i - 1].first +
-          (profile[i].first - profile[i - 1].first) * before / (before - after);
+        const double distance = crossing(profile, i, loading_ratio);
         return slides_backward ? parameters.size[along] - distance : distance;
       }
     return QuantityOfInterest::undefined;

@@ -127,6 +127,7 @@ namespace SlipStep
   MeshMarker<dim>::MeshMarker(const BlockParameters &parameters)
     : parameters(parameters)
     , refinement(this->parameters.refinement)
+    , goal(parameters)
   {}
 
 
@@ -173,9 +174,9 @@ namespace SlipStep
     sum_above    = Utilities::MPI::sum(sum_above, communicator);
     largest      = Utilities::MPI::max(largest, communicator);
     result.error = squared_norm > 0. ? std::sqrt(sum / squared_norm) : 0.;
-    const double allowed = limit * n_cells;
-    const bool   is_worthwhile =
-      sum > allowed && sum_above > 2. * MarkedCells::slack * allowed;
+    const double allowed       = limit * n_cells;
+    const bool   is_worthwhile = squared_norm > 0. && sum > allowed &&
+                               sum_above > 2. * MarkedCells::slack * allowed;
 
     // Errors of smooth solutions grow with h^(p + d/2) per cell.
     const double merging = std::pow(refinement.merging_share, 2) * limit /
@@ -186,8 +187,8 @@ namespace SlipStep
         cell->clear_coarsen_flag();
         if (error_of(cell) > threshold && cell->level() < finest)
           cell->set_refine_flag();
-        else if (error_of(cell) < merging &&
-                 cell->level() > static_cast<int>(least_level))
+        else if (cell->level() > static_cast<int>(least_level) &&
+                 error_of(cell) * goal.growth(cell) < merging)
           cell->set_coarsen_flag();
       });
       settle_flags(triangulation, result);

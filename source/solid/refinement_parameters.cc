@@ -1,5 +1,6 @@
 #include <slipstep/solid/refinement_parameters.h>
 
+#include <slipstep/solid/mesh_goal.h>
 #include <slipstep/utilities/nearest_name.h>
 
 #include <unistd.h>
@@ -62,12 +63,21 @@ namespace SlipStep
       "merged during the run, at most N times finer than the subdivisions, 1 "
       "to 10 (see section Adaptivity).");
     parameters.declare(
+      section + "/Goal",
+      "energy",
+      Selection("energy|contact"),
+      "What the mesh is to be good for, and of what the tolerance is the error: "
+      "'energy' is the stress in the whole block, in the energy norm; 'contact' "
+      "is the traction on the contact face, in the L2 norm, so that a cell "
+      "counts the less the farther it is from the plane: for pressures at edges "
+      "and corners of the face, also in 3-D.");
+    parameters.declare(
       section + "/Tolerance",
       "0.01",
       Quantity(Dimension::number, 1e-6, 1.),
-      "Error at which the mesh is fine enough, as estimated in the energy norm "
-      "from jumps of stress, from the misfit of tractions and from the border "
-      "between stick and slip, relative to the energy norm of the block. A "
+      "Error at which the mesh is fine enough, as estimated from jumps of "
+      "stress, from the misfit of tractions and from the border between stick "
+      "and slip, in the norm of the goal and relative to it. A "
       "cell is refined if its part of the error is more than if all had the "
       "same. Where limits leave more error than that, it is warned of. Between "
       "1e-6 and 1, no unit.");
@@ -119,6 +129,8 @@ namespace SlipStep
     , most_cells(parameters.number(section + "/Most cells"))
     , most_memory(parameters.number(section + "/Most memory"))
     , stop_at_cap(parameters.text(section + "/Beyond the limit") == "stop")
+    , goal(parameters.text(section + "/Goal") == "contact" ? MeshGoal::contact :
+                                                             MeshGoal::energy)
   {
     std::istringstream words(parameters.text(kind_key));
     std::string        kind, rest;

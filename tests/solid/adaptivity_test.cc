@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 using namespace SlipStep;
@@ -175,6 +176,55 @@ TEST(Adaptivity, mesh_follows_the_slip_front)
             EXPECT_LT(front, 25.);
           }
       });
+}
+
+
+
+// Cells for the contact face are at its edges, whichever face it is; the other
+// edges of the block are as they were.
+TEST(Adaptivity, contact_goal_leaves_the_driven_face_alone)
+{
+  for (const std::string contact : {"bottom", "top"})
+    {
+      const std::string other = contact == "top" ? "bottom" : "top";
+      const auto        sizes = [&](const std::string &goal) {
+        std::array<double, 2> smallest{{10., 10.}}; // there, at the other face
+        const auto            result = run_block_case<2>(
+          make_parameters(
+            programme("press 5 MPa in 1 s; slide 1 mm/s for 0.001 mm") +
+            Settings{{"Block/Dimension", "2"},
+                     {"Block/Size", "10 mm, 10 mm"},
+                     {"Block/Subdivisions", "4, 4"},
+                     {"Block/Degree", "2"},
+                     {"Block/Faces/" + contact, "contact"},
+                     {"Block/Faces/" + other, "pressure programme; drive"},
+                     {"Friction/Normal stiffness", "1e6"},
+                     {"Friction/Tangential stiffness", "1e6"},
+                     {"Time stepping/Equal steps per statement", "3"},
+                     {"Block/Refinement", "adaptive 5"},
+                     {"Block/Adaptivity/Goal", goal},
+                     {"Block/Adaptivity/Tolerance", "0.02"}}),
+          MPI_COMM_SELF,
+          [&](const Block<2> &block) {
+            for (const auto &cell :
+                 block.unknowns().get_triangulation().active_cell_iterators())
+              for (const unsigned int f : {2, 3})
+                if (cell->at_boundary(f))
+                  {
+                    double &size =
+                      smallest[(f == 3) == (contact == "top") ? 0 : 1];
+                    size = std::min(size, cell->face(f)->measure());
+                  }
+            EXPECT_LE(block.mesh_error().last, 0.0205);
+          });
+        EXPECT_EQ(result.failure, "");
+        return smallest;
+      };
+      const auto energy = sizes("energy"), aimed = sizes("contact");
+      EXPECT_LT(energy[1], 1.) << contact;
+      EXPECT_GT(aimed[1], 1.) << contact;
+      EXPECT_LT(aimed[0], 0.4) << contact;
+    }
 }
 
 

@@ -143,6 +143,46 @@ TEST(FaceProbes, slip_front_of_a_strip)
 
 
 
+// Contact points that lie on a known curve: the place is as good as the curve,
+// not as a straight line between two points.
+TEST(FaceProbes, slip_front_of_a_curve)
+{
+  const auto error_with = [](const std::string &n_cells) {
+    const Parameters parameters = make_parameters(
+      plane + Settings{{"Block/Subdivisions", n_cells + ", 1"},
+                       {"Loading/Programme",
+                        "press 5.8 MPa in 1 s; slide 1 mm/s "
+                        "for 0.00001 mm"},
+                       {"Output/Quantities", "slip front at r = 0.7"}});
+    const Programme programme = parse_programme(parameters);
+    double          error     = 0.;
+    run_block_case<2>(parameters, MPI_COMM_SELF, [&](const Block<2> &block) {
+      ContactFace<2> contact = block.contact_face();
+      for (unsigned int i = 0; i < contact.cell_faces().size(); ++i)
+        {
+          std::vector<ContactState> states;
+          for (const auto &point : contact.cell_faces()[i].points)
+            {
+              states.push_back(point.point.committed());
+              states.back().loading_ratio =
+                0.5 + 0.5 * std::tanh(point.position[0] - 6.3);
+            }
+          contact.set_states(i, states);
+        }
+      const FaceProbes<2> probes(BlockParameters(parameters, programme),
+                                 programme,
+                                 parse_quantities(parameters, programme));
+      error = std::abs(probes.values(contact, MPI_COMM_SELF)[0] - 6.3 -
+                       std::atanh(0.4));
+    });
+    return error;
+  };
+  EXPECT_LT(error_with("20"), 1e-3);
+  EXPECT_LT(error_with("40"), 1e-4);
+}
+
+
+
 TEST(FaceProbes, no_slip_front_where_nothing_slips)
 {
   const auto values = probes_at_end<2>(make_parameters(

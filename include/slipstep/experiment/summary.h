@@ -44,7 +44,7 @@ namespace SlipStep
   };
 
   /// Estimated error of an adaptive mesh, of the steps that were accepted on it
-  /// and looked at; relative, in the energy norm.
+  /// and looked at; relative, in the norm of the goal.
   struct MeshErrorSummary
   {
     double             tolerance       = 0.; ///< 0: the mesh is not adaptive

@@ -3,7 +3,7 @@
 
 #include <deal.II/distributed/tria.h>
 
-#include <slipstep/solid/block_parameters.h>
+#include <slipstep/solid/mesh_goal.h>
 
 #include <vector>
 
@@ -15,7 +15,7 @@ namespace SlipStep
     dealii::types::global_cell_index n_refined = 0;
     /// Parents that take the place of their children.
     dealii::types::global_cell_index n_merged = 0;
-    /// Estimated error relative to the energy norm, of the mesh as it is.
+    /// Estimated relative error in the norm of the goal, of the mesh as it is.
     double error = 0.;
     /// Cells wanted beyond the limit; 0 if it is not reached.
     double n_too_many = 0.;
@@ -29,10 +29,11 @@ namespace SlipStep
   ///
   /// If the estimated error is more than the tolerance, all cells shall have
   /// about the same error: a cell of N is refined if its squared error is more
-  /// than tolerance^2 |u|^2 / N, where |u| is the energy norm. This is not done
-  /// for a few cells that hold next to nothing of the error. A cell is merged
-  /// with its siblings if the parent, with 2^(p+d/2) times their error, stays
-  /// well below the bound, so that the mesh does not flutter.
+  /// than tolerance^2 |u|^2 / N, where |u| is the norm of the goal. This is not
+  /// done for a few cells that hold next to nothing of the error. A cell is
+  /// merged with its siblings if the parent, with 2^(p+d/2) times their error,
+  /// and with the weight that the goal gives it, stays well below the bound, so
+  /// that the mesh does not flutter.
   template <int dim>
   class MeshMarker
   {
@@ -40,8 +41,8 @@ namespace SlipStep
     explicit MeshMarker(const BlockParameters &parameters);
 
     /// Set the flags of a mesh, instead of those it has.
-    /// @param squared_errors by active cell index [N mm]
-    /// @param squared_norm of the solution in the energy norm [N mm]
+    /// @param squared_errors by active cell index, in the norm of the goal
+    /// @param squared_norm of the solution
     /// @param n_unknowns on this mesh
     /// @param least_level below which nothing is merged
     /// @throws RunError if the limit is passed and the case says "stop"
@@ -57,6 +58,7 @@ namespace SlipStep
 
     const BlockParameters       parameters;
     const RefinementParameters &refinement;
+    const GoalWeight<dim>       goal;
   };
 } // namespace SlipStep
 

@@ -16,6 +16,9 @@ namespace SlipStep
     adaptive ///< where the solution asks for it, during the run
   };
 
+  /// What an adaptive mesh is to be good for, see mesh_goal.h.
+  enum class MeshGoal : int;
+
   /// `set Refinement = none | uniform N | adaptive N`, and the section that
   /// belongs to the last of them.
   struct RefinementParameters
@@ -25,8 +28,8 @@ namespace SlipStep
     unsigned int levels = 0;
 
     // Adaptive only.
-    /// Estimated error of the block in the energy norm, relative to its energy
-    /// norm, for which cells are refined.
+    /// Estimated error for which cells are refined, relative, in the norm of
+    /// the goal.
     double tolerance = 0.;
     /// Cells are merged if the expected error of their parent is below this
     /// share of that for which it would be refined.
@@ -36,6 +39,7 @@ namespace SlipStep
     double       most_cells     = 0.;
     double       most_memory    = 0.; ///< [MB]
     bool         stop_at_cap    = true;
+    MeshGoal     goal;
 
     static void declare_parameters(Parameters &parameters);
 
