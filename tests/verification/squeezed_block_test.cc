@@ -59,6 +59,7 @@ namespace
                              {"Block/Subdivisions", "32, 32"},
                              {"Block/Young modulus", "130 GPa"},
                              {"Block/Poisson ratio", "0.2"},
+                             {"Block/Newton tolerance", "1e-10"},
                              {"Time stepping/Equal steps per statement", "5"},
                              {"Block/Faces/left", "pressure 3 x programme"},
                              {"Block/Faces/right", "displacement x 0 mm"},
