@@ -27,6 +27,7 @@
 #include <slipstep/utilities/parameters.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <sys/prctl.h>
 
@@ -102,9 +103,7 @@ namespace SlipStep
         }
       catch (const dealii::StandardExceptions::ExcIO &)
         {
-          return {
-            run_failed,
-            "a file of the results cannot be written (is the disk full?)"};
+          return {run_failed, write_failure("a file of the results").what()};
         }
       catch (const dealii::ExceptionBase &error)
         {
@@ -663,7 +662,7 @@ int main(int argc, char **argv)
   SlipStep::Outcome outcome = SlipStep::dispatch(argc, argv);
   if (!std::cout.flush() && outcome.exit_code == SlipStep::done)
     outcome = {SlipStep::run_failed,
-               "the output cannot be written (is the disk full?)"};
+               SlipStep::write_failure("the output").what()};
   // Under mpirun every rank finds the same errors in the input.
   if (!outcome.message.empty() && SlipStep::launched_rank() == 0)
     std::cerr << outcome.message << std::endl;

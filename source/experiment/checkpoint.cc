@@ -1,21 +1,22 @@
 #include <slipstep/experiment/checkpoint.h>
 
 #include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/step_control.h>
 #include <slipstep/experiment/summary.h>
-#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/process.h>
 #include <slipstep/utilities/version.h>
+#include <slipstep/utilities/write_file.h>
 
+#include <deal.II/base/utilities.h>
+
+#include <boost/algorithm/string/erase.hpp>
 #include <boost/crc.hpp>
 
 #include <nlohmann/json.hpp>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
+#include <iostream>
 
 namespace SlipStep
 {
@@ -29,6 +30,12 @@ namespace SlipStep
     constexpr unsigned int manifest_format = 4;
 
     const char *const manifest_name = "manifest.json";
+
+
+
+    const char *const remedy =
+      "; run without --resume to start anew, or give another folder with "
+      "--output";
 
 
 
@@ -48,16 +55,18 @@ namespace SlipStep
 
 
 
-    // What may differ without a consequence for the history, in which
-    // quantities have columns. Speed is part of the programme, which is
-    // compared as a whole.
-    bool is_irrelevant(const std::string &path)
+    // Quantities have columns in the history.
+    bool has_a_say_in_history(const std::string &path,
+                              const Parameters  &parameters,
+                              const std::string &command)
     {
-      return path == "Loading/Programme" || path == "Loading/Speed" ||
-             path == "Output/Directory" || path == "Output/Fields" ||
-             path == "Output/Lines" || begins_with(path, "Checkpoint/") ||
-             begins_with(path, "Report/") ||
-             begins_with(path, "Refinement study/");
+      const std::vector<std::string> idle = StepControl::idle_keys(parameters);
+      if (std::find(idle.begin(), idle.end(), path) != idle.end())
+        return false;
+      return begins_with(path, "Loading/") ||
+             begins_with(path, "Time stepping/") ||
+             begins_with(path, "Friction/") || path == "Output/Quantities" ||
+             (command == "run" && begins_with(path, "Block/"));
     }
 
 
@@ -83,15 +92,24 @@ namespace SlipStep
 
 
 
-    // "1 cm" is "10 mm".
+    // "1 cm" is "10 mm", "0.10" is "0.1", "a, b" is "a,b".
     bool is_same_value(const Parameters::Entry &entry, const std::string &other)
     {
-      if (entry.value == other)
+      const auto without_blanks = [](std::string text) {
+        boost::erase_all(text, " ");
+        return text;
+      };
+      if (without_blanks(entry.value) == without_blanks(other))
         return true;
-      const auto *quantity =
-        dynamic_cast<const Quantity *>(entry.pattern.get());
-      return quantity != nullptr && quantity->match(other) &&
-             quantity->value(entry.value) == quantity->value(other);
+      const auto *pattern = entry.pattern.get();
+      if (const auto *quantity = dynamic_cast<const Quantity *>(pattern))
+        return quantity->match(other) &&
+               quantity->value(entry.value) == quantity->value(other);
+      return dynamic_cast<const dealii::Patterns::Double *>(pattern) !=
+               nullptr &&
+             pattern->match(other) &&
+             dealii::Utilities::string_to_double(entry.value) ==
+               dealii::Utilities::string_to_double(other);
     }
   } // namespace
 
@@ -120,11 +138,13 @@ namespace SlipStep
 
 
 
-  CaseIdentity::CaseIdentity(const Parameters &parameters)
+  CaseIdentity::CaseIdentity(const Parameters  &parameters,
+                             const std::string &command)
     : programme(checksum_of(parse_programme(parameters)))
   {
     for (const std::string &path : parameters.paths())
-      values.emplace_back(path, parameters.text(path));
+      if (has_a_say_in_history(path, parameters, command))
+        values.emplace_back(path, parameters.text(path));
   }
 
 
@@ -132,26 +152,18 @@ namespace SlipStep
   void CaseIdentity::require_same(const Parameters  &parameters,
                                   const std::string &owner) const
   {
-    const std::string remedy =
-      "; run without --resume to start anew, or give another folder with "
-      "--output";
     const auto refuse = [&](const std::string &path, const std::string &value) {
       parameters.reject(path, owner + " has '" + value + "'" + remedy);
     };
 
+    // These are compared as a whole, by what they say.
     std::string programme_text, speed;
     for (const auto &value : values)
-      {
-        if (value.first == "Loading/Programme")
-          programme_text = value.second;
-        if (value.first == "Loading/Speed")
-          speed = value.second;
-      }
-    const std::vector<std::string> paths = parameters.paths();
-    for (const auto &value : values)
-      if (!is_irrelevant(value.first) &&
-          std::find(paths.begin(), paths.end(), value.first) != paths.end() &&
-          !is_same_value(parameters.entry(value.first), value.second))
+      if (value.first == "Loading/Programme")
+        programme_text = value.second;
+      else if (value.first == "Loading/Speed")
+        speed = value.second;
+      else if (!is_same_value(parameters.entry(value.first), value.second))
         refuse(value.first, value.second);
 
     if (checksum_of(parse_programme(parameters)) == programme)
@@ -171,32 +183,6 @@ namespace SlipStep
 
   namespace
   {
-    [[noreturn]] void fail(const fs::path &file, const int error)
-    {
-      throw RunError(file.string() + ": cannot be written (" +
-                     (error == ENOSPC || error == EFBIG || error == EDQUOT ?
-                        "is the disk full?" :
-                        std::strerror(error)) +
-                     ")");
-    }
-
-
-
-    // Renamed files are safe only when their folder is, too.
-    void synchronise(const fs::path &path)
-    {
-      const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-      if (descriptor < 0)
-        fail(path, errno);
-      const int error = ::fsync(descriptor) == 0 ? 0 : errno;
-      ::close(descriptor);
-      // Some file systems cannot do this with folders.
-      if (error != 0 && error != EINVAL)
-        fail(path, error);
-    }
-
-
-
     // @return false if the file is shorter or cannot be read
     bool compute_checksum(const fs::path      &file,
                           const std::uintmax_t bytes,
@@ -369,7 +355,7 @@ namespace SlipStep
                                       json::error_handler_t::replace)
             << std::endl;
         if (!out)
-          fail(file, ENOSPC);
+          throw write_failure(file);
       }
       synchronise(file);
     }
@@ -475,7 +461,7 @@ namespace SlipStep
     std::error_code error;
     fs::remove_all(next, error);
     if (!fs::create_directory(next, error))
-      fail(next, error.value());
+      throw write_failure(next, error.value());
     return next;
   }
 
@@ -495,11 +481,11 @@ namespace SlipStep
         fs::remove_all(previous, error);
         fs::rename(present, previous, error);
         if (error)
-          fail(previous, error.value());
+          throw write_failure(previous, error.value());
       }
     fs::rename(next, present, error);
     if (error)
-      fail(present, error.value());
+      throw write_failure(present, error.value());
     present_is_damaged = false;
     synchronise(present.parent_path());
   }
@@ -525,33 +511,73 @@ namespace SlipStep
 
   // ----------------------------------------------------------------- resume
 
+  namespace
+  {
+    // A checkpoint may be whole where the summary is not.
+    std::optional<Summary> find_summary(const fs::path &folder)
+    {
+      const fs::path file = folder / "summary.json";
+      if (!fs::exists(file))
+        return {};
+      try
+        {
+          return read_summary(file);
+        }
+      catch (const InputError &error)
+        {
+          if (launched_rank() == 0)
+            std::cerr << "warning: " << error.what() << std::endl;
+          return {};
+        }
+    }
+
+
+
+    // What fields and lines there are is no part of the history.
+    void require_finished_case(const fs::path    &folder,
+                               const Parameters  &parameters,
+                               Parameters         used,
+                               const std::string &command)
+    {
+      const std::string owner = "the finished run in " + folder.string();
+      try
+        {
+          used.read(folder / "used_parameters.prm");
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(std::string(error.what()) + ": whether " + owner +
+                           " is of this case cannot be told" + remedy);
+        }
+      // Left out is what the run had no use for.
+      for (const std::string &path : used.paths())
+        if (!used.is_set(path))
+          used.set(path, parameters.text(path), "");
+      CaseIdentity identity(used, command);
+      if (command == "run")
+        for (const char *path : {"Output/Fields", "Output/Lines"})
+          identity.values.emplace_back(path, used.text(path));
+      identity.require_same(parameters, owner);
+    }
+  } // namespace
+
+
+
   EarlierRun find_earlier_run(const fs::path    &folder,
                               const Parameters  &parameters,
                               const Parameters  &declared,
                               const std::string &command)
   {
-    const fs::path summary_file = folder / "summary.json";
-    if (fs::exists(summary_file))
+    const std::optional<Summary> summary = find_summary(folder);
+    if (summary && summary->command != command)
+      throw InputError("--resume: " + folder.string() +
+                       " holds results of slipstep " + summary->command +
+                       ", not of slipstep " + command +
+                       "; give another folder with --output");
+    if (summary && summary->status == "finished")
       {
-        const Summary summary = read_summary(summary_file);
-        if (summary.command != command)
-          throw InputError("--resume: " + folder.string() +
-                           " holds results of slipstep " + summary.command +
-                           ", not of slipstep " + command +
-                           "; give another folder with --output");
-        if (summary.status == "finished")
-          {
-            Parameters used = declared;
-            used.read(folder / "used_parameters.prm");
-            // Left out is what the run had no use for.
-            for (const std::string &path : used.paths())
-              if (!used.is_set(path))
-                used.set(path, parameters.text(path), "");
-            CaseIdentity(used).require_same(parameters,
-                                            "the finished run in " +
-                                              folder.string());
-            return EarlierRun::finished;
-          }
+        require_finished_case(folder, parameters, declared, command);
+        return EarlierRun::finished;
       }
     return CheckpointStore(folder).check(parameters) ? EarlierRun::stopped :
                                                        EarlierRun::none;

@@ -1,6 +1,7 @@
 #include <slipstep/experiment/history.h>
 
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <algorithm>
 #include <array>
@@ -79,11 +80,6 @@ namespace SlipStep
 
     constexpr std::size_t most_probes = 99;
 
-    std::string probe_name(const std::size_t i)
-    {
-      return "probe_" + std::to_string(i + 1);
-    }
-
     std::size_t index_of(const ContactMemory &memory)
     {
       const auto all = ContactState::memories();
@@ -98,19 +94,22 @@ namespace SlipStep
 
 
 
+  std::string probe_name(const std::size_t i)
+  {
+    return "probe_" + std::to_string(i + 1);
+  }
+
+
+
   HistoryWriter::HistoryWriter(const std::filesystem::path      &file,
-                               const std::string                &name,
                                const std::vector<ContactMemory> &memories,
-                               const std::vector<std::string>   &probes)
+                               const std::size_t                 n_probes)
     : out(file)
     , file(file)
     , memories(memories)
   {
     if (!out)
       throw InputError(file.string() + ": this file cannot be written");
-    out << "# name: " << name << "\n# source: simulated by slipstep\n";
-    for (std::size_t i = 0; i < probes.size(); ++i)
-      out << "# " << probe_name(i) << ": " << probes[i] << '\n';
     const char *separator = "";
     for (const Column &column : columns())
       {
@@ -119,12 +118,11 @@ namespace SlipStep
       }
     for (const ContactMemory &memory : memories)
       out << ',' << memory.name;
-    for (std::size_t i = 0; i < probes.size(); ++i)
+    for (std::size_t i = 0; i < n_probes; ++i)
       out << ',' << probe_name(i);
     out << '\n' << std::flush;
     if (!out)
-      throw RunError(file.string() +
-                     ": this file cannot be written (is the disk full?)");
+      throw write_failure(file);
     size = out.tellp();
   }
 
@@ -165,11 +163,11 @@ namespace SlipStep
     if (!out)
       {
         // What there is of this row would make the file unreadable.
+        const int reason = errno;
         out.close();
         std::error_code error;
         std::filesystem::resize_file(file, size, error);
-        throw RunError(file.string() +
-                       ": a row cannot be written (is the disk full?)");
+        throw write_failure(file, reason);
       }
     size += line.size() + 1;
   }

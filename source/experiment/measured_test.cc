@@ -3,6 +3,7 @@
 #include <slipstep/experiment/test_rows.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <unistd.h>
 
@@ -300,7 +301,6 @@ namespace SlipStep
     if (out && !error)
       return;
     std::filesystem::remove(temporary, error);
-    throw RunError(file.string() +
-                   ": this file cannot be written (is the disk full?)");
+    throw write_failure(file);
   }
 } // namespace SlipStep

@@ -4,6 +4,7 @@
 
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -43,8 +44,7 @@ namespace SlipStep
     relocated_case(parameters, folder)
       .print(out, Parameters::Format::prm, omitted_sections);
     if (!out.flush())
-      throw RunError((folder / "used_parameters.prm").string() +
-                     ": cannot be written (is the disk full?)");
+      throw write_failure(folder / "used_parameters.prm");
   }
 
 
@@ -101,22 +101,16 @@ namespace SlipStep
     inactive.insert(options.inactive_sections.begin(),
                     options.inactive_sections.end());
     write_used_parameters(parameters, options.output, inactive);
-    write_summary(options.output / "summary.json", summary);
-    std::vector<std::string> probes;
     if (command == "run")
       for (const QuantityOfInterest &probe : probes_among(quantities))
-        probes.push_back(probe.name);
+        summary.probes.push_back(probe.name);
     else if (!machine.is_rigid())
-      probes = Machine::probe_names();
+      summary.probes = Machine::probe_names();
+    write_summary(options.output / "summary.json", summary);
     const std::filesystem::path file = options.output / "history.csv";
     if (resumed == nullptr)
       {
-        writer =
-          HistoryWriter(file,
-                        summary.case_name +
-                          (options.label.empty() ? "" : ", " + options.label),
-                        law.memories(),
-                        probes);
+        writer = HistoryWriter(file, law.memories(), summary.probes.size());
         return;
       }
     writer  = HistoryWriter(file, resumed->history.bytes, law.memories());

@@ -435,8 +435,7 @@ namespace SlipStep
             << text(point.order) << ',' << text(curve.uncertainty) << ','
             << text(point.error_bound) << '\n';
     if (!out.flush())
-      throw RunError(file.string() +
-                     ": this file cannot be written (is the disk full?)");
+      throw write_failure(file);
   }
 
 

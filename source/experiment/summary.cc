@@ -126,6 +126,9 @@ namespace SlipStep
         quantities.push_back({{"name", quantity.name},
                               {"value", quantity.value},
                               {"unit", quantity.unit}});
+      json probes = json::object();
+      for (std::size_t i = 0; i < summary.probes.size(); ++i)
+        probes[probe_name(i)] = summary.probes[i];
       json slides = json::array();
       for (const SlideSummary &slide : summary.slides)
         slides.push_back(slide_to_json(slide));
@@ -164,6 +167,7 @@ namespace SlipStep
                 {"balance_error", summary.balance_error}}},
               {"slides", slides},
               {"quantities", quantities},
+              {"probes", probes},
               {"stability", stability},
               {"opening",
                {{"largest_share", summary.opening.share},
@@ -210,6 +214,8 @@ namespace SlipStep
                                       number(quantity, "value"),
                                       quantity.at("unit").get<std::string>()});
       // Older files have none.
+      for (const json &probe : object.value("probes", json::object()))
+        summary.probes.push_back(probe.get<std::string>());
       for (const json &sliding : object.value("stability", json::array()))
         summary.stability.push_back(stability_from_json(sliding));
       summary.mesh_error =
@@ -243,10 +249,10 @@ namespace SlipStep
       {
         return from_json(json::parse(in));
       }
-    catch (const json::exception &error)
+    catch (const json::exception &)
       {
         throw InputError(file.string() +
-                         ": not a summary of slipstep: " + error.what());
+                         ": this file is damaged, or no summary of slipstep");
       }
   }
 

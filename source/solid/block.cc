@@ -101,6 +101,7 @@ namespace SlipStep
                                solution,
                                old_loading.displacement,
                                contact,
+                               load_factors,
                                {start,
                                 row.time,
                                 path.at(start),

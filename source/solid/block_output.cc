@@ -1,8 +1,9 @@
 #include <slipstep/solid/block_output.h>
 
 #include <slipstep/solid/attempt_together.h>
+#include <slipstep/solid/error_indicator.h>
 #include <slipstep/utilities/csv.h>
-#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -115,14 +116,19 @@ namespace SlipStep
 
 
 
+    const char *const squared_error = "squared_error_Nmm";
+
+
+
     // Surface patches of the contact face, for all formats of deal.II. Values
     // at the corners come from the quadrature points by projection.
     template <int dim>
     class ContactPatches : public DataOutInterface<dim - 1, dim>
     {
     public:
-      explicit ContactPatches(const ContactFace<dim> &contact)
-        : names({"slips"})
+      ContactPatches(const ContactFace<dim>       &contact,
+                     const dealii::Vector<double> &squared_errors)
+        : names({"slips", squared_error})
       {
         const auto fields = face_fields(contact.friction_law());
         for (const FaceField &field : fields)
@@ -137,6 +143,8 @@ namespace SlipStep
         for (const auto &cell_face : contact.cell_faces())
           {
             DataOutBase::Patch<dim - 1, dim> patch;
+            // Left to its default, the patch is written without a cell.
+            patch.reference_cell = ReferenceCells::get_hypercube<dim - 1>();
             patch.n_subdivisions = 1;
             patch.patch_index    = patches.size();
             patch.data.reinit(names.size(), n_corners);
@@ -144,13 +152,15 @@ namespace SlipStep
             for (unsigned int v = 0; v < n_corners; ++v)
               {
                 patch.vertices[v] = face->vertex(v);
+                patch.data(1, v) =
+                  squared_errors[cell_face.cell->active_cell_index()];
                 for (unsigned int q = 0; q < n_points; ++q)
                   {
                     const auto  &point  = cell_face.points[q];
                     const double weight = to_corners(v, q);
                     patch.data(0, v) += point.slips ? weight : 0.;
                     for (unsigned int i = 0; i < fields.size(); ++i)
-                      patch.data(1 + i, v) +=
+                      patch.data(2 + i, v) +=
                         weight * fields[i].value(point.point.committed());
                   }
               }
@@ -213,22 +223,29 @@ namespace SlipStep
                                       const Vector           &displacement,
                                       const Tensor<1, 2>     &frame,
                                       const ContactFace<dim> &contact,
+                                      const LoadFactors      &loads,
                                       const FinishedStep     &step)
   {
     if (!parameters.fields.is_due(step))
       return;
-    write_volume(dof_handler, displacement, frame, step.time);
-    write_contact(contact, step.time);
+    const std::vector<double> errors =
+      ErrorIndicator<dim>(parameters)
+        .squared_errors(dof_handler, displacement, contact, loads);
+    const dealii::Vector<double> squared_errors(errors.begin(), errors.end());
+    write_volume(dof_handler, displacement, squared_errors, frame, step.time);
+    write_contact(contact, squared_errors, step.time);
     ++n_written;
   }
 
 
 
   template <int dim>
-  void BlockOutput<dim>::write_volume(const DoFHandler<dim> &dof_handler,
-                                      const Vector          &displacement,
-                                      const Tensor<1, 2>    &frame,
-                                      const double           time)
+  void
+  BlockOutput<dim>::write_volume(const DoFHandler<dim>        &dof_handler,
+                                 const Vector                 &displacement,
+                                 const dealii::Vector<double> &squared_errors,
+                                 const Tensor<1, 2>           &frame,
+                                 const double                  time)
   {
     Tensor<1, dim> motion;
     for (unsigned int i = 0; i < dim - 1; ++i)
@@ -246,50 +263,62 @@ namespace SlipStep
       std::vector<DataComponentInterpretation::DataComponentInterpretation>(
         dim, DataComponentInterpretation::component_is_part_of_vector));
     data_out.add_data_vector(displacement, stress);
+    data_out.add_data_vector(squared_errors,
+                             squared_error,
+                             DataOut<dim>::type_cell_data);
     data_out.build_patches(parameters.degree);
-    write_collection("fields",
-                     volume_files,
-                     time,
-                     data_out.write_vtu_with_pvtu_record(folder.string() + "/",
-                                                         "fields",
-                                                         n_written,
-                                                         communicator,
-                                                         4));
+    const bool has_cells = dof_handler.n_locally_owned_dofs() > 0;
+    write_patches("fields", data_out, has_cells, volume_files, time);
   }
 
 
 
   template <int dim>
-  void BlockOutput<dim>::write_contact(const ContactFace<dim> &contact,
-                                       const double            time)
+  void
+  BlockOutput<dim>::write_contact(const ContactFace<dim>       &contact,
+                                  const dealii::Vector<double> &squared_errors,
+                                  const double                  time)
   {
-    const ContactPatches<dim> patches(contact);
-    write_collection("contact",
-                     contact_files,
-                     time,
-                     patches.write_vtu_with_pvtu_record(folder.string() + "/",
-                                                        "contact",
-                                                        n_written,
-                                                        communicator,
-                                                        4));
+    const ContactPatches<dim> patches(contact, squared_errors);
+    const bool                has_cells = !contact.cell_faces().empty();
+    write_patches("contact", patches, has_cells, contact_files, time);
   }
 
 
 
+  // A rank without patches would write a file without points, which other
+  // programs cannot read.
   template <int dim>
-  void BlockOutput<dim>::write_collection(
+  template <int patch_dim>
+  void BlockOutput<dim>::write_patches(
     const std::string                           &name,
+    const DataOutInterface<patch_dim, dim>      &patches,
+    const bool                                   has_patches,
     std::vector<std::pair<double, std::string>> &entries,
-    const double                                 time,
-    const std::string                           &file) const
+    const double                                 time) const
   {
-    entries.emplace_back(time, file);
+    constexpr unsigned int n_digits = 4;
+    MPI_Comm               those_with_patches;
+    MPI_Comm_split(communicator,
+                   has_patches ? 0 : MPI_UNDEFINED,
+                   rank,
+                   &those_with_patches);
+    if (has_patches)
+      {
+        patches.write_vtu_with_pvtu_record(
+          folder.string() + "/", name, n_written, those_with_patches, n_digits);
+        MPI_Comm_free(&those_with_patches);
+      }
+    entries.emplace_back(time,
+                         name + "_" +
+                           Utilities::int_to_string(n_written, n_digits) +
+                           ".pvtu");
     if (rank != 0)
       return;
     std::ofstream out(folder / (name + ".pvd"));
     DataOutBase::write_pvd_record(out, entries);
     if (!out.flush())
-      throw RunError("cannot write " + (folder / (name + ".pvd")).string());
+      throw write_failure(folder / (name + ".pvd"));
   }
 
 
@@ -325,8 +354,7 @@ namespace SlipStep
         }
       --n_final_changes;
       if (!mesh_changes.flush())
-        throw RunError(file.string() +
-                       ": cannot be written (is the disk full?)");
+        throw write_failure(file);
     };
     const std::string failure = attempt_together(communicator, write_rows);
     if (!failure.empty())
@@ -382,7 +410,7 @@ namespace SlipStep
       for (unsigned int i = 0; i < row.size(); ++i)
         out << exact_text(row[i]) << (i + 1 < row.size() ? ',' : '\n');
     if (!out.flush())
-      throw RunError("cannot write " + (folder / "contact_face.csv").string());
+      throw write_failure(folder / "contact_face.csv");
   }
 
 

@@ -5,6 +5,7 @@
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/units.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -117,8 +118,6 @@ namespace SlipStep
       return;
     const std::string  axes = "xyz";
     std::ostringstream text;
-    for (std::size_t i = 0; i < lines.size(); ++i)
-      text << "# line " << i + 1 << ": " << lines[i].name << '\n';
     text << "line,distance_mm";
     for (const std::string kind : {"", "displacement_"})
       for (unsigned int d = 0; d < dim; ++d)
@@ -153,8 +152,7 @@ namespace SlipStep
       std::ofstream out(file);
       out << text.str();
       if (!out.flush())
-        throw RunError(file.string() +
-                       ": cannot be written (is the disk full?)");
+        throw write_failure(file);
     });
     if (!failure.empty())
       throw RunError(failure);

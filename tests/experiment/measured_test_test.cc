@@ -262,7 +262,7 @@ TEST(MeasuredTest, AHistoryReadsAsATest)
 {
   const auto    file     = test_folder() / "as_test.csv";
   const auto    memories = ContactState::memories();
-  HistoryWriter writer(file, "simulated", {memories.begin(), memories.end()});
+  HistoryWriter writer(file, {memories.begin(), memories.end()});
   HistoryRow    row;
   row.pressure = 5.8;
   writer.write(row);
@@ -271,7 +271,7 @@ TEST(MeasuredTest, AHistoryReadsAsATest)
   writer.write(row);
 
   const MeasuredTest test = read_measured_test(file);
-  EXPECT_EQ(test.name, "simulated");
+  EXPECT_EQ(test.name, "as_test");
   EXPECT_EQ(test.friction[1], row.friction);
   EXPECT_EQ(test.displacement_y.size(), 2u);
 }

@@ -53,7 +53,7 @@ namespace
     slide.dynamic_ratio     = slide.kinetic / 0.078;
     slide.coefficient       = 0.078;
 
-    HistoryWriter writer(folder / "history.csv", label);
+    HistoryWriter writer(folder / "history.csv");
     for (int i = 0; i <= 200; ++i)
       {
         HistoryRow row;

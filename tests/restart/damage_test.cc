@@ -238,7 +238,7 @@ TEST_F(Damage, AFullDiskIsToldAndTheRunGoesOn)
       const std::string message = run.err();
       EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1);
       for (const std::string part : {"warning: no checkpoint could be written",
-                                     "is the disk full?",
+                                     "see ulimit -f",
                                      "the last one is of step "})
         EXPECT_NE(message.find(part), std::string::npos) << message;
       if (is_killed)

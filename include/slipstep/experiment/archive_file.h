@@ -1,7 +1,7 @@
 #ifndef slipstep_experiment_archive_file_h
 #define slipstep_experiment_archive_file_h
 
-#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
@@ -27,7 +27,7 @@ namespace SlipStep
     catch (const boost::archive::archive_exception &)
       {}
     if (!is_written)
-      throw RunError(file.string() + ": cannot be written (is the disk full?)");
+      throw write_failure(file);
   }
 
   /// @throws InputError if it is no such file, or of another build
@@ -39,10 +39,11 @@ namespace SlipStep
         std::ifstream in(file, std::ios::binary);
         boost::archive::binary_iarchive(in) >> object;
       }
-    catch (const std::exception &error)
+    catch (const std::exception &)
       {
-        throw InputError(file.string() + ": cannot be read (" + error.what() +
-                         "); it was written by another build of slipstep");
+        throw InputError(file.string() +
+                         ": cannot be read; it is damaged, or was written by "
+                         "another build of slipstep");
       }
   }
 } // namespace SlipStep

@@ -20,14 +20,16 @@ namespace SlipStep
   /// at times.
   double checkpoint_period(const Parameters &parameters);
 
-  /// What makes two cases the same as far as their histories go: the programme
-  /// with the tests that it follows, and all parameters but those of the
-  /// sections Checkpoint, Report and Refinement study, folder and fields.
+  /// What makes two cases the same as far as the histories of a command go: the
+  /// programme with the tests that it follows, and the parameters that the
+  /// command uses. What another command uses may change.
   struct CaseIdentity
   {
     CaseIdentity() = default;
 
-    explicit CaseIdentity(const Parameters &parameters);
+    /// @param command "run" or "point"
+    explicit CaseIdentity(const Parameters  &parameters,
+                          const std::string &command = "run");
 
     /// Refuse a case that differs in anything.
     /// @param owner whose identity this is, "the checkpoint in output/case"

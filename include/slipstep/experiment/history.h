@@ -50,6 +50,9 @@ namespace SlipStep
     std::vector<double> probes;
   };
 
+  /// The column of a probe, counted from 0.
+  std::string probe_name(const std::size_t i);
+
   /// Writes history.csv, complete after every row, every number with as many
   /// digits as it takes to read back exactly.
   ///
@@ -60,23 +63,20 @@ namespace SlipStep
   /// external_work_Nmm, step_s, newton_iterations, linear_iterations, slip_mm;
   /// then of ContactState::memories() those that the effects of the law use
   /// (temperature_rise_degC, contact_age_s, hold_time_s), then probe_1,
-  /// probe_2,
-  /// ..., explained by comments.
-  /// The first lines are `# key: value` comments, so that the file can be read
-  /// back as a measured test.
+  /// probe_2, ..., which summary.json explains. A header and rows, no more, as
+  /// every reader of tables wants it; it can be read back as a measured test.
   class HistoryWriter
   {
   public:
     HistoryWriter() = default;
 
     /// @param memories which memories of a row are written
-    /// @param probes what each of the probes of a row is
+    /// @param n_probes of every row
     /// @throws InputError if the file cannot be created, RunError if the disk
     ///   is full
     HistoryWriter(const std::filesystem::path      &file,
-                  const std::string                &name,
                   const std::vector<ContactMemory> &memories = {},
-                  const std::vector<std::string>   &probes   = {});
+                  const std::size_t                 n_probes = 0);
 
     /// Continue a file, which is cut after its first @p bytes.
     /// @throws RunError if that fails

@@ -103,6 +103,7 @@ namespace SlipStep
     double balance_error  = 0.; ///< relative to work
     std::vector<SlideSummary>  slides;
     std::vector<QuantityValue> quantities;
+    std::vector<std::string>   probes; ///< of history.csv, what they are
     /// Empty without a spring.
     std::vector<StabilitySummary> stability;
     MeshErrorSummary              mesh_error;

@@ -19,7 +19,8 @@ namespace SlipStep
   /// `fields.pvd` collects the volume (displacement in space, relative to where
   /// the drive is, stress), `contact.pvd` the contact face (pressure, traction,
   /// slip path, r, r_s, mu, dissipated energy per area, what the effects of the
-  /// law remember, and which points slip). `contact_face.csv` has one row per
+  /// law remember, and which points slip); both tell the squared error of the
+  /// cell by ErrorIndicator. `contact_face.csv` has one row per
   /// contact cell at the last time with averages over the cell, of all but the
   /// last.
   template <int dim>
@@ -31,11 +32,14 @@ namespace SlipStep
                 const MPI_Comm              &communicator);
 
     /// Write the volume and the face if the case file wants them now.
+    /// @param displacement ghosted [mm]
     /// @param frame displacement of the frame [mm]
+    /// @param loads that act
     void write_if_due(const dealii::DoFHandler<dim> &dof_handler,
                       const Vector                  &displacement,
                       const dealii::Tensor<1, 2>    &frame,
                       const ContactFace<dim>        &contact,
+                      const LoadFactors             &loads,
                       const FinishedStep            &step);
 
     /// Write the last change into refinement.csv, anew if it is there already;
@@ -56,13 +60,19 @@ namespace SlipStep
   private:
     void write_volume(const dealii::DoFHandler<dim> &dof_handler,
                       const Vector                  &displacement,
+                      const dealii::Vector<double>  &squared_errors,
                       const dealii::Tensor<1, 2>    &frame,
                       const double                   time);
-    void write_contact(const ContactFace<dim> &contact, const double time);
-    void write_collection(const std::string                           &name,
-                          std::vector<std::pair<double, std::string>> &entries,
-                          const double                                 time,
-                          const std::string &file) const;
+    void write_contact(const ContactFace<dim>       &contact,
+                       const dealii::Vector<double> &squared_errors,
+                       const double                  time);
+    /// Write a file per rank with patches and add it to the collection.
+    template <int patch_dim>
+    void write_patches(const std::string                              &name,
+                       const dealii::DataOutInterface<patch_dim, dim> &patches,
+                       const bool                                   has_patches,
+                       std::vector<std::pair<double, std::string>> &entries,
+                       const double                                 time) const;
 
     const BlockParameters       parameters;
     const std::filesystem::path folder;
