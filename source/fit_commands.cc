@@ -1,5 +1,6 @@
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/diagnosis/diagnose.h>
+#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/sweep.h>
 #include <slipstep/fit_commands.h>
 #include <slipstep/solid/case.h>
@@ -40,9 +41,11 @@ namespace SlipStep
 
   void calibrate_case(const CommandLine &line)
   {
-    const Case        the_case = read_fitted_case(line);
-    const SignalGuard guard;
-    run_calibration(the_case.parameters, fit_options(the_case, line));
+    const Case          the_case = read_fitted_case(line);
+    const RunOptions    options  = fit_options(the_case, line);
+    const SignalGuard   guard;
+    const ResultsFolder results(options.output, line.command);
+    run_calibration(the_case.parameters, options);
   }
 
 
@@ -51,7 +54,9 @@ namespace SlipStep
   void diagnose_case(const CommandLine &line)
   {
     const Case          the_case = read_fitted_case(line);
+    const RunOptions    options  = fit_options(the_case, line);
     const SignalGuard   guard;
+    const ResultsFolder results(options.output, line.command);
     const ElementRunner runner =
       [&](const std::vector<ElementJob> &element_jobs) {
         std::vector<SweepJob> jobs;
@@ -71,6 +76,6 @@ namespace SlipStep
                          "; what was found on the contact point is kept, "
                          "without the simulation of the block");
       };
-    run_diagnosis(the_case.parameters, fit_options(the_case, line), runner);
+    run_diagnosis(the_case.parameters, options, runner);
   }
 } // namespace SlipStep

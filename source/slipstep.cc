@@ -7,17 +7,20 @@
 
 #include <slipstep/calibration/campaign.h>
 #include <slipstep/fit_commands.h>
+#include <slipstep/outcome.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/import_map.h>
 #include <slipstep/experiment/import_tests.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/report.h>
+#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/experiment/sweep.h>
 #include <slipstep/experiment/test_set.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/planting/plant.h>
+#include <slipstep/solid/attempt_together.h>
 #include <slipstep/solid/case.h>
 #include <slipstep/solid/refine_block.h>
 #include <slipstep/solid/run_block.h>
@@ -32,162 +35,19 @@
 #include <sys/prctl.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iostream>
 #include <map>
-#include <new>
-#include <sstream>
-#include <thread>
+#include <memory>
 
 namespace SlipStep
 {
   namespace
   {
     namespace fs = std::filesystem;
-
-    enum ExitCode
-    {
-      done        = 0,
-      run_failed  = 1,
-      input_wrong = 2
-    };
-
-
-
-    // ------------------------------------------------------------- messages
-
-    // The first lines with something in them: deal.II's messages are pages.
-    std::string essential_lines(const std::string &text,
-                                const unsigned int n_lines)
-    {
-      std::istringstream in(text);
-      std::string        line, result;
-      for (unsigned int n = 0; n < n_lines && std::getline(in, line);)
-        {
-          line = dealii::Utilities::trim(line);
-          if (line.empty())
-            continue;
-          result += (n == 0 ? "" : " ") + line;
-          ++n;
-        }
-      return result;
-    }
-
-
-
-    struct Outcome
-    {
-      int         exit_code = done;
-      std::string message;
-    };
-
-
-
-    Outcome guarded(const std::function<int()> &work)
-    {
-      try
-        {
-          return {work(), ""};
-        }
-      catch (const InputError &error)
-        {
-          return {input_wrong, error.what()};
-        }
-      catch (const RunError &error)
-        {
-          return {run_failed, error.what()};
-        }
-      catch (const dealii::StandardExceptions::ExcIO &)
-        {
-          return {run_failed, write_failure("a file of the results").what()};
-        }
-      catch (const dealii::ExceptionBase &error)
-        {
-          std::ostringstream info;
-          error.print_info(info);
-          return {run_failed,
-                  std::string("the run failed in deal.II: ") +
-                    error.get_exc_name() + ": " +
-                    essential_lines(info.str(), 2)};
-        }
-      catch (const std::bad_alloc &)
-        {
-          return {run_failed, "the run failed: out of memory"};
-        }
-      catch (const std::exception &error)
-        {
-          return {run_failed,
-                  "the run failed: " + essential_lines(error.what(), 2)};
-        }
-      catch (...)
-        {
-          return {run_failed, "the run failed for an unknown reason"};
-        }
-    }
-
-
-
-    // ------------------------------------------------------------------ MPI
-
-    // Bring the outcomes of all ranks together. If a rank failed alone, the
-    // others wait for it somewhere in the middle of the run: after a while it
-    // takes them down, with its message printed before.
-    Outcome agreed(Outcome outcome)
-    {
-      if (!dealii::Utilities::MPI::job_supports_mpi())
-        return outcome;
-      const MPI_Comm     comm = MPI_COMM_WORLD;
-      const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
-      MPI_Request        all_are_here;
-      MPI_Ibarrier(comm, &all_are_here);
-      int  is_complete = 0;
-      auto start       = std::chrono::steady_clock::now();
-      while (MPI_Test(&all_are_here, &is_complete, MPI_STATUS_IGNORE),
-             is_complete == 0)
-        {
-          std::this_thread::sleep_for(std::chrono::milliseconds(10));
-          if (outcome.exit_code != done &&
-              std::chrono::steady_clock::now() - start >
-                std::chrono::seconds(10))
-            {
-              std::cerr << outcome.message << std::endl;
-              MPI_Abort(comm, outcome.exit_code);
-            }
-        }
-
-      // One rank speaks for all.
-      const int worst = dealii::Utilities::MPI::max(outcome.exit_code, comm);
-      const unsigned int speaker =
-        dealii::Utilities::MPI::min(outcome.exit_code == worst ? rank : ~0u,
-                                    comm);
-      if (rank != speaker)
-        outcome.message.clear();
-      outcome.exit_code = worst;
-      return outcome;
-    }
-
-
-
-    Outcome guarded_with_mpi(const std::function<int()> &work)
-    {
-      start_mpi_without_daemon();
-      // MPI implementations want no arguments nowadays.
-      int                                      argc = 0;
-      char                                   **argv = nullptr;
-      dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-      // MPI and p4est must not end the program in their own words.
-      dealii::deal_II_exceptions::disable_abort_on_exception();
-      const Outcome outcome = agreed(guarded(work));
-      if (!outcome.message.empty())
-        std::cerr << outcome.message << std::endl;
-      return {outcome.exit_code, ""};
-    }
-
-
 
     // The signal that any rank has caught.
     int agreed_signal()
@@ -223,6 +83,8 @@ namespace SlipStep
       Outcome run();
 
     private:
+      std::unique_ptr<ResultsFolder> claim(const fs::path &folder) const;
+
       int run_in_process();
 
       int run_children();
@@ -333,7 +195,8 @@ namespace SlipStep
       if (!is_to_run(number))
         return;
       const RunOptions run_options = options(number);
-      create_output_folder(run_options.output);
+      const auto       results =
+        the_case.is_sweep() ? claim(run_options.output) : nullptr;
       if (is_first_rank && earlier[number] == EarlierRun::none)
         remove_earlier_results(run_options.output);
       const Summary summary =
@@ -348,8 +211,35 @@ namespace SlipStep
 
 
 
+    // One rank does it for all.
+    std::unique_ptr<ResultsFolder> Runner::claim(const fs::path &folder) const
+    {
+      std::unique_ptr<ResultsFolder> results;
+      std::string                    refusal;
+      if (is_first_rank)
+        try
+          {
+            // The last child may still be writing its checkpoint.
+            const std::chrono::seconds patience(line.is_child ? 60 : 2);
+            results =
+              std::make_unique<ResultsFolder>(folder, line.command, patience);
+          }
+        catch (const InputError &error)
+          {
+            refusal = error.what();
+          }
+      if (dealii::Utilities::MPI::job_supports_mpi())
+        refusal = SlipStep::agreed(refusal, MPI_COMM_WORLD);
+      if (!refusal.empty())
+        throw InputError(refusal);
+      return results;
+    }
+
+
+
     int Runner::run_in_process()
     {
+      const auto results = claim(output);
       if (the_case.is_sweep() && is_first_rank && !line.is_child)
         write_case_parameters();
       Outcome           worst;
@@ -404,7 +294,7 @@ namespace SlipStep
 
     int Runner::run_children()
     {
-      create_output_folder(output);
+      const auto results = claim(output);
       write_case_parameters();
       std::vector<SweepJob> jobs;
       for (unsigned int i = 0; i < the_case.variants.size(); ++i)
@@ -439,7 +329,6 @@ namespace SlipStep
     // one that takes its effects from the case. The same holds for adaptivity.
     void Runner::write_case_parameters() const
     {
-      create_output_folder(output);
       std::map<std::string, unsigned int> n_variants_without;
       for (unsigned int i = 0; i < the_case.complete.size(); ++i)
         {

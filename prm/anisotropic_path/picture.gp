@@ -1,7 +1,7 @@
 # Draws the traction of the run against the ellipse of README.md:
 #   gnuplot prm/anisotropic_path/picture.gp
 # (from where ./run was called; -e "folder='...'" names another output folder)
-if (!exists("folder")) folder = 'output/anisotropic_path'
+if (!exists("folder")) folder = 'output/anisotropic_path/point'
 
 # The numbers of anisotropic_path.prm.
 mu = 0.1; rho = 0.6; V = 10./60

@@ -2,7 +2,7 @@
 # README.md:
 #   gnuplot prm/pressure_sweep/picture.gp
 # (from where ./run was called; -e "folder='...'" names another output folder)
-if (!exists("folder")) folder = 'output/pressure_sweep'
+if (!exists("folder")) folder = 'output/pressure_sweep/point'
 
 # The numbers of pressure_sweep.prm.
 mu = 0.078; m = 0.1; p0 = 5.8; tau_c = 6.; c = 0.05; V = 10./60

@@ -3,7 +3,7 @@
 # with
 #   gnuplot prm/reciprocating_tribometer/picture.gp
 # (from where ./run was called; -e "folder='...'" names another output folder)
-if (!exists("folder")) folder = 'output/fitted'
+if (!exists("folder")) folder = 'output/fitted/point'
 measured = 'prm/reciprocating_tribometer/measured/test_data_2.csv'
 fitted   = folder.'/history.csv'
 skip     = 12.

@@ -4,7 +4,7 @@
 # with
 #   gnuplot prm/sepiolite_velocity_step/picture.gp
 # (from where ./run was called; -e "folder='...'" names another output folder)
-if (!exists("folder")) folder = 'output/sepiolite_velocity_step'
+if (!exists("folder")) folder = 'output/sepiolite_velocity_step/calibrate'
 data = folder.'/report/curves.dat'
 
 set encoding utf8

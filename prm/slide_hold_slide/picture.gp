@@ -1,7 +1,7 @@
 # Draws the peaks after the rests against the closed form of README.md:
 #   gnuplot prm/slide_hold_slide/picture.gp
 # (from where ./run was called; -e "folder='...'" names another output folder)
-if (!exists("folder")) folder = 'output/slide_hold_slide'
+if (!exists("folder")) folder = 'output/slide_hold_slide/point'
 
 # The numbers of slide_hold_slide.prm.
 mu_s = 0.0915; mu_k = 0.078; kappa = 0.05; a = 10.; xi = 5e-7; b = 600.

@@ -2,7 +2,7 @@
 # stability over speed:
 #   gnuplot prm/stick_slip/picture.gp
 # (from where ./run was called; -e "folder='...'" names another output folder)
-if (!exists("folder")) folder = 'output/stick_slip'
+if (!exists("folder")) folder = 'output/stick_slip/point'
 array name[4] = ['0.1', '1', '3', '20']
 array colour[4] = ['#0072B2', '#D55E00', '#009E73', '#CC79A7']
 

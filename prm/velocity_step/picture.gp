@@ -1,7 +1,7 @@
 # Draws the run against the closed form of README.md:
 #   gnuplot prm/velocity_step/picture.gp
 # (from where ./run was called; -e "folder='...'" names another output folder)
-if (!exists("folder")) folder = 'output/velocity_step'
+if (!exists("folder")) folder = 'output/velocity_step/point'
 
 # The numbers of velocity_step.prm.
 mu_s = 0.0915; mu_k = 0.078; kappa = 0.05; a = 10.; xi = 8.3e-4; b = 10.

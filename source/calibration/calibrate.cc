@@ -3,6 +3,7 @@
 #include <slipstep/calibration/calibration_report.h>
 #include <slipstep/calibration/calibration_text.h>
 #include <slipstep/calibration/fit.h>
+#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/utilities/command_line.h>
@@ -431,7 +432,6 @@ namespace SlipStep
       progress.finish();
     }
 
-    create_output_folder(options.output);
     remove_earlier_results(options.output);
     const std::filesystem::path file = options.output / "fitted.prm";
     std::ostringstream          text;

@@ -6,6 +6,7 @@
 #include <slipstep/diagnosis/element_check.h>
 #include <slipstep/diagnosis/improved_case.h>
 #include <slipstep/diagnosis/where.h>
+#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
@@ -329,7 +330,6 @@ namespace SlipStep
                                   progress.update(share, text);
                                 });
     diagnostician.begin();
-    create_output_folder(options.output);
     diagnostician.run();
     Diagnosis                     &diagnosis = diagnostician.result;
     const std::vector<std::size_t> tests = element_tests(parameters, diagnosis);

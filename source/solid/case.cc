@@ -2,6 +2,7 @@
 
 #include <slipstep/calibration/fit_parameter.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
+#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/machine.h>
 #include <slipstep/experiment/point_driver.h>
@@ -142,10 +143,15 @@ namespace SlipStep
   std::filesystem::path chosen_output(const Case        &the_case,
                                       const CommandLine &line)
   {
-    const std::filesystem::path output =
-      line.output.empty() ?
-        output_folder(the_case.parameters) :
-        std::filesystem::path(line.output).lexically_normal();
+    // What a case is for is its run; other commands go beside it.
+    std::filesystem::path output = line.output;
+    if (line.output.empty())
+      {
+        output = output_folder(the_case.parameters);
+        if (line.command != "run" && line.command != "check")
+          output /= line.command;
+      }
+    output = output.lexically_normal();
     // A child is told its own folder.
     return the_case.selected.folder.empty() || line.is_child ?
              output :

@@ -1,5 +1,6 @@
 #include <slipstep/solid/refine_block.h>
 
+#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/refinement_study.h>
 #include <slipstep/experiment/report.h>
@@ -155,7 +156,7 @@ namespace SlipStep
     const auto earlier =
       find_earlier_runs(study, the_case.parameters, line, output);
 
-    create_output_folder(output);
+    const ResultsFolder results(output, line.command);
     remove_earlier_results(output);
     write_used_parameters(the_case.parameters,
                           output,

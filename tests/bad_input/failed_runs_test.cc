@@ -136,7 +136,7 @@ TEST(FailedRun, AFullDiskIsToldAndTheRowsBeforeAreKept)
     process.run({"point", "case.prm", "--quiet"}, "", "ulimit -f 50 &&");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.err.find("see ulimit -f"), std::string::npos) << result.err;
-  expect_kept(process, "output/case", "see ulimit -f");
+  expect_kept(process, "output/case/point", "see ulimit -f");
 }
 
 

@@ -81,7 +81,7 @@ TEST(Refine, finds_order_and_limit)
     << result.out;
   EXPECT_NE(result.out.find("report.html"), std::string::npos);
 
-  const std::string csv    = process.read("output/strip/refinement.csv");
+  const std::string csv    = process.read("output/strip/refine/refinement.csv");
   const std::string force  = "friction force at 0.00002 mm";
   const std::string finest = row(csv, "uniform 3", force);
   EXPECT_EQ(cell(finest, 2), "finished") << csv;
@@ -103,14 +103,15 @@ TEST(Refine, finds_order_and_limit)
   EXPECT_NE(result.out.find("because the last two values agree"),
             std::string::npos);
 
-  const Summary summary =
-    read_summary(process.folder() / "output/strip/uniform_1/summary.json");
+  const Summary summary = read_summary(
+    process.folder() / "output/strip/refine/uniform_1/summary.json");
   ASSERT_EQ(summary.quantities.size(), 2u);
   EXPECT_EQ(summary.quantities[0].name, force);
   EXPECT_EQ(summary.quantities[0].unit, "N/mm");
   EXPECT_GT(summary.cpu_time, 0.);
-  EXPECT_NE(process.read("output/strip/report.html").find("Convergence of the"),
-            std::string::npos);
+  EXPECT_NE(
+    process.read("output/strip/refine/report.html").find("Convergence of the"),
+    std::string::npos);
 }
 
 
@@ -125,7 +126,7 @@ TEST(Refine, shows_nothing_below_the_uncertainty_of_the_reference)
     {"refine", "strip.prm", "--set=Refinement study/Uniform meshes=3"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string force = "friction force at 0.00002 mm";
-  const std::string csv   = process.read("output/strip/refinement.csv");
+  const std::string csv   = process.read("output/strip/refine/refinement.csv");
   const std::string fine  = row(csv, "uniform 2", force);
   EXPECT_EQ(cell(fine, 12), "nan") << csv;
   EXPECT_EQ(cell(fine, 13), "nan") << csv;
@@ -140,7 +141,7 @@ TEST(Refine, shows_nothing_below_the_uncertainty_of_the_reference)
 
   // Every error that is shown is above it, here and for programs.
   const auto object =
-    nlohmann::json::parse(process.read("output/strip/refinement.json"));
+    nlohmann::json::parse(process.read("output/strip/refine/refinement.json"));
   unsigned int n_shown = 0;
   for (const auto &curve : object.at("curves"))
     for (const auto &run : curve.at("runs"))
@@ -189,15 +190,15 @@ TEST(Refine, reports_a_run_that_fails)
 {
   const SlipstepProcess process;
   process.write("strip.prm", strip);
-  std::filesystem::create_directories(process.folder() / "output/strip");
-  process.write("output/strip/used_parameters.prm", "");
-  process.write("output/strip/uniform_1", "in the way");
+  std::filesystem::create_directories(process.folder() / "output/strip/refine");
+  process.write("output/strip/refine/used_parameters.prm", "");
+  process.write("output/strip/refine/uniform_1", "in the way");
   const auto result = process.run({"refine", "strip.prm"});
   EXPECT_NE(result.exit_code, 0);
   EXPECT_TRUE(std::regex_search(result.out,
                                 std::regex("uniform 1 failed: .*summary.json")))
     << result.out;
-  const std::string csv   = process.read("output/strip/refinement.csv");
+  const std::string csv   = process.read("output/strip/refine/refinement.csv");
   const std::string force = "friction force at 0.00002 mm";
   EXPECT_EQ(cell(row(csv, "uniform 1", force), 2), "failed");
   EXPECT_EQ(cell(row(csv, "uniform 2", force), 2), "finished");
@@ -220,7 +221,8 @@ TEST(Refine, refuses_a_sweep_but_takes_a_member)
   const auto taken =
     process.run({"refine", "strip.prm", "--variant=Degree 2", "--quiet"});
   ASSERT_EQ(taken.exit_code, 0) << taken.err;
-  const std::string csv = process.read("output/strip/Degree_2/refinement.csv");
+  const std::string csv =
+    process.read("output/strip/refine/Degree_2/refinement.csv");
   EXPECT_NEAR(
     std::stod(cell(row(csv, "uniform 3", "friction force at 0.00002 mm"), 13)),
     4.,
@@ -254,7 +256,7 @@ TEST(Refine, adaptive_meshes)
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("(adaptive 0.02)"), std::string::npos)
     << result.out;
-  const std::string csv      = process.read("output/block/refinement.csv");
+  const std::string csv = process.read("output/block/refine/refinement.csv");
   const std::string quantity = "pressure at 10 mm";
   const std::string coarse   = row(csv, "adaptive 0.2", quantity);
   const std::string fine     = row(csv, "adaptive 0.05", quantity);

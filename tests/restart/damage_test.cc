@@ -48,7 +48,7 @@ namespace
     {
       std::map<std::string, std::string> files;
       for (const auto &entry : fs::recursive_directory_iterator(path(folder)))
-        if (entry.is_regular_file())
+        if (entry.is_regular_file() && entry.path().filename() != ".slipstep")
           files[entry.path().string()] = BackgroundRun::content(entry.path());
       return files;
     }

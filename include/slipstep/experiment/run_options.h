@@ -33,22 +33,6 @@ namespace SlipStep
   /// of the .prm file, relative to the working directory.
   /// @throws InputError if it is empty
   std::filesystem::path output_folder(const Parameters &parameters);
-
-  /// Check that results may be written into @p folder, which need not exist,
-  /// without writing anything.
-  /// @param origin what a message names: "--output", "Output/Directory"
-  /// @throws InputError if it cannot be created, is read-only, or holds files
-  /// but no result of this program (which would be overwritten).
-  void check_output_folder(const std::filesystem::path &folder,
-                           const std::string           &origin);
-
-  /// Create the folder with its parents.
-  /// @throws InputError if that fails
-  void create_output_folder(const std::filesystem::path &folder);
-
-  /// Remove the history, summary, report and checkpoints of an earlier run, so
-  /// that a run that fails early does not seem to have written them.
-  void remove_earlier_results(const std::filesystem::path &folder);
 } // namespace SlipStep
 
 #endif

@@ -1,0 +1,135 @@
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/outcome.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/process.h>
+#include <slipstep/utilities/write_file.h>
+
+#include <chrono>
+#include <iostream>
+#include <new>
+#include <sstream>
+#include <thread>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // The first lines with something in them: deal.II's messages are pages.
+    std::string essential_lines(const std::string &text,
+                                const unsigned int n_lines)
+    {
+      std::istringstream in(text);
+      std::string        line, result;
+      for (unsigned int n = 0; n < n_lines && std::getline(in, line);)
+        {
+          line = dealii::Utilities::trim(line);
+          if (line.empty())
+            continue;
+          result += (n == 0 ? "" : " ") + line;
+          ++n;
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  Outcome guarded(const std::function<int()> &work)
+  {
+    try
+      {
+        return {work(), ""};
+      }
+    catch (const InputError &error)
+      {
+        return {input_wrong, error.what()};
+      }
+    catch (const RunError &error)
+      {
+        return {run_failed, error.what()};
+      }
+    catch (const dealii::StandardExceptions::ExcIO &)
+      {
+        return {run_failed, write_failure("a file of the results").what()};
+      }
+    catch (const dealii::ExceptionBase &error)
+      {
+        std::ostringstream info;
+        error.print_info(info);
+        return {run_failed,
+                std::string("the run failed in deal.II: ") +
+                  error.get_exc_name() + ": " + essential_lines(info.str(), 2)};
+      }
+    catch (const std::bad_alloc &)
+      {
+        return {run_failed, "the run failed: out of memory"};
+      }
+    catch (const std::exception &error)
+      {
+        return {run_failed,
+                "the run failed: " + essential_lines(error.what(), 2)};
+      }
+    catch (...)
+      {
+        return {run_failed, "the run failed for an unknown reason"};
+      }
+  }
+
+
+
+  // Bring the outcomes of all ranks together. If a rank failed alone, the
+  // others wait for it somewhere in the middle of the run: after a while it
+  // takes them down, with its message printed before.
+  Outcome agreed(Outcome outcome)
+  {
+    if (!dealii::Utilities::MPI::job_supports_mpi())
+      return outcome;
+    const MPI_Comm     comm = MPI_COMM_WORLD;
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
+    MPI_Request        all_are_here;
+    MPI_Ibarrier(comm, &all_are_here);
+    int  is_complete = 0;
+    auto start       = std::chrono::steady_clock::now();
+    while (MPI_Test(&all_are_here, &is_complete, MPI_STATUS_IGNORE),
+           is_complete == 0)
+      {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        if (outcome.exit_code != done &&
+            std::chrono::steady_clock::now() - start > std::chrono::seconds(10))
+          {
+            std::cerr << outcome.message << std::endl;
+            MPI_Abort(comm, outcome.exit_code);
+          }
+      }
+
+    // One rank speaks for all.
+    const int worst = dealii::Utilities::MPI::max(outcome.exit_code, comm);
+    const unsigned int speaker =
+      dealii::Utilities::MPI::min(outcome.exit_code == worst ? rank : ~0u,
+                                  comm);
+    if (rank != speaker)
+      outcome.message.clear();
+    outcome.exit_code = worst;
+    return outcome;
+  }
+
+
+
+  Outcome guarded_with_mpi(const std::function<int()> &work)
+  {
+    start_mpi_without_daemon();
+    // MPI implementations want no arguments nowadays.
+    int                                      argc = 0;
+    char                                   **argv = nullptr;
+    dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    // MPI and p4est must not end the program in their own words.
+    dealii::deal_II_exceptions::disable_abort_on_exception();
+    const Outcome outcome = agreed(guarded(work));
+    if (!outcome.message.empty())
+      std::cerr << outcome.message << std::endl;
+    return {outcome.exit_code, ""};
+  }
+} // namespace SlipStep
