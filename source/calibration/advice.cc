@@ -299,7 +299,8 @@ namespace SlipStep
         const Parameters &parameters = simulator.with(optimum.scaled);
         replay.plan(FrictionLaw(parameters),
                     Machine(parameters),
-                    simulator.campaign.search_tolerance);
+                    simulator.campaign.search_tolerance,
+                    100000);
       }
       {
         const Parameters &parameters = simulator.with(shifted(step));
@@ -341,7 +342,9 @@ namespace SlipStep
           catch (const InputError &)
             {}
           catch (const RunError &)
-            {}
+            {
+              throw_if_stopped();
+            }
           const double after =
             1. / std::sqrt(1. / (before * before) + gained / optimum.inflation);
           if (after < 0.9 * best)

@@ -343,7 +343,7 @@ namespace SlipStep
       const FrictionLaw  &law,
       const Machine      &machine,
       const double        tolerance,
-      const std::size_t   most_steps = std::numeric_limits<std::size_t>::max())
+      const std::size_t   most_steps = 1000000)
     {
       try
         {

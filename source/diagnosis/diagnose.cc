@@ -10,6 +10,7 @@
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
 #include <slipstep/utilities/write_file.h>
 
@@ -339,6 +340,8 @@ namespace SlipStep
     diagnosis.improved_case = improved.filename().string();
     write_results(diagnostician, parameters, options, improved);
     print_warnings(diagnosis.warnings);
+    if (SignalGuard::caught() != 0)
+      throw RunError(SignalGuard::in_words() + "; what was found is kept");
     if (!tests.empty())
       {
         progress.update(0.9, "simulating the block");

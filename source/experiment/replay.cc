@@ -1,6 +1,7 @@
 #include <slipstep/experiment/replay.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/process.h>
 
 #include <algorithm>
 #include <cmath>
@@ -190,6 +191,7 @@ namespace SlipStep
         wanted_step = std::min(wanted_step, first_step(i, law, machine));
         for (double begin = 0.; begin < 1.;)
           {
+            SignalGuard::throw_if_caught();
             const double left  = 1. - begin;
             double       share = std::min(left, wanted_step / duration);
             // Two equal ones instead of one and a crumb.
@@ -256,6 +258,7 @@ namespace SlipStep
     };
     for (std::size_t i = 0; i < steps.size(); ++i)
       {
+        SignalGuard::throw_if_caught();
         if (i == first_compared)
           observe();
         slider = make(steps[i], law, machine, slider, point).slider;

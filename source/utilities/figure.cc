@@ -1,10 +1,10 @@
 #include <slipstep/utilities/figure.h>
 
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/process.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <regex>
 
@@ -12,14 +12,6 @@ namespace SlipStep
 {
   namespace
   {
-    std::string shell_quoted(const std::string &text)
-    {
-      std::string quoted = "'";
-      for (const char c : text)
-        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-      return quoted + "'";
-    }
-
     std::string first_line_with(const std::filesystem::path &file,
                                 const std::string           &word)
     {
@@ -90,26 +82,43 @@ namespace SlipStep
                  "'#ffffff'\nset output '" +
                  name + ".svg'\n" + commands.str() + "set output\n");
 
-    const std::filesystem::path log = folder / (name + ".log");
-    const int                   status =
-      std::system(("cd " + shell_quoted(folder.string()) + " && gnuplot " +
-                   shell_quoted(name + ".gp") + " > " +
-                   shell_quoted(name + ".log") + " 2>&1")
-                    .c_str());
-    std::string warning;
-    if (status != 0 || !std::filesystem::exists(svg_file()))
+    const std::string reason = draw();
+    if (reason.empty() && std::filesystem::exists(svg_file()))
+      return "";
+    std::filesystem::remove(svg_file(), ignored);
+    return "no picture '" + title + "': " + reason +
+           "; its data and script are " + (folder / (name + ".gp")).string();
+  }
+
+
+
+  // In words, what went wrong. Where gnuplot hangs once, it is not tried again.
+  std::string Figure::draw() const
+  {
+    constexpr std::chrono::seconds time_limit(60);
+    static bool                    hangs = false;
+    const std::string              log   = name + ".log";
+    const ProgramEnd               end =
+      hangs ? ProgramEnd::too_slow :
+                            run_program({"gnuplot", name + ".gp"}, folder, log, time_limit);
+    const std::string complaint = first_line_with(folder / log, "line ");
+    std::error_code   ignored;
+    std::filesystem::remove(folder / log, ignored);
+    switch (end)
       {
-        const std::string reason =
-          first_line_with(log, "not found").empty() ?
-            "gnuplot cannot draw it: " + first_line_with(log, "line ") :
-            "gnuplot is not installed (Debian package gnuplot-nox)";
-        std::filesystem::remove(svg_file(), ignored);
-        warning = "no picture '" + title + "': " + reason +
-                  "; its data and script are " +
-                  (folder / (name + ".gp")).string();
+        case ProgramEnd::success:
+          return "";
+        case ProgramEnd::not_found:
+          return "gnuplot is not installed (Debian package gnuplot-nox)";
+        case ProgramEnd::too_slow:
+          hangs = true;
+          return "gnuplot hangs (stopped after " +
+                 std::to_string(time_limit.count()) + " s)";
+        case ProgramEnd::stopped:
+          return SignalGuard::in_words();
+        default:
+          return "gnuplot cannot draw it: " + complaint;
       }
-    std::filesystem::remove(log, ignored);
-    return warning;
   }
 
 

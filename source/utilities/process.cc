@@ -1,15 +1,24 @@
+#include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
 #include <iostream>
+#include <thread>
 
 namespace SlipStep
 {
   namespace
   {
     volatile std::sig_atomic_t caught_signal = 0;
+    unsigned int               n_guards      = 0;
 
     void remember_signal(const int signal)
     {
@@ -78,9 +87,71 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // How it ended, if it has.
+    bool has_ended(const pid_t pid, ProgramEnd &end)
+    {
+      int status = 0;
+      if (waitpid(pid, &status, WNOHANG) == 0)
+        return false;
+      const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+      end            = code == 0   ? ProgramEnd::success :
+                       code == 127 ? ProgramEnd::not_found :
+                                     ProgramEnd::failure;
+      return true;
+    }
+  } // namespace
+
+
+
+  ProgramEnd run_program(std::vector<std::string>     words,
+                         const std::filesystem::path &folder,
+                         const std::string           &log,
+                         const std::chrono::seconds   time_limit)
+  {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    posix_spawn_file_actions_addopen(
+      &actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(
+      &actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    std::vector<char *> arguments;
+    for (std::string &word : words)
+      arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_t     pid   = 0;
+    const int error = posix_spawnp(
+      &pid, arguments.front(), &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0)
+      return error == ENOENT ? ProgramEnd::not_found : ProgramEnd::failure;
+
+    const auto start = std::chrono::steady_clock::now();
+    ProgramEnd end   = ProgramEnd::success;
+    while (!has_ended(pid, end))
+      {
+        const bool is_too_slow =
+          std::chrono::steady_clock::now() - start > time_limit;
+        if (is_too_slow || SignalGuard::caught() != 0)
+          {
+            kill(pid, SIGKILL);
+            waitpid(pid, nullptr, 0);
+            return is_too_slow ? ProgramEnd::too_slow : ProgramEnd::stopped;
+          }
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      }
+    return end;
+  }
+
+
+
   SignalGuard::SignalGuard(const bool is_patient)
   {
-    caught_signal = 0;
+    if (n_guards++ == 0)
+      caught_signal = 0;
     struct sigaction action
     {};
     action.sa_handler = remember_signal;
@@ -98,6 +169,7 @@ namespace SlipStep
 
   SignalGuard::~SignalGuard()
   {
+    --n_guards;
     sigaction(SIGINT, &old_interrupt, nullptr);
     sigaction(SIGTERM, &old_terminate, nullptr);
     sigaction(SIGUSR1, &old_user, nullptr);
@@ -108,6 +180,14 @@ namespace SlipStep
   int SignalGuard::caught()
   {
     return caught_signal;
+  }
+
+
+
+  void SignalGuard::throw_if_caught()
+  {
+    if (caught_signal != 0)
+      throw RunError(in_words());
   }
 
 

@@ -36,7 +36,7 @@ namespace SlipStep
     std::ostream &script();
 
     /// Write data and script and draw.
-    /// @return "" or, when gnuplot is missing or fails, a warning for the user
+    /// @return "" or, when gnuplot is missing, fails or hangs, a warning for the user
     /// @throws RunError if the files cannot be written
     std::string write() const;
 
@@ -47,6 +47,8 @@ namespace SlipStep
     std::filesystem::path svg_file() const;
 
   private:
+    std::string draw() const;
+
     const std::filesystem::path folder;
     const std::string           name;
     const std::string           title;

@@ -1,8 +1,11 @@
 #ifndef slipstep_utilities_process_h
 #define slipstep_utilities_process_h
 
+#include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace SlipStep
 {
@@ -19,6 +22,25 @@ namespace SlipStep
   /// start for it; before MPI_Init.
   void start_mpi_without_daemon();
 
+  /// How a program that was started ended.
+  enum class ProgramEnd
+  {
+    success,
+    failure, ///< or it ended by a signal
+    not_found,
+    too_slow, ///< killed after the time limit
+    stopped   ///< killed because this process has caught a signal
+  };
+
+  /// Run another program to its end, without input.
+  /// @param words its name, which is looked for in PATH, and its arguments
+  /// @param folder in which it works
+  /// @param log file in that folder for all that it prints
+  ProgramEnd run_program(std::vector<std::string>     words,
+                         const std::filesystem::path &folder,
+                         const std::string           &log,
+                         const std::chrono::seconds   time_limit);
+
   /// While one lives, SIGINT and SIGTERM do not end the process but are
   /// remembered, so that files can be completed first. The same signal a second
   /// time ends it at once, unless @p is_patient. SIGUSR1 asks for a checkpoint.
@@ -32,9 +54,12 @@ namespace SlipStep
     SignalGuard(const SignalGuard &)            = delete;
     SignalGuard &operator=(const SignalGuard &) = delete;
 
-    /// The signal that came since the last guard was set up, 0 if none. Holds
-    /// beyond the life of the guard.
+    /// The signal that came since the first of the guards that are alive was set
+    /// up, 0 if none. Holds beyond their life.
     static int caught();
+
+    /// @throws RunError if there was one
+    static void throw_if_caught();
 
     /// Stop as if @p signal had been caught: another rank has.
     static void share(const int signal);
