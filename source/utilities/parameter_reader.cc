@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -91,13 +92,35 @@ namespace SlipStep
                                                   "include"};
           const bool                     is_known =
             std::find(words.begin(), words.end(), word) != words.end();
-          throw InputError(where + ": \"" + excerpt(text) +
-                           "\" is not understood" +
-                           (is_known ? "" : did_you_mean(word, words)) +
-                           "\n  a line is one of: set KEY = VALUE, subsection "
-                           "NAME, end, include FILE, # comment");
+          statement.kind  = PrmStatement::Kind::wrong;
+          statement.value = where + ": \"" + excerpt(text) +
+                            "\" is not understood" +
+                            (is_known ? "" : did_you_mean(word, words)) +
+                            " (a line is one of: set KEY = VALUE, subsection "
+                            "NAME, end, include FILE, # comment)";
         }
       return statement;
+    }
+  } // namespace
+
+
+
+  namespace
+  {
+    // Whatever ends the lines: LF, CR LF, or CR alone.
+    std::string with_line_feeds(std::istream &in)
+    {
+      std::ostringstream all;
+      all << in.rdbuf();
+      std::string text;
+      bool        is_after_cr = false;
+      for (const char c : all.str())
+        {
+          if (c != '\n' || !is_after_cr)
+            text += c == '\r' ? '\n' : c;
+          is_after_cr = c == '\r';
+        }
+      return text;
     }
   } // namespace
 
@@ -116,11 +139,12 @@ namespace SlipStep
     if (!in)
       throw InputError(file.string() + ": cannot be opened for reading");
 
+    std::istringstream        lines(with_line_feeds(in));
     std::vector<PrmStatement> statements;
     std::string               text, line;
     unsigned int              n_lines = 0, first_line = 0;
     bool                      is_continued = false;
-    while (std::getline(in, line))
+    while (std::getline(lines, line))
       {
         ++n_lines;
         if (line.find('\0') != std::string::npos)
@@ -208,12 +232,28 @@ namespace SlipStep
       void read_file(const std::filesystem::path &file);
 
       CaseText text;
+      /// What is wrong, in the order of the lines.
+      std::vector<std::string> errors;
 
     private:
+      /// What follows in the file would be misread.
+      class MissingEnd : public InputError
+      {
+        using InputError::InputError;
+      };
+
       struct OpenSection
       {
         std::string  name;
         unsigned int line;
+        /// Told already: what is in it is skipped.
+        bool is_unknown = false;
+
+        std::string in_words() const
+        {
+          return "subsection " + excerpt(name) + " is open since line " +
+                 std::to_string(line);
+        }
       };
 
       /// The state of reading one file.
@@ -226,7 +266,17 @@ namespace SlipStep
         SweepText                           sweep;
       };
 
+      void read_statements(FileState                       &state,
+                           const std::vector<PrmStatement> &statements);
+
+      void read_statement(FileState &state, const PrmStatement &statement);
+
       void open_section(FileState &state, const PrmStatement &statement) const;
+
+      void check_section(FileState &state, const PrmStatement &statement) const;
+
+      bool is_section_outside(const FileState   &state,
+                              const std::string &name) const;
 
       void close_section(FileState &state, const PrmStatement &statement) const;
 
@@ -276,36 +326,15 @@ namespace SlipStep
       const auto statements = scan_prm_file(file);
       const auto canonical  = std::filesystem::canonical(file);
       open_files.push_back(canonical);
-
-      for (const PrmStatement &statement : statements)
-        switch (statement.kind)
-          {
-            case PrmStatement::Kind::subsection:
-              open_section(state, statement);
-              break;
-            case PrmStatement::Kind::end:
-              close_section(state, statement);
-              break;
-            case PrmStatement::Kind::include:
-              include_file(state, statement);
-              break;
-            case PrmStatement::Kind::set:
-              if (!state.sections.empty() &&
-                  state.sections.front().name == "Sweep")
-                set_sweep_key(state, statement);
-              else if (!state.sections.empty() &&
-                       state.sections.front().name == "Variants")
-                add_override(state, statement);
-              else
-                set_key(state, statement);
-              break;
-          }
-      if (!state.sections.empty())
-        throw InputError(place(file, state.sections.back().line) +
-                         ": subsection " + state.sections.back().name +
-                         " is never closed by an \"end\"");
-
-      finish_sweep(state);
+      try
+        {
+          read_statements(state, statements);
+          finish_sweep(state);
+        }
+      catch (const InputError &error)
+        {
+          errors.push_back(error.what());
+        }
       ++text.n_layers;
       for (Assignment &assignment : state.assignments)
         {
@@ -317,14 +346,89 @@ namespace SlipStep
 
 
 
+    void
+    CaseReader::read_statements(FileState                       &state,
+                                const std::vector<PrmStatement> &statements)
+    {
+      for (const PrmStatement &statement : statements)
+        try
+          {
+            read_statement(state, statement);
+          }
+        catch (const MissingEnd &)
+          {
+            throw;
+          }
+        catch (const InputError &error)
+          {
+            errors.push_back(error.what());
+          }
+      if (!state.sections.empty())
+        throw MissingEnd(place(state.file, state.sections.back().line) +
+                         ": subsection " + excerpt(state.sections.back().name) +
+                         ", begun here, is never closed by an \"end\"");
+    }
+
+
+
+    void CaseReader::read_statement(FileState          &state,
+                                    const PrmStatement &statement)
+    {
+      using Kind           = PrmStatement::Kind;
+      const auto &sections = state.sections;
+      if (statement.kind == Kind::wrong)
+        throw InputError(statement.value);
+      else if (statement.kind == Kind::subsection)
+        open_section(state, statement);
+      else if (statement.kind == Kind::end)
+        close_section(state, statement);
+      else if (statement.kind == Kind::include)
+        include_file(state, statement);
+      else if (sections.empty())
+        set_key(state, statement);
+      else if (sections.back().is_unknown)
+        return;
+      else if (sections.front().name == "Sweep")
+        set_sweep_key(state, statement);
+      else if (sections.front().name == "Variants")
+        add_override(state, statement);
+      else
+        set_key(state, statement);
+    }
+
+
+
     void CaseReader::open_section(FileState          &state,
                                   const PrmStatement &statement) const
+    {
+      const bool is_inside_unknown =
+        !state.sections.empty() && state.sections.back().is_unknown;
+      try
+        {
+          if (!is_inside_unknown)
+            check_section(state, statement);
+          state.sections.push_back(
+            {statement.name, statement.line, is_inside_unknown});
+        }
+      catch (const InputError &)
+        {
+          state.sections.push_back({statement.name, statement.line, true});
+          throw;
+        }
+    }
+
+
+
+    void CaseReader::check_section(FileState          &state,
+                                   const PrmStatement &statement) const
     {
       const std::string where  = place(state.file, statement.line);
       SweepText        &sweep  = state.sweep;
       const bool        is_top = state.sections.empty();
       const bool        is_in_variants =
         !is_top && state.sections.front().name == "Variants";
+      const std::string path =
+        path_of(state, statement.name, is_in_variants ? 2 : 0);
 
       if (is_top && statement.name == "Variants")
         sweep.has_variants = true;
@@ -332,16 +436,48 @@ namespace SlipStep
         sweep.has_sweep = true;
       else if (is_in_variants && state.sections.size() == 1)
         add_variant(sweep.variants, statement.name, where);
+      else if (known.paths(path + "/").empty() &&
+               is_section_outside(state, statement.name))
+        throw MissingEnd(where + ": an \"end\" is missing before subsection " +
+                         statement.name + ": " +
+                         state.sections.back().in_words());
       else if (!is_top && state.sections.front().name == "Sweep")
         throw InputError(where + ": Sweep has no subsections, only "
                                  "\"set Key = ...\" and \"set Values = ...\"");
+      else if (known.paths(path + "/").empty() && is_in_variants &&
+               state.sections.size() == 2)
+        throw InputError(where + ": unknown section " + excerpt(path) +
+                         "; if it is a variant, an \"end\" is missing: " +
+                         state.sections.back().in_words());
       else
-        known.check_section(
-          path_of(state, statement.name, is_in_variants ? 2 : 0), where);
+        known.check_section(path, where);
       if (sweep.has_variants && sweep.has_sweep)
         throw InputError(where + ": both Variants and Sweep are given; a case "
                                  "has one of them");
-      state.sections.push_back({statement.name, statement.line});
+    }
+
+
+
+    // Whether the file would go on with this section, were those closed that
+    // are open.
+    bool CaseReader::is_section_outside(const FileState   &state,
+                                        const std::string &name) const
+    {
+      if (state.sections.empty())
+        return false;
+      if (name == "Sweep" || name == "Variants")
+        return true;
+      FileState outer = state;
+      while (!outer.sections.empty())
+        {
+          outer.sections.pop_back();
+          const bool is_in_variants = !outer.sections.empty() &&
+                                      outer.sections.front().name == "Variants";
+          if (!known.paths(path_of(outer, name, is_in_variants ? 2 : 0) + "/")
+                 .empty())
+            return true;
+        }
+      return false;
     }
 
 
@@ -362,6 +498,11 @@ namespace SlipStep
     {
       const std::string where = place(state.file, statement.line);
       const std::string path  = path_of(state, statement.name);
+      if (!state.sections.empty() && known.paths(path).empty() &&
+          !known.paths(statement.name).empty())
+        throw InputError(
+          where + ": unknown key " + excerpt(path) + "; for " + statement.name +
+          ", an \"end\" is missing: " + state.sections.back().in_words());
       known.check(path, statement.value, where);
       const auto inserted = state.line_of_key.emplace(path, statement.line);
       if (!inserted.second)
@@ -423,8 +564,8 @@ namespace SlipStep
       if (!state.sections.empty())
         throw InputError(where +
                          ": \"include\" must stand outside of "
-                         "subsections, but " +
-                         state.sections.back().name + " is open");
+                         "subsections; an \"end\" is missing: " +
+                         state.sections.back().in_words());
       const std::filesystem::path file =
         (state.file.parent_path() / statement.value).lexically_normal();
       std::error_code error;
@@ -532,8 +673,18 @@ namespace SlipStep
   CaseText read_case_text(const std::filesystem::path &file,
                           const Parameters            &known)
   {
+    constexpr std::size_t most_shown = 20;
+
     CaseReader reader(known);
     reader.read_file(file);
+    std::string message;
+    for (std::size_t i = 0; i < std::min(reader.errors.size(), most_shown); ++i)
+      message += (i == 0 ? "" : "\n") + reader.errors[i];
+    if (reader.errors.size() > most_shown)
+      message +=
+        "\nand " + std::to_string(reader.errors.size() - most_shown) + " more";
+    if (!message.empty())
+      throw InputError(message);
     return reader.text;
   }
 } // namespace SlipStep
