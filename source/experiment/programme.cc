@@ -2,7 +2,9 @@
 
 #include <slipstep/experiment/measured_test.h>
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/units.h>
 
@@ -79,7 +81,7 @@ namespace SlipStep
 
     bool is_keyword(const std::string &word)
     {
-      return std::count(keywords.begin(), keywords.end(), word) > 0;
+      return std::count(keywords.begin(), keywords.end(), lower_case(word)) > 0;
     }
 
 
@@ -242,9 +244,9 @@ namespace SlipStep
     {
       const std::vector<Piece> all = words(header);
       const std::string example    = "write e.g. '" + usage.at("repeat") + "'";
-      if (all.empty() || all[0].text != "repeat")
-        fail(all.empty() || usage.count(all[0].text) > 0 ? brace :
-                                                           header.column,
+      const std::string verb       = all.empty() ? "" : lower_case(all[0].text);
+      if (verb != "repeat")
+        fail(all.empty() || usage.count(verb) > 0 ? brace : header.column,
              "braces follow 'repeat'; " + example);
       if (all.size() < 2)
         fail(header.end(), "how many times? " + example);
@@ -254,7 +256,8 @@ namespace SlipStep
         fail(all[1].column, "expected a number of times; " + example);
       if (number.size() > 9)
         fail(all[1].column, "these are too many times");
-      if (all.size() != 3 || (all[2].text != "times" && all[2].text != "time"))
+      if (all.size() != 3 || (!is_same_word(all[2].text, "times") &&
+                              !is_same_word(all[2].text, "time")))
         fail(all.size() < 3 ? all[1].end() : all[2].column,
              "expected 'times' and a brace; " + example);
       return std::stoul(number);
@@ -288,8 +291,9 @@ namespace SlipStep
       const std::vector<Piece> all = words(piece);
 
       Statement statement;
-      statement.verb = all.front();
-      statement.end  = piece.end();
+      statement.verb      = all.front();
+      statement.verb.text = lower_case(statement.verb.text);
+      statement.end       = piece.end();
 
       const std::string &verb = statement.verb.text;
       if (usage.count(verb) == 0)
@@ -330,7 +334,7 @@ namespace SlipStep
             if (i == all.size())
               break;
             start   = all[i];
-            keyword = start.text;
+            keyword = lower_case(start.text);
             if (usage.at(verb).find(" " + keyword + " ") == std::string::npos)
               fail(start.column,
                    "'" + verb + "' has no '" + keyword + "'; write e.g. '" +
@@ -466,10 +470,11 @@ namespace SlipStep
       if (stop.ec == std::errc::invalid_argument)
         fail(piece.column, "a number is missing before '" + piece.text + "'");
       const std::size_t comma = piece.text.find(',');
+      const std::string hint  = decimal_comma_hint(piece.text);
       if (comma != std::string::npos)
         fail(piece.column + comma,
-             "there are no commas: statements are separated by ';', and "
-             "decimals begin with a point");
+             "there are no commas: statements are separated by ';', and " +
+               (hint.empty() ? "decimals begin with a point" : hint));
 
       const std::size_t number_end = stop.ptr - begin;
       const Piece       unit =
@@ -666,7 +671,7 @@ namespace SlipStep
           std::min(text.find_first_of(borders, begin), text.size());
         const Piece piece = trim({text.substr(begin, end - begin), begin});
         const std::string name =
-          piece.text.compare(0, verb.size(), verb) == 0 ?
+          is_same_word(piece.text.substr(0, verb.size()), verb) ?
             trim({piece.text.substr(verb.size()), 0}).text :
             "";
         if (name.empty())

@@ -1,5 +1,6 @@
 #include <deal.II/base/utilities.h>
 
+#include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/parameter_reader.h>
@@ -630,6 +631,12 @@ namespace SlipStep
       const char separator =
         sweep.values.find(';') == std::string::npos ? ',' : ';';
       const std::string name = sweep.key.substr(sweep.key.rfind('/') + 1);
+      const std::string hint = decimal_comma_hint(sweep.values);
+      if (separator == ',' && !hint.empty() &&
+          sweep.values.find(", ") != std::string::npos)
+        throw InputError(
+          sweep.values_origin + ": Sweep/Values = " + excerpt(sweep.values) +
+          ": " + hint + " (commas separate; write a blank behind them)");
 
       std::vector<Variant> variants;
       for (const std::string &value :

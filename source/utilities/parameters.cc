@@ -1,6 +1,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
 
+#include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/parameter_printer.h>
 #include <slipstep/utilities/parameter_reader.h>
@@ -150,7 +151,7 @@ namespace SlipStep
     for (const Assignment &assignment : text.assignments)
       {
         Entry &entry = entries[index_of_path.at(assignment.path)];
-        entry.value  = assignment.value;
+        entry.value  = as_meant(*entry.pattern, assignment.value);
         entry.origin = assignment.origin;
         entry.layer  = n_layers + assignment.layer;
       }
@@ -209,9 +210,11 @@ namespace SlipStep
                          const std::string &origin) const
   {
     check_path(path, origin);
-    const std::string why = value.find_first_of("#\n") == std::string::npos ?
-                              why_not_allowed(*entry(path).pattern, value) :
-                              "a value cannot contain # or a line break";
+    const auto       &pattern = *entry(path).pattern;
+    const std::string why =
+      value.find_first_of("#\n") == std::string::npos ?
+        why_not_allowed(pattern, as_meant(pattern, value)) :
+        "a value cannot contain # or a line break";
     if (!why.empty())
       throw InputError(introduction(origin) + path + " =" +
                        (value.empty() ? "" : " ") + excerpt(value) + ": " +
@@ -227,7 +230,7 @@ namespace SlipStep
     const std::string trimmed = trim(value);
     check(path, trimmed, origin);
     Entry &entry = entries[index_of_path.at(path)];
-    entry.value  = trimmed;
+    entry.value  = as_meant(*entry.pattern, trimmed);
     entry.origin = origin;
     entry.layer  = ++n_layers;
 
@@ -343,10 +346,17 @@ namespace SlipStep
 
   void Parameters::reject(const std::string &path, const std::string &why) const
   {
-    const Entry &found = entry(path);
+    const Entry      &found = entry(path);
+    const std::string hint  = decimal_comma_hint(found.value);
+    // Of lists nobody knows; a marked column comes last.
+    const bool is_comma_told =
+      !hint.empty() && why.find_first_of("\n") == std::string::npos &&
+      why.find("decimals begin with a point") == std::string::npos &&
+      dynamic_cast<const dealii::Patterns::Anything *>(found.pattern.get());
     throw InputError(origin(path) + " =" + (found.value.empty() ? "" : " ") +
                      excerpt(found.value) +
-                     (found.layer > 0 ? "" : " (the default)") + ": " + why);
+                     (found.layer > 0 ? "" : " (the default)") + ": " + why +
+                     (is_comma_told ? "; " + hint : ""));
   }
 
 

@@ -1,5 +1,6 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/parameters.h>
+#include <slipstep/utilities/pattern_words.h>
 
 #include <gtest/gtest.h>
 
@@ -211,6 +212,48 @@ TEST_F(ParametersTest, WrongValuesSayWhatIsAllowed)
   expect_contains(error_of("set Block/Size = 1\n"), "a list of 2 to 3");
   expect_contains(error_of("set Block/Degree =\n"),
                   "Block/Degree =: the value is missing");
+}
+
+
+
+TEST_F(ParametersTest, CapitalsOfWordsDoNotMatter)
+{
+  const Parameters p = read("set Block/Form = Wedge\n"
+                            "set Block/Curved = True\n"
+                            "set Friction/Effects = Softening, HEALING\n");
+  EXPECT_EQ(p.text("Block/Form"), "wedge");
+  EXPECT_TRUE(p.boolean("Block/Curved"));
+  EXPECT_EQ(p.text("Friction/Effects"), "softening, healing");
+  // 1 MPa is not 1 mPa.
+  expect_contains(error_of("set Loading/Speed = 1 MM/s\n"), "nearest is mm/s");
+
+  Parameters q = declared();
+  q.declare("Noise", "none", AnythingWithWords({"none", "from"}), "Words.");
+  q.set("Noise", "None of Friction/expression/From FROM 1 Nm", "--set");
+  EXPECT_EQ(q.text("Noise"), "none of Friction/expression/From from 1 Nm");
+}
+
+
+
+TEST_F(ParametersTest, DecimalCommasAreToldAsSuch)
+{
+  const std::string hint = "decimals begin with a point: ";
+  EXPECT_EQ(error_of("set Friction/healing/Rate = 0,05 1/s\n"),
+            "case.prm:1: Friction/healing/Rate = 0,05 1/s: " + hint +
+              "0.05 1/s; allowed is a rate per time (in 1/s if no unit is "
+              "given) of at least 0 1/s");
+  expect_contains(error_of("set Loading/Speed = 1.000,5 mm/s\n"),
+                  "decimals begin with a point, and nothing separates");
+  // Two lengths or three?
+  expect_contains(error_of("set Block/Size = 10,5 mm, 10 mm\n"),
+                  hint + "10.5 mm");
+  expect_contains(error_of("set Block/Size = 10,5 mm\n"), hint + "10.5 mm");
+  EXPECT_EQ(error_of("set Block/Size = 10,20,30\n"), "");
+  EXPECT_EQ(error_of("set Block/Size = 10 mm,20 mm\n"), "");
+  expect_contains(error_of("subsection Sweep\n"
+                           "set Key = Friction/healing/Rate\n"
+                           "set Values = 0,1, 0,2\nend\n"),
+                  "case.prm:3: Sweep/Values = 0,1, 0,2: " + hint + "0.1");
 }
 
 
