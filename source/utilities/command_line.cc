@@ -2,7 +2,9 @@
 
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/version.h>
 
 #include <boost/program_options.hpp>
@@ -304,11 +306,33 @@ namespace SlipStep
 
 
 
+    // What only a file can say.
+    void reject_statement(const std::string &text)
+    {
+      const std::string word =
+        lower_case(text.substr(0, text.find_first_of(" /=")));
+      const std::string place = "--set \"" + excerpt(text) + "\": ";
+      if (word == "sweep" || word == "variants")
+        throw InputError(place +
+                         "only a case file defines a sweep; --set changes "
+                         "one key for all of its members, --variant NAME "
+                         "chooses one");
+      if (word == "include" || word == "subsection" || word == "end")
+        throw InputError(place + "only a case file has lines with '" + word +
+                         "'; write --set \"Section/Key = value\"");
+      if (word == "set")
+        throw InputError(place + "leave out the word 'set': --set "
+                                 "\"Section/Key = value\"");
+    }
+
+
+
     std::pair<std::string, std::string> parse_setting(const std::string &text)
     {
+      reject_statement(text);
       const std::size_t sign = text.find('=');
       if (sign == std::string::npos || sign == 0)
-        throw InputError("--set \"" + text +
+        throw InputError("--set \"" + excerpt(text) +
                          "\": write it as --set \"Section/Key = value\"");
       return {dealii::Utilities::trim(text.substr(0, sign)),
               dealii::Utilities::trim(text.substr(sign + 1))};
