@@ -299,6 +299,32 @@ namespace SlipStep
 
 
 
+  std::vector<std::size_t> turning_rows(const std::vector<double> &displacement,
+                                        const double               band)
+  {
+    const std::vector<double> smooth = without_jitter(displacement, band);
+    std::vector<std::size_t>  rows;
+    std::size_t               farthest  = 0;
+    double                    direction = 0.;
+    for (std::size_t i = 1; i < smooth.size(); ++i)
+      {
+        const double step = smooth[i] - smooth[i - 1];
+        if (step != 0. && direction == 0.)
+          direction = std::copysign(1., step);
+        if (step * direction < 0.)
+          {
+            rows.push_back(farthest);
+            farthest  = i;
+            direction = -direction;
+          }
+        if (direction * (displacement[i] - displacement[farthest]) > 0.)
+          farthest = i;
+      }
+    return rows;
+  }
+
+
+
   double range_of(const std::vector<double> &values)
   {
     if (values.empty())
