@@ -23,8 +23,9 @@
 #include <slipstep/solid/run_block.h>
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/message_lines.h>
 #include <slipstep/utilities/parameters.h>
+#include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
 
@@ -59,25 +60,6 @@ namespace SlipStep
 
     // ------------------------------------------------------------- messages
 
-    // The first lines with something in them: deal.II's messages are pages.
-    std::string essential_lines(const std::string &text,
-                                const unsigned int n_lines)
-    {
-      std::istringstream in(text);
-      std::string        line, result;
-      for (unsigned int n = 0; n < n_lines && std::getline(in, line);)
-        {
-          line = dealii::Utilities::trim(line);
-          if (line.empty())
-            continue;
-          result += (n == 0 ? "" : " ") + line;
-          ++n;
-        }
-      return result;
-    }
-
-
-
     struct Outcome
     {
       int         exit_code = done;
@@ -94,7 +76,18 @@ namespace SlipStep
         }
       catch (const InputError &error)
         {
-          return {input_wrong, error.what()};
+          return {input_wrong, readable(error.what())};
+        }
+      catch (const fs::filesystem_error &error)
+        {
+          const bool is_name =
+            error.code() == std::errc::filename_too_long ||
+            error.code() == std::errc::not_a_directory ||
+            error.code() == std::errc::permission_denied ||
+            error.code() == std::errc::too_many_symbolic_link_levels;
+          return {is_name ? input_wrong : run_failed,
+                  excerpt(error.path1().string(), 300) + ": " +
+                    error.code().message()};
         }
       catch (const RunError &error)
         {
@@ -653,6 +646,7 @@ namespace SlipStep
 
 int main(int argc, char **argv)
 {
+  SlipStep::open_closed_descriptors();
   // A file that grows too large is a failed write, reported as such.
   std::signal(SIGXFSZ, SIG_IGN);
   // A wish for a checkpoint does no harm where there is none; children inherit

@@ -209,8 +209,10 @@ namespace SlipStep
     for (const std::string &name : parameters.list(tests_key))
       {
         const fs::path file = parameters.resolve(name);
-        if (!fs::exists(file))
-          parameters.reject(tests_key, "there is no " + file.string());
+        std::error_code error;
+        if (!fs::exists(file, error))
+          parameters.reject(tests_key,
+                            "there is no " + excerpt(file.string(), 300));
         files.push_back(file);
       }
     if (files.empty())

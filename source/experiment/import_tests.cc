@@ -4,6 +4,7 @@
 #include <slipstep/experiment/test_set.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/find_variant.h>
+#include <slipstep/utilities/home_folder.h>
 
 #include <fstream>
 #include <iostream>
@@ -59,9 +60,10 @@ namespace SlipStep
         throw InputError(line.files.front().string() +
                          ": the raw file is missing: set Raw file/Name, or "
                          "name it behind the map");
-      const fs::path file = is_told               ? line.files[1] :
-                            line.files.size() > 1 ? line.files[1] / name :
-                                                    job.map.resolve(name);
+      const fs::path file = is_told ? line.files[1] :
+                            line.files.size() > 1 ?
+                                      line.files[1] / with_home(name) :
+                                      job.map.resolve(name);
       if (!fs::is_regular_file(file))
         throw InputError((is_told ? std::string("slipstep import") :
                                     job.map.origin("Raw file/Name")) +

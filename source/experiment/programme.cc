@@ -4,8 +4,10 @@
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/home_folder.h>
 #include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/units.h>
 
 #include <deal.II/base/exceptions.h>
@@ -413,9 +415,10 @@ namespace SlipStep
     void Parser::follow(const Statement &statement)
     {
       const Piece                &name = part(statement, "");
-      const std::filesystem::path file = directory / name.text;
-      if (!std::filesystem::is_regular_file(file))
-        fail(name.column, "there is no file " + file.string());
+      const std::filesystem::path file = directory / with_home(name.text);
+      std::error_code             error;
+      if (!std::filesystem::is_regular_file(file, error))
+        fail(name.column, "there is no file " + excerpt(file.string(), 300));
 
       if (tests.count(name.text) == 0)
         {
@@ -677,8 +680,9 @@ namespace SlipStep
         if (name.empty())
           result += text.substr(begin, end - begin);
         else
-          result += text.substr(begin, piece.column - begin) + verb + " " +
-                    std::filesystem::proximate(from / name, to).string();
+          result +=
+            text.substr(begin, piece.column - begin) + verb + " " +
+            std::filesystem::proximate(from / with_home(name), to).string();
         if (end < text.size())
           result += text[end];
         begin = end + 1;

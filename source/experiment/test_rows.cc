@@ -111,8 +111,18 @@ namespace SlipStep
       for (std::size_t i = 0; i < has_gap.size(); ++i)
         if (!has_gap[i])
           rows.push_back(i);
-      warn("rows without a value, left out: " + std::to_string(n),
-           std::find(has_gap.begin(), has_gap.end(), true) - has_gap.begin());
+      const std::size_t first =
+        std::find(has_gap.begin(), has_gap.end(), true) - has_gap.begin();
+      if (rows.size() < 2)
+        for (const Channel *channel : filled)
+          if (std::isnan((test.*(channel->values))[first]))
+            origin.reject(first,
+                          channel->name,
+                          channel->name + " has no value, and so it is in " +
+                            std::to_string(n) + " of " +
+                            std::to_string(has_gap.size()) +
+                            " rows; a test needs two that are complete");
+      warn("rows without a value, left out: " + std::to_string(n), first);
       keep(rows);
     }
 

@@ -2,6 +2,7 @@
 
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/home_folder.h>
 #include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
@@ -391,7 +392,7 @@ namespace SlipStep
       return values.count(name) ? values[name].as<std::vector<std::string>>() :
                                   std::vector<std::string>();
     };
-    line.output            = text("output");
+    line.output            = with_home(text("output")).string();
     line.format            = text("format");
     line.variant           = text("variant");
     line.quiet             = values.count("quiet") > 0;
@@ -404,7 +405,8 @@ namespace SlipStep
          {"class", "seed", "effect", "tests", "noise", "noise-factor", "open"})
       if (values.count(name))
         {
-          line.plant_options[name] = text(name);
+          line.plant_options[name] =
+            name == "open" ? with_home(text(name)).string() : text(name);
           if (text(name).empty())
             throw InputError("--" + name + ": a value is needed");
         }
@@ -441,7 +443,8 @@ namespace SlipStep
     if (line.help)
       return line;
 
-    line.files.assign(words.begin() + 1, words.end());
+    for (std::size_t i = 1; i < words.size(); ++i)
+      line.files.push_back(with_home(words[i]));
     check_usage(line, values);
     return line;
   }

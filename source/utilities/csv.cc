@@ -196,6 +196,9 @@ namespace SlipStep
     in.seekg(0);
     if (!content.empty() && !in.read(content.data(), content.size()))
       throw InputError(file.string() + ": this file cannot be read");
+    // Old Macintoshes end lines with CR alone.
+    if (content.find('\n') == std::string::npos)
+      std::replace(content.begin(), content.end(), '\r', '\n');
     text = std::make_shared<const std::string>(std::move(content));
     next = text->data();
     if (begins_with(*text, "\xEF\xBB\xBF"))

@@ -2,6 +2,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/utilities/decimal_comma.h>
+#include <slipstep/utilities/home_folder.h>
 #include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/parameter_printer.h>
 #include <slipstep/utilities/parameter_reader.h>
@@ -363,7 +364,7 @@ namespace SlipStep
 
   std::filesystem::path Parameters::resolve(const std::string &file_name) const
   {
-    return (file_read.parent_path() / file_name).lexically_normal();
+    return (file_read.parent_path() / with_home(file_name)).lexically_normal();
   }
 
 

@@ -271,9 +271,9 @@ namespace SlipStep
 
 
 
-  std::string excerpt(const std::string &text)
+  std::string excerpt(const std::string &text, const std::size_t most)
   {
-    const std::size_t most = 60, half = most / 2 - 2;
+    const std::size_t half = most / 2 - 2;
     if (text.size() <= most)
       return text;
     // Characters of several bytes are not cut in two.

@@ -1,5 +1,8 @@
 #include <slipstep/utilities/process.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
@@ -38,6 +41,15 @@ namespace SlipStep
       return otherwise;
     }
   } // namespace
+
+
+
+  void open_closed_descriptors()
+  {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+      if (fcntl(descriptor, F_GETFD) == -1)
+        open("/dev/null", O_RDWR);
+  }
 
 
 

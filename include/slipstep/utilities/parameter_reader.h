@@ -9,6 +9,9 @@
 
 namespace SlipStep
 {
+  /// "file:line", as messages begin.
+  std::string place(const std::filesystem::path &file, const unsigned int line);
+
   /// A line of a .prm file that says something; continuation lines are joined.
   struct PrmStatement
   {

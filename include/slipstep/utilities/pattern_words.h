@@ -37,7 +37,7 @@ namespace SlipStep
 
   /// What the user wrote, fit for one line of a message: the middle of a long
   /// text is left out.
-  std::string excerpt(const std::string &text);
+  std::string excerpt(const std::string &text, const std::size_t most = 60);
 } // namespace SlipStep
 
 #endif
