@@ -325,6 +325,12 @@ namespace SlipStep
           return statement;
         }
 
+      for (std::size_t i = 1; i < all.size(); ++i)
+        if (usage.count(lower_case(all[i].text)) > 0)
+          fail(all[i - 1].text.back() == ',' ? all[i - 1].end() - 1 :
+                                               all[i].column,
+               "statements are separated by ';': it is missing before '" +
+                 all[i].text + "'");
       Piece       start   = statement.verb;
       std::string keyword = "";
       for (std::size_t i = 1; i <= all.size(); ++i)

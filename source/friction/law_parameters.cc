@@ -30,11 +30,13 @@ namespace SlipStep
           if (effect_registry().count(name) == 0)
             {
               const std::string near = nearest_name(name, known);
-              parameters.reject("Friction/Effects",
-                                "there is no effect '" + name + "'" +
-                                  (near.empty() ?
-                                     "; 'slipstep effects' lists them" :
-                                     "; did you mean '" + near + "'?"));
+              parameters.reject(
+                "Friction/Effects",
+                "there is no effect '" + name + "'" +
+                  (name.find_first_of("; ") != std::string::npos ?
+                     "; effects are separated by commas" :
+                   near.empty() ? "; 'slipstep effects' lists them" :
+                                  "; did you mean '" + near + "'?"));
             }
           if (std::find(names.begin(), names.end(), name) != names.end())
             parameters.reject("Friction/Effects",

@@ -237,7 +237,12 @@ namespace SlipStep
       for (const std::string &element : elements(*list, text))
         if (!list->get_base_pattern().match(element))
           return "\"" + excerpt(element) +
-                 "\": " + why_not_allowed(list->get_base_pattern(), element);
+                 "\": " + why_not_allowed(list->get_base_pattern(), element) +
+                 (list->get_separator() == "," &&
+                      (element.find(';') != std::string::npos ||
+                       element.find(" x ") != std::string::npos) ?
+                    " (commas separate)" :
+                    "");
 
     const std::string allowed = "allowed is " + allowed_in_words(pattern);
     if (text.empty())

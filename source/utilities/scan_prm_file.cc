@@ -1,6 +1,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/parameter_reader.h>
 #include <slipstep/utilities/pattern_words.h>
@@ -61,7 +62,7 @@ namespace SlipStep
       PrmStatement statement;
       statement.line   = line;
       std::string rest = text;
-      std::string word = first_word(rest);
+      std::string word = lower_case(first_word(rest));
       if (word == "subsection" && !rest.empty())
         {
           statement.kind = PrmStatement::Kind::subsection;

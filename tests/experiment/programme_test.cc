@@ -116,6 +116,25 @@ TEST(Programme, UnitsAreConverted)
 
 
 
+TEST(Programme, AMissingSemicolonIsNamed)
+{
+  for (const std::string border : {",", ""})
+    try
+      {
+        parse("press 5 MPa in 1 s" + border + " slide 1 mm/s for 1 mm");
+        ADD_FAILURE();
+      }
+    catch (const InputError &error)
+      {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("';': it is missing before 'slide'"),
+                  std::string::npos)
+          << message;
+      }
+}
+
+
+
 TEST(Programme, CapitalsOfWordsDoNotMatter)
 {
   const std::string text = "press 1 MPa in 1 s; repeat 2 times { slide 1 mm/s "

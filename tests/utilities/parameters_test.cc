@@ -218,7 +218,8 @@ TEST_F(ParametersTest, WrongValuesSayWhatIsAllowed)
 
 TEST_F(ParametersTest, CapitalsOfWordsDoNotMatter)
 {
-  const Parameters p = read("set Block/Form = Wedge\n"
+  const Parameters p = read("Subsection Block\nSet Degree = 2\nEND\n"
+                            "set Block/Form = Wedge\n"
                             "set Block/Curved = True\n"
                             "set Friction/Effects = Softening, HEALING\n");
   EXPECT_EQ(p.text("Block/Form"), "wedge");
