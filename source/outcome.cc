@@ -1,13 +1,15 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
 
 #include <slipstep/outcome.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/message_lines.h>
+#include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -15,28 +17,6 @@
 
 namespace SlipStep
 {
-  namespace
-  {
-    // The first lines with something in them: deal.II's messages are pages.
-    std::string essential_lines(const std::string &text,
-                                const unsigned int n_lines)
-    {
-      std::istringstream in(text);
-      std::string        line, result;
-      for (unsigned int n = 0; n < n_lines && std::getline(in, line);)
-        {
-          line = dealii::Utilities::trim(line);
-          if (line.empty())
-            continue;
-          result += (n == 0 ? "" : " ") + line;
-          ++n;
-        }
-      return result;
-    }
-  } // namespace
-
-
-
   Outcome guarded(const std::function<int()> &work)
   {
     try
@@ -45,7 +25,18 @@ namespace SlipStep
       }
     catch (const InputError &error)
       {
-        return {input_wrong, error.what()};
+        return {input_wrong, readable(error.what())};
+      }
+    catch (const std::filesystem::filesystem_error &error)
+      {
+        const bool is_name =
+          error.code() == std::errc::filename_too_long ||
+          error.code() == std::errc::not_a_directory ||
+          error.code() == std::errc::permission_denied ||
+          error.code() == std::errc::too_many_symbolic_link_levels;
+        return {is_name ? input_wrong : run_failed,
+                excerpt(error.path1().string(), 300) + ": " +
+                  error.code().message()};
       }
     catch (const RunError &error)
       {

@@ -26,7 +26,6 @@
 #include <slipstep/solid/run_block.h>
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/parameters.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
@@ -541,6 +540,7 @@ namespace SlipStep
 
 int main(int argc, char **argv)
 {
+  SlipStep::open_closed_descriptors();
   // A file that grows too large is a failed write, reported as such.
   std::signal(SIGXFSZ, SIG_IGN);
   // A wish for a checkpoint does no harm where there is none; children inherit

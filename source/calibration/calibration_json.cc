@@ -40,6 +40,7 @@ namespace SlipStep
                 {"lower_open", fitted.is_lower_open},
                 {"upper_open", fitted.is_upper_open}}},
               {"at_bound", fitted.is_at_bound},
+              {"constraint", fitted.constraint},
               {"profile", profile}};
     }
 

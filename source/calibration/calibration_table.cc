@@ -67,7 +67,7 @@ namespace SlipStep
                     [](const FittedParameter &fitted) {
                       return fitted.is_at_bound;
                     }))
-      text += "  * at a bound\n";
+      text += "  * at a bound, or at a condition of the law\n";
     if (!calibration.derived.empty())
       text += "\n" + text_table(derived_lines(calibration), widest);
     if (!calibration.tests.empty())

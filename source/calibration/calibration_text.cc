@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace SlipStep
 {
@@ -57,6 +59,17 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    bool is_open(const FittedParameter &fitted)
+    {
+      return fitted.constraint.empty() &&
+             (fitted.is_lower_open || fitted.is_upper_open);
+    }
+  } // namespace
+
+
+
   std::string calibration_headline(const Calibration &calibration)
   {
     std::string text = counted(calibration.parameters.size(), "parameter") +
@@ -71,12 +84,11 @@ namespace SlipStep
     text += "; it was " +
             short_text(total_rms(calibration, &TestMisfit::start_rms), 3) +
             " with the start values.";
-    const std::size_t n_open =
-      std::count_if(calibration.parameters.begin(),
-                    calibration.parameters.end(),
-                    [](const FittedParameter &fitted) {
-                      return fitted.is_lower_open || fitted.is_upper_open;
-                    });
+    const std::size_t n_open = std::count_if(calibration.parameters.begin(),
+                                             calibration.parameters.end(),
+                                             [](const FittedParameter &fitted) {
+                                               return is_open(fitted);
+                                             });
     if (n_open > 0)
       text += " " + counted(n_open, "parameter") +
               (n_open == 1 ? " has" : " have") + " an open interval.";
@@ -89,7 +101,7 @@ namespace SlipStep
   {
     std::string text;
     for (const FittedParameter &fitted : calibration.parameters)
-      if (fitted.is_lower_open || fitted.is_upper_open)
+      if (is_open(fitted))
         text += (text.empty() ? "" : ", ") + label_of(fitted.parameter) +
                 (!fitted.is_upper_open ? " (no lower end)" :
                  !fitted.is_lower_open ? " (no upper end)" :
@@ -97,6 +109,31 @@ namespace SlipStep
     return text.empty() ?
              "" :
              "Up to their bounds, these tests do not limit: " + text + ".";
+  }
+
+
+
+  std::vector<std::string> constraint_sentences(const Calibration &calibration)
+  {
+    std::map<std::string, std::string> stopped;
+    std::set<std::string>              wanted;
+    for (const FittedParameter &fitted : calibration.parameters)
+      if (!fitted.constraint.empty())
+        {
+          std::string &names = stopped[fitted.constraint];
+          names += (names.empty() ? "" : " and ") + label_of(fitted.parameter);
+          if (fitted.is_wanted_beyond)
+            wanted.insert(fitted.constraint);
+        }
+    std::vector<std::string> sentences;
+    for (const auto &[constraint, names] : stopped)
+      sentences.push_back(
+        names + " stopped at a condition of the law: " + constraint +
+        (wanted.count(constraint) > 0 ?
+           ". The tests want the other side of it: choose effects that allow "
+           "it ('slipstep effects' lists them)." :
+           ". The tests want the other side of it, or do not need the effect."));
+    return sentences;
   }
 
 
@@ -215,6 +252,8 @@ namespace SlipStep
 
   std::string interval_text(const FittedParameter &fitted)
   {
+    if (!fitted.constraint.empty())
+      return "–";
     const std::string lower = digits_text(fitted, fitted.lower);
     const std::string upper = digits_text(fitted, fitted.upper);
     return fitted.is_lower_open ?

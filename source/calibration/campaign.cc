@@ -4,6 +4,7 @@
 #include <slipstep/experiment/resample.h>
 #include <slipstep/experiment/test_rows.h>
 #include <slipstep/experiment/test_set.h>
+#include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/process.h>
 
 #include <algorithm>
@@ -40,7 +41,7 @@ namespace SlipStep
     parameters.declare(
       "Calibration/Parameters",
       "",
-      Anything(),
+      AnythingWithWords({"from", "to", "start", "log", "linear"}),
       "What is to be found, separated by ';': '<path of a key> from <least "
       "value> to <largest value> [start <value>] [log|linear]'. The start is "
       "the case's own value unless stated. The scale is logarithmic if the "
@@ -57,7 +58,7 @@ namespace SlipStep
     parameters.declare(
       noise_key,
       "estimated",
-      Anything(),
+      AnythingWithWords({"estimated"}),
       "Standard deviation of the measured friction coefficient, by which "
       "differences are weighted: 'estimated' from the second differences of "
       "each record, or a number greater than 0. A comment '# noise: 0.002' in a "
@@ -114,7 +115,8 @@ namespace SlipStep
       const Quantity noise(Dimension::number, 0., 1e30, true);
       if (!noise.match(note->second))
         throw InputError(test.file.string() + ": noise: " + note->second +
-                         ": must be a number greater than 0");
+                         ": " + noise.why_not(note->second) +
+                         "; it must be a number greater than 0");
       return noise.value(note->second);
     }
 
@@ -207,8 +209,10 @@ namespace SlipStep
     for (const std::string &name : parameters.list(tests_key))
       {
         const fs::path file = parameters.resolve(name);
-        if (!fs::exists(file))
-          parameters.reject(tests_key, "there is no " + file.string());
+        std::error_code error;
+        if (!fs::exists(file, error))
+          parameters.reject(tests_key,
+                            "there is no " + excerpt(file.string(), 300));
         files.push_back(file);
       }
     if (files.empty())

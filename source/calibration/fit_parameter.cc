@@ -1,6 +1,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/calibration/fit_parameter.h>
+#include <slipstep/utilities/decimal_comma.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,8 +137,10 @@ namespace SlipStep
         }
       catch (const InputError &)
         {
+          const std::string  hint = decimal_comma_hint(value);
           std::ostringstream what;
-          what << (role + " = " + value) << ": allowed is "
+          what << (role + " = " + value + ": ") << hint
+               << (hint.empty() ? "" : "; ") << "allowed is "
                << parameters.entry(result.path)
                     .pattern->description(
                       dealii::Patterns::PatternBase::Machine);

@@ -1,5 +1,6 @@
 #include <slipstep/diagnosis/candidates.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
+#include <slipstep/utilities/pattern_words.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,10 +31,12 @@ namespace SlipStep
   void declare_diagnosis_parameters(Parameters &parameters)
   {
     using namespace dealii::Patterns;
+    std::vector<std::string> candidates = candidate_names();
+    candidates.push_back("all");
     parameters.declare(
       section + "Candidates",
       "all",
-      List(Anything()),
+      List(AnythingWithWords(candidates)),
       "Effects of which 'slipstep diagnose' thinks when something is missing, "
       "separated by commas, or 'all' of the catalogue.");
     parameters.declare(section + "Level",

@@ -3,7 +3,8 @@
 #include <slipstep/experiment/import_map.h>
 #include <slipstep/experiment/test_set.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/find_variant.h>
+#include <slipstep/utilities/home_folder.h>
 
 #include <fstream>
 #include <iostream>
@@ -36,20 +37,13 @@ namespace SlipStep
         return map;
       };
 
-      std::vector<Job>         jobs;
-      std::vector<std::string> labels;
-      for (const Variant &variant : as_written.variants())
-        {
-          labels.push_back(variant.label);
-          if (line.variant.empty() || line.variant == variant.label ||
-              line.variant == variant.folder)
-            jobs.push_back({with_settings(as_written.with_variant(variant)),
-                            variant.folder});
-        }
-      if (!line.variant.empty() && jobs.empty())
-        throw InputError("--variant " + line.variant + ": " + file.string() +
-                         " has no such variant" +
-                         did_you_mean(line.variant, labels));
+      std::vector<Variant> variants = as_written.variants();
+      if (!line.variant.empty())
+        variants = {find_variant(variants, line.variant, file)};
+      std::vector<Job> jobs;
+      for (const Variant &variant : variants)
+        jobs.push_back(
+          {with_settings(as_written.with_variant(variant)), variant.folder});
       if (jobs.empty())
         jobs.push_back({with_settings(as_written), ""});
       return jobs;
@@ -66,9 +60,10 @@ namespace SlipStep
         throw InputError(line.files.front().string() +
                          ": the raw file is missing: set Raw file/Name, or "
                          "name it behind the map");
-      const fs::path file = is_told               ? line.files[1] :
-                            line.files.size() > 1 ? line.files[1] / name :
-                                                    job.map.resolve(name);
+      const fs::path file = is_told ? line.files[1] :
+                            line.files.size() > 1 ?
+                                      line.files[1] / with_home(name) :
+                                      job.map.resolve(name);
       if (!fs::is_regular_file(file))
         throw InputError((is_told ? std::string("slipstep import") :
                                     job.map.origin("Raw file/Name")) +

@@ -1,4 +1,5 @@
 #include <slipstep/experiment/machine.h>
+#include <slipstep/utilities/pattern_words.h>
 
 #include <slipstep/utilities/units.h>
 
@@ -24,7 +25,7 @@ namespace SlipStep
     parameters.declare(
       stiffness_key,
       "rigid",
-      dealii::Patterns::Anything(),
+      AnythingWithWords({"rigid"}),
       "Stiffness k of the machine between the load point, which the programme "
       "moves, and the contact point of 'slipstep point': tangential traction "
       "per displacement. 'rigid', or more than 0, in MPa/mm. The block of "

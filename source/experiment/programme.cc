@@ -2,8 +2,12 @@
 
 #include <slipstep/experiment/measured_test.h>
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/home_folder.h>
+#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/units.h>
 
 #include <deal.II/base/exceptions.h>
@@ -79,7 +83,7 @@ namespace SlipStep
 
     bool is_keyword(const std::string &word)
     {
-      return std::count(keywords.begin(), keywords.end(), word) > 0;
+      return std::count(keywords.begin(), keywords.end(), lower_case(word)) > 0;
     }
 
 
@@ -242,9 +246,9 @@ namespace SlipStep
     {
       const std::vector<Piece> all = words(header);
       const std::string example    = "write e.g. '" + usage.at("repeat") + "'";
-      if (all.empty() || all[0].text != "repeat")
-        fail(all.empty() || usage.count(all[0].text) > 0 ? brace :
-                                                           header.column,
+      const std::string verb       = all.empty() ? "" : lower_case(all[0].text);
+      if (verb != "repeat")
+        fail(all.empty() || usage.count(verb) > 0 ? brace : header.column,
              "braces follow 'repeat'; " + example);
       if (all.size() < 2)
         fail(header.end(), "how many times? " + example);
@@ -254,7 +258,8 @@ namespace SlipStep
         fail(all[1].column, "expected a number of times; " + example);
       if (number.size() > 9)
         fail(all[1].column, "these are too many times");
-      if (all.size() != 3 || (all[2].text != "times" && all[2].text != "time"))
+      if (all.size() != 3 || (!is_same_word(all[2].text, "times") &&
+                              !is_same_word(all[2].text, "time")))
         fail(all.size() < 3 ? all[1].end() : all[2].column,
              "expected 'times' and a brace; " + example);
       return std::stoul(number);
@@ -288,8 +293,9 @@ namespace SlipStep
       const std::vector<Piece> all = words(piece);
 
       Statement statement;
-      statement.verb = all.front();
-      statement.end  = piece.end();
+      statement.verb      = all.front();
+      statement.verb.text = lower_case(statement.verb.text);
+      statement.end       = piece.end();
 
       const std::string &verb = statement.verb.text;
       if (usage.count(verb) == 0)
@@ -319,6 +325,12 @@ namespace SlipStep
           return statement;
         }
 
+      for (std::size_t i = 1; i < all.size(); ++i)
+        if (usage.count(lower_case(all[i].text)) > 0)
+          fail(all[i - 1].text.back() == ',' ? all[i - 1].end() - 1 :
+                                               all[i].column,
+               "statements are separated by ';': it is missing before '" +
+                 all[i].text + "'");
       Piece       start   = statement.verb;
       std::string keyword = "";
       for (std::size_t i = 1; i <= all.size(); ++i)
@@ -330,7 +342,7 @@ namespace SlipStep
             if (i == all.size())
               break;
             start   = all[i];
-            keyword = start.text;
+            keyword = lower_case(start.text);
             if (usage.at(verb).find(" " + keyword + " ") == std::string::npos)
               fail(start.column,
                    "'" + verb + "' has no '" + keyword + "'; write e.g. '" +
@@ -409,9 +421,10 @@ namespace SlipStep
     void Parser::follow(const Statement &statement)
     {
       const Piece                &name = part(statement, "");
-      const std::filesystem::path file = directory / name.text;
-      if (!std::filesystem::is_regular_file(file))
-        fail(name.column, "there is no file " + file.string());
+      const std::filesystem::path file = directory / with_home(name.text);
+      std::error_code             error;
+      if (!std::filesystem::is_regular_file(file, error))
+        fail(name.column, "there is no file " + excerpt(file.string(), 300));
 
       if (tests.count(name.text) == 0)
         {
@@ -466,10 +479,11 @@ namespace SlipStep
       if (stop.ec == std::errc::invalid_argument)
         fail(piece.column, "a number is missing before '" + piece.text + "'");
       const std::size_t comma = piece.text.find(',');
+      const std::string hint  = decimal_comma_hint(piece.text);
       if (comma != std::string::npos)
         fail(piece.column + comma,
-             "there are no commas: statements are separated by ';', and "
-             "decimals begin with a point");
+             "there are no commas: statements are separated by ';', and " +
+               (hint.empty() ? "decimals begin with a point" : hint));
 
       const std::size_t number_end = stop.ptr - begin;
       const Piece       unit =
@@ -666,14 +680,15 @@ namespace SlipStep
           std::min(text.find_first_of(borders, begin), text.size());
         const Piece piece = trim({text.substr(begin, end - begin), begin});
         const std::string name =
-          piece.text.compare(0, verb.size(), verb) == 0 ?
+          is_same_word(piece.text.substr(0, verb.size()), verb) ?
             trim({piece.text.substr(verb.size()), 0}).text :
             "";
         if (name.empty())
           result += text.substr(begin, end - begin);
         else
-          result += text.substr(begin, piece.column - begin) + verb + " " +
-                    std::filesystem::proximate(from / name, to).string();
+          result +=
+            text.substr(begin, piece.column - begin) + verb + " " +
+            std::filesystem::proximate(from / with_home(name), to).string();
         if (end < text.size())
           result += text[end];
         begin = end + 1;

@@ -5,6 +5,7 @@
 #include <slipstep/experiment/sliding_path.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/units.h>
 
 #include <deal.II/base/utilities.h>
@@ -22,6 +23,9 @@ namespace SlipStep
     const char *const key = "Output/Quantities";
 
     constexpr std::size_t most_probes = 99;
+
+    const std::vector<std::string> face_names =
+      {"left", "right", "front", "back", "bottom", "top"};
 
     /// How each quantity is written: its name, and an example to show.
     struct Form
@@ -250,16 +254,15 @@ namespace SlipStep
     void Reader::read_face(const std::string  &text,
                            QuantityOfInterest &quantity)
     {
-      const std::vector<std::string> faces = {
-        "left", "right", "front", "back", "bottom", "top"};
       if (text.rfind("on ", 0) != 0)
         show_example();
       quantity.face = text.substr(3);
-      if (std::find(faces.begin(), faces.end(), quantity.face) == faces.end())
+      if (std::find(face_names.begin(), face_names.end(), quantity.face) ==
+          face_names.end())
         fail("'" + present_item + "': '" + quantity.face +
              "' is no face of the block; there are left, right, front, back, "
              "bottom, top" +
-             did_you_mean(quantity.face, faces));
+             did_you_mean(quantity.face, face_names));
     }
 
 
@@ -351,12 +354,28 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    std::vector<std::string> words_of_quantities()
+    {
+      std::vector<std::string> words = {"at", "on", "after"};
+      words.insert(words.end(), face_names.begin(), face_names.end());
+      for (const Form &form : forms)
+        for (const std::string &word :
+             dealii::Utilities::split_string_list(form.name, ' '))
+          words.push_back(word);
+      return words;
+    }
+  } // namespace
+
+
+
   void declare_quantities(Parameters &parameters)
   {
     parameters.declare(
       key,
       "",
-      dealii::Patterns::Anything(),
+      AnythingWithWords(words_of_quantities()),
       "Quantities of interest, evaluated at the end of a run and written to "
       "summary.json, separated by ';': 'friction force at <length>, <length>, "
       "...', 'peak coefficient', 'displacement at peak', 'pressure at "

@@ -2,6 +2,7 @@
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/pattern_words.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -171,7 +172,7 @@ namespace SlipStep
     parameters.declare(
       section + "Mesh reference",
       "Richardson",
-      Anything(),
+      AnythingWithWords({"Richardson", "uniform", "adaptive"}),
       "What the meshes are compared with: 'Richardson' extrapolates the last "
       "three uniform ones with the order they show (a fourth one tells how far "
       "that may be off); 'uniform <number>' or "
@@ -179,14 +180,14 @@ namespace SlipStep
     parameters.declare(
       section + "Time steps",
       "",
-      Anything(),
+      AnythingWithWords({"equal", "steps", "tolerance"}),
       "Sequence of time steps on the mesh of section Block: 'equal steps 50, "
       "100, 200' (see Time stepping/Equal steps per statement) or 'tolerance "
       "1e-3, 1e-4, 1e-5', coarse to fine. Empty: none.");
     parameters.declare(
       section + "Time reference",
       "Richardson",
-      Anything(),
+      AnythingWithWords({"Richardson", "equal", "steps", "tolerance"}),
       "The same for time steps: 'Richardson', or a finer run, e.g. 'equal "
       "steps 800'.");
   }

@@ -102,30 +102,21 @@ namespace SlipStep
       keep_extremes_of_friction(0, n);
 
       const std::vector<double> &position = test.displacement;
-      const std::vector<double>  smooth =
-        without_jitter(position,
-                       std::max(least_stroke * range_of(position),
-                                tolerance(position)));
-      std::size_t start = 0, farthest = 0;
-      double      direction = 0.;
+      const double               band =
+        std::max(least_stroke * range_of(position), tolerance(position));
+      const std::vector<double> smooth = without_jitter(position, band);
       for (std::size_t i = 1; i < n; ++i)
+        if (smooth[i] != smooth[i - 1])
+          {
+            landmarks.insert(i - 1);
+            break;
+          }
+      std::size_t start = 0;
+      for (const std::size_t turn : turning_rows(position, band))
         {
-          const double step = smooth[i] - smooth[i - 1];
-          if (step != 0. && direction == 0.)
-            {
-              landmarks.insert(i - 1);
-              direction = std::copysign(1., step);
-            }
-          if (step * direction < 0.)
-            {
-              landmarks.insert(farthest);
-              keep_extremes_of_friction(start, farthest + 1);
-              start     = farthest;
-              farthest  = i;
-              direction = -direction;
-            }
-          if (direction * (position[i] - position[farthest]) > 0.)
-            farthest = i;
+          landmarks.insert(turn);
+          keep_extremes_of_friction(start, turn + 1);
+          start = turn;
         }
       keep_extremes_of_friction(start, n);
     }

@@ -3,6 +3,7 @@
 
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/home_folder.h>
 
 namespace SlipStep
 {
@@ -33,6 +34,6 @@ namespace SlipStep
                         "in braces there can only be {case}");
     if (name.empty())
       parameters.reject("Output/Directory", "the name of a folder is needed");
-    return std::filesystem::path(name).lexically_normal();
+    return with_home(name).lexically_normal();
   }
 } // namespace SlipStep

@@ -111,8 +111,18 @@ namespace SlipStep
       for (std::size_t i = 0; i < has_gap.size(); ++i)
         if (!has_gap[i])
           rows.push_back(i);
-      warn("rows without a value, left out: " + std::to_string(n),
-           std::find(has_gap.begin(), has_gap.end(), true) - has_gap.begin());
+      const std::size_t first =
+        std::find(has_gap.begin(), has_gap.end(), true) - has_gap.begin();
+      if (rows.size() < 2)
+        for (const Channel *channel : filled)
+          if (std::isnan((test.*(channel->values))[first]))
+            origin.reject(first,
+                          channel->name,
+                          channel->name + " has no value, and so it is in " +
+                            std::to_string(n) + " of " +
+                            std::to_string(has_gap.size()) +
+                            " rows; a test needs two that are complete");
+      warn("rows without a value, left out: " + std::to_string(n), first);
       keep(rows);
     }
 
@@ -295,6 +305,32 @@ namespace SlipStep
                              displacement[i] - band,
                              displacement[i] + band);
     return smooth;
+  }
+
+
+
+  std::vector<std::size_t> turning_rows(const std::vector<double> &displacement,
+                                        const double               band)
+  {
+    const std::vector<double> smooth = without_jitter(displacement, band);
+    std::vector<std::size_t>  rows;
+    std::size_t               farthest  = 0;
+    double                    direction = 0.;
+    for (std::size_t i = 1; i < smooth.size(); ++i)
+      {
+        const double step = smooth[i] - smooth[i - 1];
+        if (step != 0. && direction == 0.)
+          direction = std::copysign(1., step);
+        if (step * direction < 0.)
+          {
+            rows.push_back(farthest);
+            farthest  = i;
+            direction = -direction;
+          }
+        if (direction * (displacement[i] - displacement[farthest]) > 0.)
+          farthest = i;
+      }
+    return rows;
   }
 
 

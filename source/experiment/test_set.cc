@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace SlipStep
 {
@@ -44,6 +45,33 @@ namespace SlipStep
       if (first < last)
         result.duration = test.time[last] - test.time[first];
       return result;
+    }
+
+    // Along rows that are farther apart than jitter; turns and ends count in
+    // full.
+    double path_of(const MeasuredTest &test)
+    {
+      const std::vector<double> &x = test.displacement,
+                                &y = test.displacement_y;
+      const double          band   = 0.005 * std::max(range_of(x), range_of(y));
+      std::set<std::size_t> fixed;
+      for (const auto *displacement : {&x, &y})
+        for (const std::size_t row : turning_rows(*displacement, band))
+          fixed.insert(row);
+      fixed.insert(x.size() - 1);
+
+      double      path = 0.;
+      std::size_t last = 0;
+      for (std::size_t i = 1; i < x.size(); ++i)
+        {
+          const double distance =
+            std::hypot(x[i] - x[last], y.empty() ? 0. : y[i] - y[last]);
+          if (distance <= 2. * band && fixed.count(i) == 0)
+            continue;
+          path += distance;
+          last = i;
+        }
+      return path;
     }
 
     void compare(const MeasuredTest &one,
@@ -128,7 +156,7 @@ namespace SlipStep
       std::minmax_element(test.friction.begin(), test.friction.end());
     return std::to_string(test.time.size()) + " rows, " +
            rounded_text(test.time.back() - test.time.front(), 4) + " s, path " +
-           rounded_text(motion_of(test).path, 4) + " mm, " +
+           rounded_text(path_of(test), 4) + " mm, " +
            rounded_text(typical_pressure(test), 4) + " MPa, friction " +
            rounded_text(*least, 3) + " to " + rounded_text(*most, 3) +
            ", noise " + rounded_text(noise_level(test.friction), 2);

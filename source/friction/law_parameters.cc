@@ -1,6 +1,7 @@
 #include <slipstep/friction/law.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/pattern_words.h>
 
 #include <algorithm>
 #include <iomanip>
@@ -29,11 +30,13 @@ namespace SlipStep
           if (effect_registry().count(name) == 0)
             {
               const std::string near = nearest_name(name, known);
-              parameters.reject("Friction/Effects",
-                                "there is no effect '" + name + "'" +
-                                  (near.empty() ?
-                                     "; 'slipstep effects' lists them" :
-                                     "; did you mean '" + near + "'?"));
+              parameters.reject(
+                "Friction/Effects",
+                "there is no effect '" + name + "'" +
+                  (name.find_first_of("; ") != std::string::npos ?
+                     "; effects are separated by commas" :
+                   near.empty() ? "; 'slipstep effects' lists them" :
+                                  "; did you mean '" + near + "'?"));
             }
           if (std::find(names.begin(), names.end(), name) != names.end())
             parameters.reject("Friction/Effects",
@@ -80,10 +83,13 @@ namespace SlipStep
 
   void FrictionLaw::declare_parameters(Parameters &parameters)
   {
+    std::vector<std::string> effects;
+    for (const auto &entry : effect_registry())
+      effects.push_back(entry.first);
     parameters.declare(
       "Friction/Effects",
       "subloading, overstress, softening",
-      dealii::Patterns::List(dealii::Patterns::Anything()),
+      dealii::Patterns::List(AnythingWithWords(effects)),
       "The effects that make the friction law, separated by commas; their "
       "order does not matter. 'slipstep effects' lists all with their "
       "formulas. An empty list is Coulomb's law with elastic stick.");
@@ -97,7 +103,7 @@ namespace SlipStep
     parameters.declare(
       "Friction/Initial coefficient",
       "static",
-      dealii::Patterns::Anything(),
+      AnythingWithWords({"static"}),
       "Coefficient of friction at the beginning: 'static', or a number at the "
       "'Speed of the coefficients', more than 0, no unit.");
     parameters.declare(

@@ -1,3 +1,5 @@
+#include <deal.II/base/utilities.h>
+
 #include <slipstep/planting/answer.h>
 
 #include <slipstep/utilities/exceptions.h>
@@ -5,10 +7,13 @@
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/binary_from_base64.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
+#include <boost/crc.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <fstream>
+#include <iomanip>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -18,7 +23,16 @@ namespace SlipStep
 
     namespace
     {
-      const std::string seal = "# sealed answer of slipstep plant";
+      const std::string seal = "# sealed answer of slipstep plant, checksum ";
+
+      std::string checksum(const std::string &text)
+      {
+        boost::crc_32_type crc;
+        crc.process_bytes(text.data(), text.size());
+        std::ostringstream out;
+        out << std::hex << std::setw(8) << std::setfill('0') << crc.checksum();
+        return out.str();
+      }
 
       json to_json(const std::vector<TruthParameter> &parameters)
       {
@@ -81,8 +95,8 @@ namespace SlipStep
       const std::string full =
         text + std::string((3 - text.size() % 3) % 3, ' ');
       const std::string code(Encoded(full.begin()), Encoded(full.end()));
-      std::string       result =
-        seal + "; to read it: slipstep plant --open <this file>\n";
+      std::string       result = seal + checksum(text) +
+                           "; to read it: slipstep plant --open <this file>\n";
       for (std::size_t at = 0; at < code.size(); at += width)
         result += code.substr(at, width) + '\n';
       return result;
@@ -103,19 +117,25 @@ namespace SlipStep
       if (!std::getline(in, line) || line.compare(0, seal.size(), seal) != 0)
         throw InputError(file.string() +
                          ": is not a sealed answer of slipstep plant");
+      const std::string expected = line.substr(seal.size(), 8);
+      // Mail may have changed the ends of lines.
       while (std::getline(in, line))
-        code += line;
+        code += dealii::Utilities::trim(line);
       try
         {
           if (code.size() % 4 != 0)
             throw dataflow_exception();
           std::string text(Decoded(code.cbegin()), Decoded(code.cend()));
           text.erase(text.find_last_not_of(' ') + 1);
+          if (checksum(text) != expected)
+            throw dataflow_exception();
           return text;
         }
       catch (const dataflow_exception &)
         {
-          throw InputError(file.string() + ": this sealed answer is damaged");
+          throw InputError(file.string() +
+                           ": this sealed answer was changed or "
+                           "damaged after it was written");
         }
     }
   } // namespace Planting

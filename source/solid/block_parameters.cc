@@ -2,6 +2,7 @@
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/pattern_words.h>
 
 #include <deal.II/base/types.h>
 #include <deal.II/base/utilities.h>
@@ -294,7 +295,16 @@ namespace SlipStep
         name == "bottom" ? "contact" :
         name == "top"    ? "pressure programme; drive" :
                            "free",
-        Anything(),
+        AnythingWithWords({"contact",
+                           "free",
+                           "drive",
+                           "flat",
+                           "pressure",
+                           "programme",
+                           "traction",
+                           "displacement",
+                           "at",
+                           "once"}),
         "Conditions on the face at " +
           std::string(name == "left"   ? "x = 0" :
                       name == "right"  ? "the end of x" :

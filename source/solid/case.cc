@@ -15,7 +15,7 @@
 #include <slipstep/solid/face_probes.h>
 #include <slipstep/solid/point_lines.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/find_variant.h>
 
 #include <unistd.h>
 
@@ -70,19 +70,17 @@ namespace SlipStep
 
   namespace
   {
-    Variant find_variant(const std::vector<Variant>  &variants,
-                         const std::string           &name,
-                         const std::filesystem::path &file)
+    // A variant whose keys are all given by --set would be one in name only.
+    void reject_void_variant(const Parameters  &with_settings,
+                             const Variant     &variant,
+                             const CommandLine &line)
     {
-      std::vector<std::string> labels;
-      for (const Variant &variant : variants)
-        {
-          if (variant.label == name || variant.folder == name)
-            return variant;
-          labels.push_back(variant.label);
-        }
-      throw InputError("--variant " + name + ": " + file.string() +
-                       " has no such variant" + did_you_mean(name, labels));
+      if (line.is_child || !with_settings.variants().empty())
+        return;
+      throw InputError("--variant " + variant.label + ": --set gives " +
+                       variant.overrides.front().path +
+                       ", which is what the variants change: leave out one of "
+                       "the two");
     }
   } // namespace
 
@@ -99,7 +97,9 @@ namespace SlipStep
     result.variants = result.parameters.variants();
     if (!line.variant.empty())
       {
-        result.selected   = find_variant(result.variants, line.variant, file);
+        result.selected =
+          find_variant(as_written.variants(), line.variant, file);
+        reject_void_variant(result.parameters, result.selected, line);
         result.parameters = as_written.with_variant(result.selected);
         apply_settings(line, result.parameters);
         result.variants.clear();

@@ -2,6 +2,7 @@
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/units.h>
 
 #include <cmath>
@@ -63,7 +64,8 @@ namespace SlipStep
     parameters.declare(
       key,
       "statements",
-      dealii::Patterns::Anything(),
+      AnythingWithWords(
+        {"none", "end", "statements", "every", "steps", "step"}),
       "When volume and contact-face fields are written for ParaView: 'none' "
       "(never), 'end', 'statements' (at the end of every statement of the "
       "programme), or 'every <length>' of the path of the drive, 'every "

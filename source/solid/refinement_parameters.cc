@@ -2,6 +2,7 @@
 
 #include <slipstep/solid/mesh_goal.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/pattern_words.h>
 
 #include <unistd.h>
 
@@ -57,7 +58,7 @@ namespace SlipStep
     parameters.declare(
       kind_key,
       "none",
-      Anything(),
+      AnythingWithWords({"none", "uniform", "adaptive"}),
       "'none': the subdivisions are the cells; 'uniform N': each is halved N "
       "times in all directions, 0 to 10; 'adaptive N': cells are refined and "
       "merged during the run, at most N times finer than the subdivisions, 1 "

@@ -2,7 +2,10 @@
 
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/home_folder.h>
+#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/version.h>
 
 #include <boost/program_options.hpp>
@@ -304,11 +307,33 @@ namespace SlipStep
 
 
 
+    // What only a file can say.
+    void reject_statement(const std::string &text)
+    {
+      const std::string word =
+        lower_case(text.substr(0, text.find_first_of(" /=")));
+      const std::string place = "--set \"" + excerpt(text) + "\": ";
+      if (word == "sweep" || word == "variants")
+        throw InputError(place +
+                         "only a case file defines a sweep; --set changes "
+                         "one key for all of its members, --variant NAME "
+                         "chooses one");
+      if (word == "include" || word == "subsection" || word == "end")
+        throw InputError(place + "only a case file has lines with '" + word +
+                         "'; write --set \"Section/Key = value\"");
+      if (word == "set")
+        throw InputError(place + "leave out the word 'set': --set "
+                                 "\"Section/Key = value\"");
+    }
+
+
+
     std::pair<std::string, std::string> parse_setting(const std::string &text)
     {
+      reject_statement(text);
       const std::size_t sign = text.find('=');
       if (sign == std::string::npos || sign == 0)
-        throw InputError("--set \"" + text +
+        throw InputError("--set \"" + excerpt(text) +
                          "\": write it as --set \"Section/Key = value\"");
       return {dealii::Utilities::trim(text.substr(0, sign)),
               dealii::Utilities::trim(text.substr(sign + 1))};
@@ -367,7 +392,7 @@ namespace SlipStep
       return values.count(name) ? values[name].as<std::vector<std::string>>() :
                                   std::vector<std::string>();
     };
-    line.output            = text("output");
+    line.output            = with_home(text("output")).string();
     line.format            = text("format");
     line.variant           = text("variant");
     line.quiet             = values.count("quiet") > 0;
@@ -380,7 +405,8 @@ namespace SlipStep
          {"class", "seed", "effect", "tests", "noise", "noise-factor", "open"})
       if (values.count(name))
         {
-          line.plant_options[name] = text(name);
+          line.plant_options[name] =
+            name == "open" ? with_home(text(name)).string() : text(name);
           if (text(name).empty())
             throw InputError("--" + name + ": a value is needed");
         }
@@ -417,7 +443,8 @@ namespace SlipStep
     if (line.help)
       return line;
 
-    line.files.assign(words.begin() + 1, words.end());
+    for (std::size_t i = 1; i < words.size(); ++i)
+      line.files.push_back(with_home(words[i]));
     check_usage(line, values);
     return line;
   }

@@ -1,4 +1,5 @@
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
 
 #include <algorithm>
@@ -26,14 +27,6 @@ namespace SlipStep
       while (!text.empty() && is_blank(text.back()))
         text.remove_suffix(1);
       return text;
-    }
-
-    std::string lower(std::string_view text)
-    {
-      std::string result(text);
-      for (char &c : result)
-        c = std::tolower(static_cast<unsigned char>(c));
-      return result;
     }
 
     bool begins_with(const std::string_view text, const std::string_view start)
@@ -100,7 +93,7 @@ namespace SlipStep
         return true;
       if (cell.size() > 4)
         return false;
-      const std::string word = lower(cell);
+      const std::string word = lower_case(cell);
       for (const char *gap : {"nan", "na", "n/a", "null", "none", "-", "--"})
         if (word == gap)
           return true;
@@ -203,6 +196,9 @@ namespace SlipStep
     in.seekg(0);
     if (!content.empty() && !in.read(content.data(), content.size()))
       throw InputError(file.string() + ": this file cannot be read");
+    // Old Macintoshes end lines with CR alone.
+    if (content.find('\n') == std::string::npos)
+      std::replace(content.begin(), content.end(), '\r', '\n');
     text = std::make_shared<const std::string>(std::move(content));
     next = text->data();
     if (begins_with(*text, "\xEF\xBB\xBF"))
@@ -246,7 +242,7 @@ namespace SlipStep
     const auto colon = line.find(':');
     if (line.front() != '#' || colon == std::string_view::npos)
       return;
-    const std::string key = lower(trim(line.substr(1, colon - 1)));
+    const std::string key = lower_case(trim(line.substr(1, colon - 1)));
     if (!key.empty())
       comment_values[key] = trim(line.substr(colon + 1));
   }

@@ -1,21 +1,12 @@
+#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace SlipStep
 {
   namespace
   {
-    std::string lower(std::string text)
-    {
-      for (char &c : text)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      return text;
-    }
-
-
-
     // Levenshtein's distance, with two neighbours swapped counted as one slip
     // of the fingers.
     std::size_t edit_distance(const std::string &a, const std::string &b)
@@ -44,12 +35,12 @@ namespace SlipStep
   std::string nearest_name(const std::string              &name,
                            const std::vector<std::string> &candidates)
   {
-    const std::string wanted = lower(name);
+    const std::string wanted = lower_case(name);
     std::string       best;
     std::size_t       best_distance = std::string::npos;
     for (const std::string &candidate : candidates)
       {
-        const std::string known = lower(candidate);
+        const std::string known = lower_case(candidate);
         const std::size_t limit =
           (std::max(wanted.size(), known.size()) + 2) / 3;
         const std::size_t distance = edit_distance(wanted, known);
@@ -64,7 +55,7 @@ namespace SlipStep
 
     // A name cut short: "Normal" for "Normal stiffness".
     for (const std::string &candidate : candidates)
-      if (lower(candidate).find(wanted) != std::string::npos)
+      if (lower_case(candidate).find(wanted) != std::string::npos)
         return candidate;
     return "";
   }

@@ -1,6 +1,9 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
 
+#include <slipstep/utilities/decimal_comma.h>
+#include <slipstep/utilities/home_folder.h>
+#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/parameter_printer.h>
 #include <slipstep/utilities/parameter_reader.h>
 #include <slipstep/utilities/parameters.h>
@@ -38,28 +41,80 @@ namespace SlipStep
 
 
 
-    // A deep path is compared as a whole and, within its section or with the
-    // same last name elsewhere, by its parts.
+    // The last part of a path.
+    std::string last_name(const std::string &path)
+    {
+      return path.substr(path.rfind('/') + 1);
+    }
+
+
+
+    std::string sections_of(const std::string &path)
+    {
+      return path.substr(0, path.size() - last_name(path).size());
+    }
+
+
+
+    // The paths that end in @p path, capitals ignored.
+    std::vector<std::string> endings(const std::string              &path,
+                                     const std::vector<std::string> &candidates)
+    {
+      std::vector<std::string> found;
+      for (const std::string &candidate : candidates)
+        if (is_same_word(candidate, path))
+          return {candidate};
+        else if (candidate.size() > path.size() &&
+                 is_same_word(candidate.substr(candidate.size() - path.size() -
+                                               1),
+                              "/" + path))
+          found.push_back(candidate);
+      return found;
+    }
+
+
+
+    // Looked for, in this order: the path in other capitals or with sections
+    // left out, the same name in another section, a similar name in the
+    // section, a similar path.
     std::string nearest_path(const std::string              &path,
                              const std::vector<std::string> &candidates)
     {
-      const std::size_t slash = path.rfind('/');
-      const std::string prefix =
-        path.substr(0, slash == std::string::npos ? 0 : slash + 1);
+      constexpr std::size_t most_shown = 4;
+
+      std::vector<std::string> same = endings(path, candidates);
+      // A whole path inside a section.
+      for (std::size_t slash = path.find('/');
+           same.empty() && slash != std::string::npos;
+           slash = path.find('/', slash + 1))
+        for (const std::string &candidate : candidates)
+          if (candidate.find('/') != std::string::npos &&
+              is_same_word(candidate, path.substr(slash + 1)))
+            same = {candidate};
+      if (same.empty())
+        {
+          same                   = endings(last_name(path), candidates);
+          const std::string near = nearest_name(path, same);
+          if (!near.empty())
+            return near;
+        }
+      std::string shown;
+      for (std::size_t i = 0; i < same.size() && same.size() <= most_shown; ++i)
+        shown += (i == 0 ? "" : i + 1 == same.size() ? " or " : ", ") + same[i];
+      if (!shown.empty())
+        return shown;
+
       std::vector<std::string> siblings;
+      std::string              section;
       for (const std::string &candidate : candidates)
-        if (begins_with(candidate, prefix) &&
-            candidate.find('/', prefix.size()) == std::string::npos)
-          siblings.push_back(candidate.substr(prefix.size()));
-      const std::string name    = path.substr(prefix.size());
-      const std::string sibling = nearest_name(name, siblings);
-      if (!sibling.empty())
-        return prefix + sibling;
-      for (const std::string &candidate : candidates)
-        if (candidate.size() > name.size() &&
-            candidate.substr(candidate.rfind('/') + 1) == name)
-          return candidate;
-      return nearest_name(path, candidates);
+        if (is_same_word(sections_of(candidate), sections_of(path)))
+          {
+            section = sections_of(candidate);
+            siblings.push_back(last_name(candidate));
+          }
+      const std::string sibling = nearest_name(last_name(path), siblings);
+      return sibling.empty() ? nearest_name(path, candidates) :
+                               section + sibling;
     }
   } // namespace
 
@@ -97,7 +152,7 @@ namespace SlipStep
     for (const Assignment &assignment : text.assignments)
       {
         Entry &entry = entries[index_of_path.at(assignment.path)];
-        entry.value  = assignment.value;
+        entry.value  = as_meant(*entry.pattern, assignment.value);
         entry.origin = assignment.origin;
         entry.layer  = n_layers + assignment.layer;
       }
@@ -156,9 +211,11 @@ namespace SlipStep
                          const std::string &origin) const
   {
     check_path(path, origin);
-    const std::string why = value.find_first_of("#\n") == std::string::npos ?
-                              why_not_allowed(*entry(path).pattern, value) :
-                              "a value cannot contain # or a line break";
+    const auto       &pattern = *entry(path).pattern;
+    const std::string why =
+      value.find_first_of("#\n") == std::string::npos ?
+        why_not_allowed(pattern, as_meant(pattern, value)) :
+        "a value cannot contain # or a line break";
     if (!why.empty())
       throw InputError(introduction(origin) + path + " =" +
                        (value.empty() ? "" : " ") + excerpt(value) + ": " +
@@ -174,7 +231,7 @@ namespace SlipStep
     const std::string trimmed = trim(value);
     check(path, trimmed, origin);
     Entry &entry = entries[index_of_path.at(path)];
-    entry.value  = trimmed;
+    entry.value  = as_meant(*entry.pattern, trimmed);
     entry.origin = origin;
     entry.layer  = ++n_layers;
 
@@ -290,17 +347,24 @@ namespace SlipStep
 
   void Parameters::reject(const std::string &path, const std::string &why) const
   {
-    const Entry &found = entry(path);
+    const Entry      &found = entry(path);
+    const std::string hint  = decimal_comma_hint(found.value);
+    // Of lists nobody knows; a marked column comes last.
+    const bool is_comma_told =
+      !hint.empty() && why.find_first_of("\n") == std::string::npos &&
+      why.find("decimals begin with a point") == std::string::npos &&
+      dynamic_cast<const dealii::Patterns::Anything *>(found.pattern.get());
     throw InputError(origin(path) + " =" + (found.value.empty() ? "" : " ") +
                      excerpt(found.value) +
-                     (found.layer > 0 ? "" : " (the default)") + ": " + why);
+                     (found.layer > 0 ? "" : " (the default)") + ": " + why +
+                     (is_comma_told ? "; " + hint : ""));
   }
 
 
 
   std::filesystem::path Parameters::resolve(const std::string &file_name) const
   {
-    return (file_read.parent_path() / file_name).lexically_normal();
+    return (file_read.parent_path() / with_home(file_name)).lexically_normal();
   }
 
 

@@ -1,5 +1,7 @@
 #include <deal.II/base/utilities.h>
 
+#include <slipstep/utilities/decimal_comma.h>
+#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/units.h>
@@ -138,10 +140,96 @@ namespace SlipStep
 
 
 
+  AnythingWithWords::AnythingWithWords(const std::vector<std::string> &words)
+    : words(words)
+  {}
+
+
+
+  std::unique_ptr<PatternBase> AnythingWithWords::clone() const
+  {
+    return std::make_unique<AnythingWithWords>(words);
+  }
+
+
+
+  namespace
+  {
+    std::string respelt(const std::string              &word,
+                        const std::vector<std::string> &words)
+    {
+      for (const std::string &known : words)
+        if (is_same_word(word, known))
+          return known;
+      return word;
+    }
+
+
+
+    // Words stand between blanks or marks: the parts of a path are none.
+    std::string words_respelt(const std::string              &text,
+                              const std::vector<std::string> &words)
+    {
+      const char *const borders = " \t,;()";
+      std::string       result;
+      for (std::size_t begin = 0; begin < text.size();)
+        {
+          const std::size_t end =
+            std::min(text.find_first_of(borders, begin), text.size());
+          result += respelt(text.substr(begin, end - begin), words);
+          begin = std::min(text.find_first_not_of(borders, end), text.size());
+          result += text.substr(end, begin - end);
+        }
+      return result;
+    }
+
+
+
+    // "10,5 mm, 10 mm" may be two lengths or three.
+    std::string why_ambiguous(const dealii::Patterns::List &list,
+                              const std::string            &text)
+    {
+      const auto quantity =
+        dynamic_cast<const Quantity *>(&list.get_base_pattern());
+      if (quantity == nullptr || list.get_separator() != ",")
+        return "";
+      const std::string hint = decimal_comma_hint(text);
+      const bool        has_unit =
+        text.find_first_not_of("0123456789.,+- \t") != std::string::npos;
+      if (hint.empty() || !(has_unit || text.find(", ") != std::string::npos))
+        return "";
+      return hint + " (commas separate; write a blank behind them)";
+    }
+  } // namespace
+
+
+
+  std::string as_meant(const PatternBase &pattern, const std::string &text)
+  {
+    namespace P = dealii::Patterns;
+    if (const auto list = dynamic_cast<const P::List *>(&pattern))
+      return as_meant(list->get_base_pattern(), text);
+    if (const auto any = dynamic_cast<const AnythingWithWords *>(&pattern))
+      return words_respelt(text, any->words);
+    if (dynamic_cast<const P::Bool *>(&pattern))
+      return respelt(text, {"true", "false", "yes", "no"});
+    if (dynamic_cast<const P::MultipleSelection *>(&pattern))
+      return words_respelt(text, alternatives(pattern));
+    return respelt(text, alternatives(pattern));
+  }
+
+
+
   std::string why_not_allowed(const PatternBase &pattern,
                               const std::string &text)
   {
     namespace P = dealii::Patterns;
+    if (const auto list = dynamic_cast<const P::List *>(&pattern))
+      {
+        const std::string why = why_ambiguous(*list, text);
+        if (!why.empty())
+          return why;
+      }
     if (pattern.match(text))
       return "";
 
@@ -149,7 +237,12 @@ namespace SlipStep
       for (const std::string &element : elements(*list, text))
         if (!list->get_base_pattern().match(element))
           return "\"" + excerpt(element) +
-                 "\": " + why_not_allowed(list->get_base_pattern(), element);
+                 "\": " + why_not_allowed(list->get_base_pattern(), element) +
+                 (list->get_separator() == "," &&
+                      (element.find(';') != std::string::npos ||
+                       element.find(" x ") != std::string::npos) ?
+                    " (commas separate)" :
+                    "");
 
     const std::string allowed = "allowed is " + allowed_in_words(pattern);
     if (text.empty())
@@ -183,9 +276,9 @@ namespace SlipStep
 
 
 
-  std::string excerpt(const std::string &text)
+  std::string excerpt(const std::string &text, const std::size_t most)
   {
-    const std::size_t most = 60, half = most / 2 - 2;
+    const std::size_t half = most / 2 - 2;
     if (text.size() <= most)
       return text;
     // Characters of several bytes are not cut in two.

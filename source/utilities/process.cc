@@ -50,6 +50,15 @@ namespace SlipStep
 
 
 
+  void open_closed_descriptors()
+  {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+      if (fcntl(descriptor, F_GETFD) == -1)
+        open("/dev/null", O_RDWR);
+  }
+
+
+
   bool is_under_mpirun()
   {
     for (const char *name :

@@ -1,6 +1,7 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
+#include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/units.h>
@@ -239,6 +240,14 @@ namespace SlipStep
         return "the number is too large or too small for this program";
       if (parsed.ec == std::errc() && !std::isfinite(value))
         return "not a finite number";
+      const char *const stop = parsed.ec == std::errc() ? parsed.ptr : begin;
+      if (stop != end && *stop == ',')
+        {
+          const std::string hint = decimal_comma_hint(text);
+          return hint.empty() ? "decimals begin with a point, and nothing "
+                                "separates thousands" :
+                                hint;
+        }
       if (parsed.ec != std::errc())
         return "not a number" + std::string(dimension == Dimension::number ?
                                               "" :

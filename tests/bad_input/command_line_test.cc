@@ -98,7 +98,52 @@ TEST(CommandLine, SettingsAreChecked)
   expect_refusal(process.run({"point", "case.prm", "--variant", ""}),
                  {"--variant"});
   expect_refusal(process.run({"point", "case.prm", "--variant", "fast"}),
-                 {"--variant fast", "no such variant"});
+                 {"--variant fast", "no such variant; it has none"});
+  EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
+}
+
+
+
+TEST(CommandLine, WhatOnlyAFileCanSayIsToldSo)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", right);
+  const auto with = [&](const std::string &setting) {
+    return process.run({"point", "case.prm", "--set", setting});
+  };
+  expect_refusal(with("Sweep/Key = Loading/Speed"),
+                 {"only a case file defines a sweep", "--variant NAME"});
+  expect_refusal(with("variants/fast/Block/Degree = 1"),
+                 {"only a case file defines a sweep"});
+  expect_refusal(with("include other.prm"), {"lines with 'include'"});
+  expect_refusal(with("subsection Friction"), {"lines with 'subsection'"});
+  expect_refusal(with("set Block/Degree = 1"), {"leave out the word 'set'"});
+  EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
+}
+
+
+
+TEST(CommandLine, AnUnknownVariantNamesThoseThatExist)
+{
+  const SlipstepProcess process;
+  std::string           values;
+  for (unsigned int i = 1; i < 30; ++i)
+    values += (i > 1 ? ", " : "") + std::to_string(i) + " mm/s";
+  process.write("sweep.prm",
+                std::string(right) +
+                  "subsection Sweep\nset Key = "
+                  "Loading/Speed\nset Values = " +
+                  values + "\nend\n");
+  const auto with = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"point", "sweep.prm", "--variant"});
+    return process.run(options);
+  };
+  expect_refusal(with({"fast"}),
+                 {"no such variant; it has \"1 mm/s\", \"2 mm/s\"",
+                  "\"12 mm/s\" and 17 more\n"});
+  // Results of this name would be those of another speed.
+  expect_refusal(with({"2 mm/s", "--set", "Loading/Speed=5 mm/s"}),
+                 {"--variant 2 mm/s: --set gives Loading/Speed", "leave out"});
   EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
 }
 

@@ -1,6 +1,7 @@
 // Planted parameters are found again, with intervals that hold what they say.
 
 #include <slipstep/calibration/advice.h>
+#include <slipstep/calibration/calibration_text.h>
 #include <slipstep/calibration/fit.h>
 #include <slipstep/calibration/uncertainty.h>
 
@@ -121,6 +122,42 @@ TEST_F(Planted, IntervalsCoverTheTruthAsOftenAsTheySay)
       RecordProperty("covered_" + std::to_string(i), n_covered[i]);
       std::cout << "covered " << n_covered[i] << " of 100\n";
     }
+}
+
+
+
+// Friction that rises with slip, which softening cannot do.
+TEST_F(Planted, AConditionOfTheLawIsABound)
+{
+  const Parameters risen =
+    calibration_case({{"Friction/Effects", "subloading, run_in"},
+                      {"Friction/Static coefficient", "0.08"},
+                      {"Friction/run_in/Change", "0.3"},
+                      {"Friction/run_in/Length", "3"}});
+  plant(folder.path(), risen, {1., 1.}, 200, 2e-4, 1, 10.);
+  const Calibration found = calibrate(
+    fitting({{"Friction/Effects", "subloading, softening"},
+             {"Calibration/Parameters",
+              "Friction/Static coefficient from 0.05 to 0.2 start 0.1; "
+              "Friction/softening/Kinetic coefficient from 0.03 to 0.2"}}));
+  for (const FittedParameter &fitted : found.parameters)
+    {
+      EXPECT_TRUE(fitted.is_at_bound) << fitted.parameter.path;
+      EXPECT_EQ(fitted.constraint.find("Friction/softening/Kinetic coefficient "
+                                       "must not exceed the static "
+                                       "coefficient"),
+                0u)
+        << fitted.constraint;
+    }
+  ASSERT_EQ(constraint_sentences(found).size(), 1u);
+  EXPECT_NE(constraint_sentences(found)[0].find("Static coefficient and "
+                                                "Kinetic coefficient stopped"),
+            std::string::npos);
+  EXPECT_NE(constraint_sentences(found)[0].find("want the other side"),
+            std::string::npos);
+  EXPECT_EQ(found.warnings.front(), constraint_sentences(found)[0]);
+  EXPECT_TRUE(found.weak.empty());
+  EXPECT_EQ(open_intervals(found), "");
 }
 
 

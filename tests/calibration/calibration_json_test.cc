@@ -55,6 +55,7 @@ TEST(CalibrationJson, TheKeysAreTheDocumentedOnes)
                "deviation",
                "interval",
                "at_bound",
+               "constraint",
                "profile"});
   has_exactly(object["parameters"][0]["interval"],
               {"lower", "upper", "lower_open", "upper_open"});

@@ -65,6 +65,16 @@ TEST(FitParameter, BoundsStartAndScale)
 
 
 
+TEST(FitParameter, CapitalsDoNotMatterButInPaths)
+{
+  const auto one =
+    read("Friction/softening/Rate From 0.01 TO 0.05 Start 0.02 Log").front();
+  EXPECT_EQ(one.start, 0.02);
+  EXPECT_TRUE(one.is_logarithmic);
+}
+
+
+
 TEST(FitParameter, AnglesAreInDegreesInText)
 {
   const auto all = read("Friction/anisotropy/Angle from -30 deg to 60 deg");
@@ -85,6 +95,10 @@ TEST(FitParameter, TheMachineCanBeFitted)
 
 TEST(FitParameter, WhatIsWrongIsSaid)
 {
+  expect_refusal("Friction/Softening/Rate from 0.1 to 1",
+                 {"did you mean Friction/softening/Rate?"});
+  expect_refusal("Friction/softening/Rate from 0,1 to 1",
+                 {"from = 0,1: decimals begin with a point: 0.1; allowed"});
   expect_refusal("", {"at least one parameter"});
   expect_refusal("Friction/softening/Rat from 0 to 1",
                  {"unknown key", "Friction/softening/Rate"});

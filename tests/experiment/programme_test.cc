@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -110,6 +112,47 @@ TEST(Programme, UnitsAreConverted)
   EXPECT_NEAR(parse("slide +1 mm/s for 1 min").at(60.).displacement[0],
               60.,
               1e-9);
+}
+
+
+
+TEST(Programme, AMissingSemicolonIsNamed)
+{
+  for (const std::string border : {",", ""})
+    try
+      {
+        parse("press 5 MPa in 1 s" + border + " slide 1 mm/s for 1 mm");
+        ADD_FAILURE();
+      }
+    catch (const InputError &error)
+      {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("';': it is missing before 'slide'"),
+                  std::string::npos)
+          << message;
+      }
+}
+
+
+
+TEST(Programme, CapitalsOfWordsDoNotMatter)
+{
+  const std::string text = "press 1 MPa in 1 s; repeat 2 times { slide 1 mm/s "
+                           "for 1 mm at 30 deg }; hold 1 s";
+  std::string       capitals = text;
+  for (const auto &[word, other] :
+       std::map<std::string, std::string>{{"press", "Press"},
+                                          {"repeat", "REPEAT"},
+                                          {"times", "Times"},
+                                          {"slide", "Slide"},
+                                          {"for", "For"},
+                                          {" at ", " AT "},
+                                          {" in ", " In "},
+                                          {"hold", "Hold"}})
+    capitals.replace(capitals.find(word), word.size(), other);
+  const Programme expected = parse(text), found = parse(capitals);
+  ASSERT_EQ(found.segments().size(), expected.segments().size());
+  EXPECT_EQ(found.at(2.5).displacement, expected.at(2.5).displacement);
 }
 
 

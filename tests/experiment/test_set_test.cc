@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -80,4 +83,40 @@ TEST(TestSet, ReplicatesMustHaveBeenMadeAlike)
   EXPECT_NE(text.find("but its mean speed is"), std::string::npos) << text;
   write("b.csv", "dry, faster", 1., 0.2);
   EXPECT_EQ(message_of_set(), "");
+}
+
+
+
+// A slide of 60 mm, 5 strokes of 10 mm, a diagonal of 5 mm.
+TEST(TestSet, ThePathIsToldInFull)
+{
+  const auto length = [](const std::vector<std::array<double, 2>> &positions) {
+    MeasuredTest test;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      {
+        test.time.push_back(i);
+        test.displacement.push_back(positions[i][0]);
+        test.displacement_y.push_back(positions[i][1]);
+        test.pressure.push_back(1.);
+        test.friction.push_back(0.1);
+      }
+    const std::string text  = describe(test);
+    const std::size_t begin = text.find("path ") + 5;
+    return text.substr(begin, text.find(" mm", begin) - begin);
+  };
+  std::vector<std::array<double, 2>> coarse, fine, strokes, diagonal;
+  for (int i = 0; i <= 10; ++i)
+    coarse.push_back({{6. * i, 0.}});
+  // The instrument trembles, at rest, too.
+  for (int i = -1000; i <= 7000; ++i)
+    fine.push_back({{std::clamp(0.01 * i, 0., 60.) + (i % 2 == 0 ? 0.004 : 0.),
+                     i % 2 == 0 ? 0. : 0.004}});
+  for (int i = 0; i <= 100; ++i)
+    strokes.push_back({{std::abs(i % 40 - 20) * 0.5, 0.}});
+  for (int i = 0; i <= 100; ++i)
+    diagonal.push_back({{0.03 * i, 0.04 * i}});
+  EXPECT_EQ(length(coarse), "60");
+  EXPECT_EQ(length(fine), "60");
+  EXPECT_EQ(length(strokes), "50");
+  EXPECT_EQ(length(diagonal), "5");
 }

@@ -181,5 +181,11 @@ TEST(PlantedCampaign, FolderAndSealedAnswer)
   EXPECT_EQ(answer["hidden"][0]["effect"], campaign.hidden[0].name);
   std::ofstream(folder / "damaged") << code.substr(0, 100) << "?\n";
   EXPECT_THROW(open_sealed(folder / "damaged"), InputError);
+  // One letter.
+  std::string changed = code;
+  char       &letter  = changed[code.size() / 2];
+  letter              = letter == 'A' ? 'B' : 'A';
+  std::ofstream(folder / "changed") << changed;
+  EXPECT_THROW(open_sealed(folder / "changed"), InputError);
   EXPECT_THROW(open_sealed(folder / "case.prm"), InputError);
 }

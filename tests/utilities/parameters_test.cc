@@ -1,5 +1,6 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/parameters.h>
+#include <slipstep/utilities/pattern_words.h>
 
 #include <gtest/gtest.h>
 
@@ -167,6 +168,27 @@ TEST_F(ParametersTest, UnknownNamesComeWithTheNearest)
 
 
 
+TEST_F(ParametersTest, TheSameNameInOtherCapitalsIsNearest)
+{
+  for (const std::string written : {"Friction/Softening/Rate",
+                                    "friction/softening/rate",
+                                    "Softening/rate",
+                                    "Friction/softning/Rate",
+                                    "Title/Friction/softening/Rate",
+                                    "Friction/SOFTENING/Rates"})
+    expect_contains(error_of("set " + written + " = 1\n"),
+                    "; did you mean Friction/softening/Rate?");
+  expect_contains(error_of("subsection Friction\nsubsection Softening\n"
+                           "set Rate = 1\nend\nend\n"),
+                  "; did you mean Friction/softening?");
+  // Nothing tells which.
+  expect_contains(error_of("set rate = 1\n"),
+                  "; did you mean Friction/softening/Rate or "
+                  "Friction/healing/Rate?");
+}
+
+
+
 TEST_F(ParametersTest, WrongValuesSayWhatIsAllowed)
 {
   EXPECT_EQ(error_of("set Block/Degree = 7\n"),
@@ -194,6 +216,49 @@ TEST_F(ParametersTest, WrongValuesSayWhatIsAllowed)
 
 
 
+TEST_F(ParametersTest, CapitalsOfWordsDoNotMatter)
+{
+  const Parameters p = read("Subsection Block\nSet Degree = 2\nEND\n"
+                            "set Block/Form = Wedge\n"
+                            "set Block/Curved = True\n"
+                            "set Friction/Effects = Softening, HEALING\n");
+  EXPECT_EQ(p.text("Block/Form"), "wedge");
+  EXPECT_TRUE(p.boolean("Block/Curved"));
+  EXPECT_EQ(p.text("Friction/Effects"), "softening, healing");
+  // 1 MPa is not 1 mPa.
+  expect_contains(error_of("set Loading/Speed = 1 MM/s\n"), "nearest is mm/s");
+
+  Parameters q = declared();
+  q.declare("Noise", "none", AnythingWithWords({"none", "from"}), "Words.");
+  q.set("Noise", "None of Friction/expression/From FROM 1 Nm", "--set");
+  EXPECT_EQ(q.text("Noise"), "none of Friction/expression/From from 1 Nm");
+}
+
+
+
+TEST_F(ParametersTest, DecimalCommasAreToldAsSuch)
+{
+  const std::string hint = "decimals begin with a point: ";
+  EXPECT_EQ(error_of("set Friction/healing/Rate = 0,05 1/s\n"),
+            "case.prm:1: Friction/healing/Rate = 0,05 1/s: " + hint +
+              "0.05 1/s; allowed is a rate per time (in 1/s if no unit is "
+              "given) of at least 0 1/s");
+  expect_contains(error_of("set Loading/Speed = 1.000,5 mm/s\n"),
+                  "decimals begin with a point, and nothing separates");
+  // Two lengths or three?
+  expect_contains(error_of("set Block/Size = 10,5 mm, 10 mm\n"),
+                  hint + "10.5 mm");
+  expect_contains(error_of("set Block/Size = 10,5 mm\n"), hint + "10.5 mm");
+  EXPECT_EQ(error_of("set Block/Size = 10,20,30\n"), "");
+  EXPECT_EQ(error_of("set Block/Size = 10 mm,20 mm\n"), "");
+  expect_contains(error_of("subsection Sweep\n"
+                           "set Key = Friction/healing/Rate\n"
+                           "set Values = 0,1, 0,2\nend\n"),
+                  "case.prm:3: Sweep/Values = 0,1, 0,2: " + hint + "0.1");
+}
+
+
+
 TEST_F(ParametersTest, BrokenFilesAreRefused)
 {
   EXPECT_EQ(error_of("set Title = a\n\nset Title = b\n"),
@@ -203,7 +268,8 @@ TEST_F(ParametersTest, BrokenFilesAreRefused)
                            "set Block/Degree = 2\n"),
                   "case.prm:4: Block/Degree is given twice, first in line 2");
   EXPECT_EQ(error_of("subsection Block\n"),
-            "case.prm:1: subsection Block is never closed by an \"end\"");
+            "case.prm:1: subsection Block, begun here, is never closed by an "
+            "\"end\"");
   expect_contains(error_of("subsection Block\nend\nend\n"), "case.prm:3: ");
   expect_contains(error_of("subsektion Block\n"), "did you mean subsection?");
   expect_contains(error_of("set Title\n"), "case.prm:1: \"set Title\" is not");
@@ -216,6 +282,80 @@ TEST_F(ParametersTest, BrokenFilesAreRefused)
                   "move the include up");
   expect_contains(error_of("subsection Block\ninclude other.prm\nend\n"),
                   "outside of subsections");
+}
+
+
+
+TEST_F(ParametersTest, AllErrorsAreToldAtOnceInTheOrderOfTheFile)
+{
+  write("other.prm", "set Nothing = 1\n");
+  EXPECT_EQ(error_of("include other.prm\n"
+                     "set Block/Degree = x\n"
+                     "subsection Frction\n"
+                     "  set Rate = not told\n"
+                     "  subsection neither\n"
+                     "  end\n"
+                     "end\n"
+                     "sett Title = a\n"
+                     "set Block/Form = box\n"
+                     "set Loading/Sped = 1 mm/s\n"),
+            "other.prm:1: unknown key Nothing; \"slipstep parameters\" lists "
+            "the known ones\n"
+            "case.prm:2: Block/Degree = x: allowed is a whole number from 1 to "
+            "2\n"
+            "case.prm:3: unknown section Frction; did you mean Friction?\n"
+            "case.prm:8: \"sett Title = a\" is not understood; did you mean "
+            "set? (a line is one of: set KEY = VALUE, subsection NAME, end, "
+            "include FILE, # comment)\n"
+            "case.prm:10: unknown key Loading/Sped; did you mean "
+            "Loading/Speed?");
+
+  std::string many;
+  for (unsigned int i = 0; i < 23; ++i)
+    many += "set Nothing = 1\n";
+  const std::string message = error_of(many);
+  expect_contains(message, "case.prm:20: unknown key");
+  EXPECT_EQ(message.substr(message.rfind('\n')), "\nand 3 more");
+}
+
+
+
+TEST_F(ParametersTest, AMissingEndNamesTheSectionThatIsOpen)
+{
+  EXPECT_EQ(error_of("subsection Friction\n  subsection softening\n"
+                     "    set Rate = 1\n"
+                     "subsection Loading\n  set Speed = 1 mm/s\nend\n"),
+            "case.prm:4: an \"end\" is missing before subsection Loading: "
+            "subsection softening is open since line 2");
+  expect_contains(error_of("\nsubsection Friction\n"
+                           "set Loading/Speed = 1 mm/s\nend\n"),
+                  "an \"end\" is missing: subsection Friction is open since "
+                  "line 2");
+  expect_contains(error_of("subsection Variants\nsubsection a\n"
+                           "subsection b\nend\nend\n"),
+                  "case.prm:3: unknown section b; if it is a variant, an "
+                  "\"end\" is missing: subsection a is open since line 2");
+  expect_contains(error_of("subsection Sweep\nset Key = Block/Degree\n"
+                           "subsection Block\nend\nend\n"),
+                  "subsection Sweep is open since line 1");
+  write("other.prm", "set Title = a\nsubsection Block\n");
+  EXPECT_EQ(error_of("include other.prm\nset Block/Degree = 1\n"),
+            "other.prm:2: subsection Block, begun here, is never closed by an "
+            "\"end\"");
+}
+
+
+
+TEST_F(ParametersTest, LinesMayEndAsOnAnySystem)
+{
+  for (const std::string end : {"\n", "\r\n", "\r"})
+    {
+      EXPECT_EQ(read("# note" + end + "set Block/Degree = 2" + end)
+                  .integer("Block/Degree"),
+                2);
+      expect_contains(error_of("set Title = a" + end + "set Titel = b" + end),
+                      "case.prm:2: ");
+    }
 }
 
 

@@ -29,8 +29,15 @@ namespace SlipStep
     bool   is_lower_open = false;
     bool   is_upper_open = false;
 
-    /// Whether the optimum lies on a bound.
+    /// Whether the optimum lies on a bound, or at a constraint.
     bool is_at_bound = false;
+
+    /// The condition of the law, such as mu_k <= mu_s, at which the parameter
+    /// stopped, in words; "" if there is none. Intervals then mean nothing.
+    std::string constraint;
+
+    /// Whether the misfit would fall beyond the constraint.
+    bool is_wanted_beyond = false;
 
     /// (value, increase of the misfit in units of the threshold): 1 is where
     /// the interval ends. Increasing in value, the optimum included.

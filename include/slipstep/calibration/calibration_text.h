@@ -17,6 +17,9 @@ namespace SlipStep
   /// Those parameters whose interval is open, "" if there are none.
   std::string open_intervals(const Calibration &calibration);
 
+  /// Which parameters stopped at which condition of the law, and what to do.
+  std::vector<std::string> constraint_sentences(const Calibration &calibration);
+
   /// Pairs that the tests determine only together, apart from those that a weak
   /// direction names; "" if there are none.
   std::string close_pairs(const Calibration &calibration);
@@ -42,7 +45,8 @@ namespace SlipStep
   /// unit. @p value in base units.
   std::string digits_text(const FittedParameter &fitted, const double value);
 
-  /// "0.041 … 0.049"; "≥ 0.041", "≤ 0.049" or "open" where it reaches a bound.
+  /// "0.041 … 0.049"; "≥ 0.041", "≤ 0.049" or "open" where it reaches a bound,
+  /// "–" at a constraint.
   std::string interval_text(const FittedParameter &fitted);
 
   /// "± 0.002", or "×/÷ 1.05" on a logarithmic scale.

@@ -45,6 +45,11 @@ namespace SlipStep
   std::vector<double> without_jitter(const std::vector<double> &displacement,
                                      const double               band);
 
+  /// The rows at which the displacement turns: the farthest ones of strokes
+  /// that are longer than the jitter.
+  std::vector<std::size_t> turning_rows(const std::vector<double> &displacement,
+                                        const double               band);
+
   /// Standard deviation of the noise in a series: robust, from its second
   /// differences, and not less than that of rounding to the recorded digits.
   double noise_level(const std::vector<double> &values);

@@ -9,6 +9,9 @@
 
 namespace SlipStep
 {
+  /// "file:line", as messages begin.
+  std::string place(const std::filesystem::path &file, const unsigned int line);
+
   /// A line of a .prm file that says something; continuation lines are joined.
   struct PrmStatement
   {
@@ -17,7 +20,8 @@ namespace SlipStep
       subsection, ///< name
       end,        ///<
       set,        ///< name, value
-      include     ///< value
+      include,    ///< value
+      wrong       ///< none of these: value is the message
     };
     Kind         kind = Kind::end;
     std::string  name;
@@ -26,8 +30,8 @@ namespace SlipStep
   };
 
   /// Split a .prm file into statements, without knowing any key.
-  /// @throws InputError if it cannot be read, is not named *.prm, or has a line
-  /// that is none of the statements.
+  /// @throws InputError if it cannot be read, is not named *.prm, or is not
+  /// text.
   std::vector<PrmStatement> scan_prm_file(const std::filesystem::path &file);
 
   /// A value with the place it was written in.
@@ -52,7 +56,8 @@ namespace SlipStep
   /// checked against @p known in the order in which a reader of the file meets
   /// it. A file overrides what it includes, a later include an earlier one; the
   /// including file's sweep replaces an included one.
-  /// @throws InputError naming file:line
+  /// @throws InputError naming file:line; all that is wrong is told at once, a
+  /// line each, up to a bound
   CaseText read_case_text(const std::filesystem::path &file,
                           const Parameters            &known);
 } // namespace SlipStep

@@ -3,7 +3,9 @@
 
 #include <deal.II/base/patterns.h>
 
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace SlipStep
 {
@@ -16,9 +18,26 @@ namespace SlipStep
   std::string why_not_allowed(const dealii::Patterns::PatternBase &pattern,
                               const std::string                   &text);
 
+  /// The text with words that a pattern knows in the capitals in which it
+  /// knows them: "Multigrid" is multigrid. Units are left as they are.
+  std::string as_meant(const dealii::Patterns::PatternBase &pattern,
+                       const std::string                   &text);
+
+  /// Any text, in which capitals do not matter for some words.
+  class AnythingWithWords : public dealii::Patterns::Anything
+  {
+  public:
+    explicit AnythingWithWords(const std::vector<std::string> &words);
+
+    virtual std::unique_ptr<dealii::Patterns::PatternBase>
+    clone() const override;
+
+    const std::vector<std::string> words;
+  };
+
   /// What the user wrote, fit for one line of a message: the middle of a long
   /// text is left out.
-  std::string excerpt(const std::string &text);
+  std::string excerpt(const std::string &text, const std::size_t most = 60);
 } // namespace SlipStep
 
 #endif

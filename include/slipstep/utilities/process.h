@@ -9,6 +9,10 @@
 
 namespace SlipStep
 {
+  /// Lead standard input, output and errors to /dev/null where they are closed:
+  /// a file of results that is opened next must not get the messages.
+  void open_closed_descriptors();
+
   /// Whether mpirun, srun or the like started this process.
   bool is_under_mpirun();
 

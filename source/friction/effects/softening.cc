@@ -27,7 +27,8 @@ namespace SlipStep
           parameters.reject("Friction/softening/Kinetic coefficient",
                             "must not exceed the static coefficient (" +
                               parameters.text("Friction/Static coefficient") +
-                              ")");
+                              "); take effect run_in for friction that rises "
+                              "with slip");
       }
 
       virtual Rate

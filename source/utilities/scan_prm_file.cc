@@ -1,0 +1,183 @@
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/parameter_reader.h>
+#include <slipstep/utilities/pattern_words.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace SlipStep
+{
+  std::string place(const std::filesystem::path &file, const unsigned int line)
+  {
+    return file.string() + ":" + std::to_string(line);
+  }
+
+
+
+  namespace
+  {
+    using dealii::Utilities::trim;
+
+    // Names of the file appear in JSON, HTML and pictures.
+    bool is_utf8(const std::string &text)
+    {
+      unsigned int n_following = 0;
+      for (const unsigned char c : text)
+        if (n_following > 0)
+          {
+            if ((c & 0xC0) != 0x80)
+              return false;
+            --n_following;
+          }
+        else if (c >= 0xF8 || (c & 0xC0) == 0x80)
+          return false;
+        else
+          n_following = c >= 0xF0 ? 3 : c >= 0xE0 ? 2 : c >= 0xC0 ? 1 : 0;
+      return n_following == 0;
+    }
+
+
+
+    // Split off the first word; the rest is trimmed.
+    std::string first_word(std::string &text)
+    {
+      const std::size_t length =
+        std::min(text.find_first_of(" \t"), text.size());
+      const std::string word = text.substr(0, length);
+      text                   = trim(text.substr(length));
+      return word;
+    }
+
+
+
+    PrmStatement parse_statement(const std::string &text,
+                                 const std::string &where,
+                                 const unsigned int line)
+    {
+      PrmStatement statement;
+      statement.line   = line;
+      std::string rest = text;
+      std::string word = lower_case(first_word(rest));
+      if (word == "subsection" && !rest.empty())
+        {
+          statement.kind = PrmStatement::Kind::subsection;
+          statement.name = rest;
+        }
+      else if (word == "end" && rest.empty())
+        statement.kind = PrmStatement::Kind::end;
+      else if (word == "include" && !rest.empty())
+        {
+          statement.kind  = PrmStatement::Kind::include;
+          statement.value = rest;
+        }
+      else if (word == "set" && rest.find('=') != std::string::npos &&
+               rest.front() != '=')
+        {
+          const std::size_t sign = rest.find('=');
+          statement.kind         = PrmStatement::Kind::set;
+          statement.name         = trim(rest.substr(0, sign));
+          statement.value        = trim(rest.substr(sign + 1));
+        }
+      else
+        {
+          const std::vector<std::string> words = {"set",
+                                                  "subsection",
+                                                  "end",
+                                                  "include"};
+          const bool                     is_known =
+            std::find(words.begin(), words.end(), word) != words.end();
+          statement.kind  = PrmStatement::Kind::wrong;
+          statement.value = where + ": \"" + excerpt(text) +
+                            "\" is not understood" +
+                            (is_known ? "" : did_you_mean(word, words)) +
+                            " (a line is one of: set KEY = VALUE, subsection "
+                            "NAME, end, include FILE, # comment)";
+        }
+      return statement;
+    }
+  } // namespace
+
+
+
+  namespace
+  {
+    // Whatever ends the lines: LF, CR LF, or CR alone.
+    std::string with_line_feeds(std::istream &in)
+    {
+      std::ostringstream all;
+      all << in.rdbuf();
+      std::string text;
+      bool        is_after_cr = false;
+      for (const char c : all.str())
+        {
+          if (c != '\n' || !is_after_cr)
+            text += c == '\r' ? '\n' : c;
+          is_after_cr = c == '\r';
+        }
+      return text;
+    }
+  } // namespace
+
+
+
+  std::vector<PrmStatement> scan_prm_file(const std::filesystem::path &file)
+  {
+    if (std::filesystem::is_directory(file))
+      throw InputError(file.string() + " is a folder, not a .prm file");
+    if (!std::filesystem::exists(file))
+      throw InputError(file.string() + ": no such file");
+    if (file.extension() != ".prm")
+      throw InputError(file.string() +
+                       ": not a .prm file (its name must end in .prm)");
+    std::ifstream in(file);
+    if (!in)
+      throw InputError(file.string() + ": cannot be opened for reading");
+
+    std::istringstream        lines(with_line_feeds(in));
+    std::vector<PrmStatement> statements;
+    std::string               text, line;
+    unsigned int              n_lines = 0, first_line = 0;
+    bool                      is_continued = false;
+    while (std::getline(lines, line))
+      {
+        ++n_lines;
+        if (line.find('\0') != std::string::npos)
+          throw InputError(place(file, n_lines) +
+                           ": not a .prm file (it is not text)");
+        if (n_lines == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
+          line.erase(0, 3);
+        const std::size_t comment = line.find('#');
+        const bool        is_only_comment =
+          comment != std::string::npos && trim(line.substr(0, comment)).empty();
+        if (!is_utf8(line))
+          throw InputError(place(file, n_lines) +
+                           ": this line is not UTF-8 text; save the file in "
+                           "that encoding");
+        line = trim(line.substr(0, comment));
+        // A comment between continued lines does not end them.
+        if (is_continued && is_only_comment)
+          continue;
+        if (!is_continued)
+          {
+            text.clear();
+            first_line = n_lines;
+          }
+        is_continued = !line.empty() && line.back() == '\\';
+        if (is_continued)
+          line = trim(line.substr(0, line.size() - 1));
+        text += (text.empty() || line.empty() ? "" : " ") + line;
+        if (!is_continued && !text.empty())
+          statements.push_back(
+            parse_statement(text, place(file, first_line), first_line));
+      }
+    if (is_continued)
+      throw InputError(place(file, n_lines) +
+                       ": the file ends after a \\ that continues the line");
+    return statements;
+  }
+} // namespace SlipStep
