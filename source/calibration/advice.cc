@@ -300,7 +300,7 @@ namespace SlipStep
         replay.plan(FrictionLaw(parameters),
                     Machine(parameters),
                     simulator.campaign.search_tolerance,
-                    100000);
+                    5000);
       }
       {
         const Parameters &parameters = simulator.with(shifted(step));

@@ -208,7 +208,7 @@ namespace SlipStep
     std::vector<fs::path> files;
     for (const std::string &name : parameters.list(tests_key))
       {
-        const fs::path file = parameters.resolve(name);
+        const fs::path  file = parameters.resolve(name);
         std::error_code error;
         if (!fs::exists(file, error))
           parameters.reject(tests_key,
@@ -341,13 +341,12 @@ namespace SlipStep
 
 
 
-    void plan_test(
-      Replay             &replay,
-      const CampaignTest &test,
-      const FrictionLaw  &law,
-      const Machine      &machine,
-      const double        tolerance,
-      const std::size_t   most_steps = 1000000)
+    void plan_test(Replay             &replay,
+                   const CampaignTest &test,
+                   const FrictionLaw  &law,
+                   const Machine      &machine,
+                   const double        tolerance,
+                   const std::size_t   most_steps = 1000000)
     {
       try
         {

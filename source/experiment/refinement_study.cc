@@ -75,7 +75,6 @@ namespace SlipStep
                            const std::string &tolerance)
     {
       const std::string goal = parameters.text(section + "Adaptive goal");
-      check_value(parameters, section + "Adaptive goal", goal_key, goal);
       return make_run(
         "adaptive " + tolerance,
         {{mesh_key, "adaptive " + parameters.text(section + "Adaptive levels")},
@@ -200,6 +199,10 @@ namespace SlipStep
       parameters.reject("Output/Quantities",
                         "a refinement study needs quantities of interest, e.g. "
                         "'friction force at 0.005 mm; peak coefficient'");
+    check_value(parameters,
+                section + "Adaptive goal",
+                goal_key,
+                parameters.text(section + "Adaptive goal"));
     add_uniform(parameters);
     add_adaptive(parameters);
     add_time_steps(parameters);

@@ -183,6 +183,7 @@ namespace SlipStep
     steps.clear();
     time_list.assign(1, start_time);
     double time = start_time, wanted_step = std::numeric_limits<double>::max();
+    std::size_t n_tried = 0;
     for (std::size_t i = 0; i < intervals.size(); ++i)
       {
         const double duration = intervals[i].duration;
@@ -198,14 +199,14 @@ namespace SlipStep
             if (share < left && share > left / 2.)
               share = left / 2.;
             const Step step = {i, begin, share == left ? 1. : begin + share};
+            if (n_tried++ > 2 * most_steps)
+              throw RunError("more than " + std::to_string(most_steps) +
+                             " time steps are needed");
             if (!attempt(
                   step, law, machine, tolerance, point, slider, wanted_step))
               continue;
             point.commit();
             steps.push_back(step);
-            if (steps.size() > most_steps)
-              throw RunError("more than " + std::to_string(most_steps) +
-                             " time steps are needed");
             begin = step.end;
             if (i >= n_before)
               time_list.push_back(time + begin * duration);

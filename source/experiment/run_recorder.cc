@@ -75,6 +75,7 @@ namespace SlipStep
     , programme(programme)
     , is_writer(is_writer)
     , shorter_steps(way_to_shorter_steps(parameters))
+    , has_equal_steps(!StepControl::idle_keys(parameters).empty())
     , quantities(parse_quantities(parameters, programme))
     , start(ResourceUsage::now())
     , progress(options.quiet || !is_writer, options.label)
@@ -211,6 +212,11 @@ namespace SlipStep
         missing +
         ": the time steps are too long, and friction may be wrong, too; " +
         shorter_steps + " may help");
+    if (has_equal_steps && summary.rejected_steps > 0)
+      summary.warnings.push_back(
+        "the steps are not equal: " + std::to_string(summary.rejected_steps) +
+        " of them had no solution and were cut; more Time stepping/Equal steps "
+        "per statement may have one each");
     summary.quantities =
       evaluate_quantities(quantities, programme, history, summary.dimension);
     if (!is_writer)

@@ -235,9 +235,11 @@ namespace SlipStep
             StudyCurve *own        = is_adaptive ? adaptive : uniform;
             if (own == nullptr)
               own = is_adaptive ? uniform : adaptive;
-            mesh = finer_run(*own,
-                             finer_mesh.label,
-                             summaries.at(finer_mesh.folder));
+            const Summary &summary = summaries.at(finer_mesh.folder);
+            mesh                   = finer_run(*own, finer_mesh.label, summary);
+            for (StudyCurve *curve : {uniform, adaptive})
+              if (curve != nullptr)
+                curve->reference_run = {summary};
           }
         if (uniform != nullptr)
           compare(mesh, *uniform);
@@ -268,6 +270,25 @@ namespace SlipStep
                                         "–";
   }
 
+
+
+  std::vector<std::string> StudyCurve::problems() const
+  {
+    std::vector<std::string> result;
+    const auto look_at = [&](const std::string &label, const Summary &summary) {
+      if (!is_finished(summary))
+        result.push_back(label + " failed: " + summary.reason);
+      for (const std::string &doubt :
+           {summary.missing_energy(), summary.missed_tolerance()})
+        if (!doubt.empty())
+          result.push_back(label + ": warning: " + doubt);
+    };
+    for (const StudyPoint &point : points)
+      look_at(point.label, point.summary);
+    for (const Summary &summary : reference_run)
+      look_at("the reference " + reference_name, summary);
+    return result;
+  }
 
 
   double StudyCurve::relative_uncertainty() const
@@ -386,15 +407,9 @@ namespace SlipStep
         for (const StudyPoint &point : curve.points)
           {
             lines.push_back(run_line(point));
-            if (!is_finished(point.summary))
-              problems.insert("  " + point.label +
-                              " failed: " + point.summary.reason + "\n");
-            for (const std::string &doubt : {point.summary.missing_energy(),
-                                             point.summary.missed_tolerance()})
-              if (!doubt.empty())
-                problems.insert("  " + point.label + ": warning: " + doubt +
-                                "\n");
           }
+        for (const std::string &problem : curve.problems())
+          problems.insert("  " + problem + "\n");
         out << '\n'
             << curve.quantity
             << (curve.unit.empty() ? "" : " [" + curve.unit + "]") << ", "
@@ -468,6 +483,7 @@ namespace SlipStep
                         {"reference", numeric(curve.reference)},
                         {"reference_from", curve.reference_name},
                         {"reference_uncertainty", numeric(curve.uncertainty)},
+                        {"problems", curve.problems()},
                         {"order", numeric(curve.order)},
                         {"cheapest_for_1_percent",
                          cheapest == nullptr ? json() : json(cheapest->label)},

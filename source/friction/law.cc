@@ -646,7 +646,10 @@ namespace SlipStep
     find_slip(local);
 
     ContactResponse response = linearise(local);
-    response.slips           = local.slip > 0.5 * slip_increment.norm();
+    // Of an increment that is no round-off.
+    response.slips = local.slip > std::max(0.5 * slip_increment.norm(),
+                                           1e-6 * start.coefficient *
+                                             normal_traction / alpha_t);
 
     end.traction        = response.traction;
     end.normal_traction = normal_traction;

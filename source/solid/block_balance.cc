@@ -136,7 +136,8 @@ namespace SlipStep
 
 
 
-  // The state of the contact tells more than the algebra.
+  // The state of the contact tells more than the algebra, unless that has a
+  // remedy of its own.
   template <int dim>
   std::string Block<dim>::reason_of_failure() const
   {
@@ -145,12 +146,15 @@ namespace SlipStep
       message << "the block tips over: only "
               << std::round(100. * contact_share)
               << " % of its face is still in contact (" << failure << ")";
-    else if (control.time() == 0.)
+    else if (control.time() == 0. &&
+             failure.find("'set Solver = automatic'") == std::string::npos)
       message << "not even the beginning of the loads is in equilibrium: they "
                  "lift the block or tip it over, or, if they do hold it on the "
                  "plane, more Block/Newton iterations than "
-              << parameters.newton_iterations << " may help (" << failure
-              << ")";
+              << parameters.newton_iterations
+              << " or, where round-off is in the way, a larger Block/Newton "
+                 "tolerance may help ("
+              << failure << ")";
     else
       message << failure;
     return message.str();
@@ -219,6 +223,13 @@ namespace SlipStep
         "loads of the faces grow during the first statement of the programme, "
         "while the block slides; 'hold 1 s' before it, or 'at once' behind the "
         "load, lets them act before it slides");
+    if (load_cases[programme_pressure].force.l2_norm() == 0. &&
+        std::any_of(programme.segments().begin(),
+                    programme.segments().end(),
+                    [](const Segment &now) { return now.end.pressure > 0.; }))
+      summary.warnings.push_back(
+        "the programme presses, but no face has 'pressure programme': only the "
+        "other loads of section Block/Faces press the block on the plane");
     // Round-off of sums of areas opens nothing.
     if (smallest_contact_share < 1. - 1e-9)
       {

@@ -73,7 +73,8 @@ namespace SlipStep
         std::istringstream words(condition);
         std::string        verb, rest;
         words >> verb;
-        std::getline(words >> std::ws, rest);
+        for (std::string word; words >> word;)
+          rest += (rest.empty() ? "" : " ") + word;
         const bool is_sudden = take_off_end(rest, "at once");
         if (verb == "contact" || verb == "free" || verb == "drive" ||
             verb == "flat")
@@ -160,6 +161,10 @@ namespace SlipStep
           {
             if (text.find("programme") != std::string::npos)
               reject_multiple(given);
+            if (text.empty())
+              parameters.reject(path,
+                                "write e.g. 'pressure 5 MPa', 'pressure "
+                                "programme' or 'pressure 3 x programme'");
             face.tractions[is_sudden ? at_once : gradual][normal_axis] -=
               outward_sign * quantity(text, Dimension::stress);
             return;
@@ -188,9 +193,10 @@ namespace SlipStep
         std::vector<std::string> words;
         for (std::string word; in >> word;)
           words.push_back(word);
-        if (words.size() != dim + 1)
+        if (words.size() != dim + 1 || text.find(',') != std::string::npos)
           parameters.reject(path,
-                            "write 'traction' with " + std::to_string(dim) +
+                            "write 'traction', without commas, with " +
+                              std::to_string(dim) +
                               " numbers and a unit, e.g. 'traction 1 0" +
                               (dim == 3 ? " 0" : "") + " MPa'");
         for (unsigned int d = 0; d < dim; ++d)

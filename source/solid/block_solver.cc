@@ -63,9 +63,22 @@ namespace SlipStep
         parameters.solver != SolverType::automatic)
       failures += "; 'set Solver = automatic' in section Block goes on with "
                   "another solver where one fails";
+    if (solver_in_use != SolverType::direct &&
+        parameters.solver != SolverType::automatic)
+      note_failure_of_solver();
     // The tangent may be to blame: the next one begins anew.
     begin_with_first_solver();
     throw RunError(failures);
+  }
+
+
+
+  template <int dim>
+  void Block<dim>::note_failure_of_solver()
+  {
+    if (n_solver_failures[0] + n_solver_failures[1] == 0)
+      first_solver_failure = control.time();
+    ++n_solver_failures[solver_in_use == SolverType::multigrid ? 0 : 1];
   }
 
 
@@ -77,9 +90,7 @@ namespace SlipStep
     if (solver_in_use == SolverType::direct)
       return false;
     const bool was_multigrid = solver_in_use == SolverType::multigrid;
-    if (n_solver_failures[0] + n_solver_failures[1] == 0)
-      first_solver_failure = control.time();
-    ++n_solver_failures[was_multigrid ? 0 : 1];
+    note_failure_of_solver();
     if (!was_multigrid && parameters.memory_of_factors(dof_handler.n_dofs()) >
                             parameters.refinement.most_memory)
       {
@@ -113,15 +124,30 @@ namespace SlipStep
   {
     if (n_solver_failures[0] + n_solver_failures[1] == 0)
       return "";
+    const auto times = [](const unsigned long long n) {
+      return n == 1 ? std::string("once") : std::to_string(n) + " times";
+    };
     std::ostringstream message;
+    if (parameters.solver != SolverType::automatic)
+      {
+        message
+          << "the linear solver did not converge, "
+          << times(n_solver_failures[0] + n_solver_failures[1])
+          << " and first at t = " << first_solver_failure
+          << " s; each time a step was cut, which may make a run endless: "
+             "'set Solver = automatic' in section Block goes on with "
+             "another solver";
+        return message.str();
+      }
     message << "the first choice of linear solver did not converge, first at t "
                "= "
             << first_solver_failure << " s: geometric multigrid failed "
-            << n_solver_failures[0] << " times, where algebraic multigrid took "
+            << times(n_solver_failures[0])
+            << ", where algebraic multigrid took "
             << "over for the rest of the statement";
     if (n_solver_failures[1] > 0)
-      message << ", and that " << n_solver_failures[1]
-              << " times, where a factorisation did";
+      message << ", and that " << times(n_solver_failures[1])
+              << ", where a factorisation did";
     message << "; that takes longer, the results are as accurate";
     return message.str();
   }

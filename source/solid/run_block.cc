@@ -25,8 +25,10 @@ namespace SlipStep
     std::string note(const Block<dim> &block)
     {
       std::ostringstream text;
-      text << block.n_cells() << " cells, mesh error " << std::setprecision(2)
-           << 100. * block.mesh_error().last << " %";
+      text << block.n_cells() << " cells";
+      if (block.mesh_error().n_checked > 0)
+        text << ", mesh error " << std::setprecision(2)
+             << 100. * block.mesh_error().last << " %";
       return text.str();
     }
 

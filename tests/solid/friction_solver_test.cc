@@ -246,7 +246,9 @@ TEST(Fallback, another_solver_takes_over_and_the_summary_says_so)
     << failed.failure;
   EXPECT_NE(failed.failure.find("'set Solver = automatic'"), std::string::npos)
     << failed.failure;
-  EXPECT_TRUE(failed.summary.warnings.empty());
+  ASSERT_EQ(failed.summary.warnings.size(), 1u);
+  EXPECT_EQ(failed.summary.warnings[0].find("the linear solver did not"), 0u)
+    << failed.summary.warnings[0];
 }
 
 

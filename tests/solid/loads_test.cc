@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace SlipStep;
@@ -186,5 +187,42 @@ TEST(Loads, ThatGrowWhileItSlidesAreWarnedOf)
         Settings{{"Block/Faces/top", "pressure 5 MPa" + when + "; drive"}}));
       ASSERT_EQ(result.failure, "");
       EXPECT_EQ(result.summary.warnings.size(), when.empty() ? 1u : 0u);
+    }
+}
+
+
+
+TEST(Loads, APressThatActsNowhereIsWarnedOf)
+{
+  const auto warned = [](const std::string &top, const std::string &programme) {
+    const auto result = run_block_case<2>(make_parameters(
+      squeezed_by("pressure  1 MPa at  once") +
+      Settings{{"Block/Faces/top", top}, {"Loading/Programme", programme}}));
+    EXPECT_EQ(result.failure, "");
+    return std::any_of(result.summary.warnings.begin(),
+                       result.summary.warnings.end(),
+                       [](const std::string &warning) {
+                         return warning.find("the programme presses, but") == 0;
+                       });
+  };
+  EXPECT_TRUE(warned("pressure 5 MPa", "press 9 MPa in 1 s"));
+  EXPECT_FALSE(warned("pressure 5 MPa", "hold 1 s"));
+  EXPECT_FALSE(warned("pressure 0.1 x programme", "press 50 MPa in 1 s"));
+}
+
+
+
+// Increments at rest are round-off and slip nowhere, whoever solves.
+TEST(Loads, NothingSlipsAtRest)
+{
+  for (const std::string solver : {"direct", "multigrid", "amg"})
+    {
+      const auto result = run_block_case<2>(make_parameters(
+        squeezed_by("free") +
+        Settings{{"Block/Solver", solver},
+                 {"Loading/Programme", "press 5 MPa in 1 s; hold 1 s"}}));
+      ASSERT_EQ(result.history.size(), 40u);
+      for (std::size_t i = 20; i < 40; ++i)
+        EXPECT_EQ(result.history[i].slip_fraction, 0.) << solver << ' ' << i;
     }
 }

@@ -35,15 +35,14 @@ namespace SlipStep
     /// is at most @p tolerance, relative to the friction at full slip, and that
     /// of straight lines between their ends, which does not add up, four times
     /// that where there are rows in between.
-    /// @param most_steps where to give up: a contact that sticks and slips, or
+    /// @param most_steps where to give up, after twice as many attempts: a contact that sticks and slips, or
     ///   times and lengths that do not go together, may take any number
     /// @throws RunError if no step is small enough, there are too many, or a
     ///   signal has come
-    void plan(
-      const FrictionLaw &law,
-      const Machine     &machine,
-      const double       tolerance,
-      const std::size_t  most_steps = 1000000);
+    void plan(const FrictionLaw &law,
+              const Machine     &machine,
+              const double       tolerance,
+              const std::size_t  most_steps = 1000000);
 
     /// The same with every step cut into two equal ones: friction differs by
     /// half of its error to first order.

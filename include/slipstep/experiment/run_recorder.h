@@ -87,6 +87,7 @@ namespace SlipStep
     const Programme   programme;
     const bool        is_writer;
     const std::string shorter_steps; ///< how to have them, in words
+    const bool        has_equal_steps;
     /// Evaluated at the end.
     const std::vector<QuantityOfInterest> quantities;
     const ResourceUsage                   start;

@@ -46,10 +46,16 @@ namespace SlipStep
     /// see ReferenceValue.
     double      uncertainty = QuantityOfInterest::undefined;
     std::string reference_name; ///< where it comes from
+    /// The finer run that the others are compared with, if there is one.
+    std::vector<Summary> reference_run;
     /// Order that the last runs show, NaN without one.
     double                  order     = QuantityOfInterest::undefined;
     unsigned int            dimension = 3;
     std::vector<StudyPoint> points;
+
+    /// What is wrong with the runs, or doubtful, reference included: a line for
+    /// each.
+    std::vector<std::string> problems() const;
 
     /// The uncertainty relative to the reference, as the errors are.
     double relative_uncertainty() const;

@@ -177,6 +177,7 @@ namespace SlipStep
     // Linear systems.
     void         choose_solver();
     unsigned int solve_linear_system(Vector &update, const double tolerance);
+    void         note_failure_of_solver();
     bool         take_next_solver(std::string &failures);
     void         begin_with_first_solver();
     std::string  warning_of_solver() const;

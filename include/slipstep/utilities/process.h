@@ -58,8 +58,8 @@ namespace SlipStep
     SignalGuard(const SignalGuard &)            = delete;
     SignalGuard &operator=(const SignalGuard &) = delete;
 
-    /// The signal that came since the first of the guards that are alive was set
-    /// up, 0 if none. Holds beyond their life.
+    /// The signal that came since the first of the guards that are alive was
+    /// set up, 0 if none. Holds beyond their life.
     static int caught();
 
     /// @throws RunError if there was one
