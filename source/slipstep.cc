@@ -64,9 +64,11 @@ namespace SlipStep
     {
       std::set<std::string> warnings;
       for (const Parameters &parameters : the_case.complete)
-        for (const std::string &warning :
-             parse_programme(parameters).warnings())
-          warnings.insert(warning);
+        {
+          const Programme programme = parse_programme(parameters);
+          warnings.insert(programme.warnings().begin(),
+                          programme.warnings().end());
+        }
       print_warnings({warnings.begin(), warnings.end()});
     }
 

@@ -170,12 +170,14 @@ TEST_F(Calibrate, WhatItWritesCanBeUsed)
   const auto point =
     process.run({"point", "found/fitted.prm", "--output", "point", "--quiet"});
   EXPECT_EQ(point.exit_code, 0) << point.err;
-  // A point run into the same folder keeps what was found.
+  // Another command does not write among these results.
   const auto beside =
     process.run({"point", "found/fitted.prm", "--output", "found", "--quiet"});
-  EXPECT_EQ(beside.exit_code, 0) << beside.err;
-  for (const char *name : {"calibration.json", "fitted.prm", "history.csv"})
-    EXPECT_TRUE(fs::exists(process.folder() / "found" / name)) << name;
+  EXPECT_EQ(beside.exit_code, 2);
+  EXPECT_NE(beside.err.find("holds results of slipstep calibrate"),
+            std::string::npos)
+    << beside.err;
+  EXPECT_FALSE(fs::exists(process.folder() / "found/history.csv"));
   // Results may be replaced, other files not.
   EXPECT_EQ(calibrate(one, {"--output", "found", "--quiet"}).exit_code, 0);
   EXPECT_EQ(calibrate(one, {"--output", "measured"}).exit_code, 2);

@@ -90,7 +90,7 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                        "friction", "energy",         "peak_memory_MB",
                        "slides",   "quantities",     "warnings",
                        "sessions", "stability",      "mesh_error",
-                       "opening"});
+                       "opening",  "probes"});
   has_exactly(object["friction"], {"peak", "at_displacement_mm", "final"});
   has_exactly(object["energy"],
               {"work", "stored", "dissipated", "balance_error"});

@@ -134,7 +134,8 @@ namespace
     const FrictionLaw    law(parameters);
     const double         stiffness = Machine(parameters).stiffness();
     std::vector<Loading> seen;
-    for (const Segment &segment : parse_programme(parameters).segments())
+    const Programme      programme = parse_programme(parameters);
+    for (const Segment &segment : programme.segments())
       {
         const Loading &now = segment.end;
         if (now.velocity.norm() == 0. || now.pressure == 0. ||
