@@ -21,10 +21,12 @@
 #include <slipstep/friction/law.h>
 #include <slipstep/planting/plant.h>
 #include <slipstep/solid/attempt_together.h>
+#include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/case.h>
 #include <slipstep/solid/refine_block.h>
 #include <slipstep/solid/run_block.h>
 #include <slipstep/utilities/command_line.h>
+#include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/parameters.h>
 #include <slipstep/utilities/process.h>
@@ -34,6 +36,7 @@
 #include <sys/prctl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -70,6 +73,29 @@ namespace SlipStep
                           programme.warnings().end());
         }
       print_warnings({warnings.begin(), warnings.end()});
+    }
+
+
+
+    // A block that the programme presses by another multiple, or not at all, is
+    // no block that the point stands for.
+    void print_warnings_of_point(const Case &the_case)
+    {
+      for (const Parameters &parameters : the_case.complete)
+        {
+          const BlockParameters block(parameters, parse_programme(parameters));
+          double                multiple = 0.;
+          for (const FaceConditions &face : block.faces)
+            multiple += block.outward_sign() *
+                        face.tractions[programme_pressure][block.normal_axis()];
+          if (std::abs(multiple - 1.) < 1e-12)
+            continue;
+          print_warnings({"the faces of the block take " +
+                          rounded_text(multiple, 6) +
+                          " x the pressure of the programme; the contact point "
+                          "takes the programme's"});
+          return;
+        }
     }
 
 
@@ -127,6 +153,8 @@ namespace SlipStep
         check_output(the_case, line);
       if (is_first_rank && !line.is_child)
         print_warnings_of_programmes(the_case);
+      if (is_first_rank && !line.is_child && line.command == "point")
+        print_warnings_of_point(the_case);
       earlier.assign(the_case.complete.size(), EarlierRun::none);
       if (line.resume)
         look_for_earlier_runs();

@@ -222,3 +222,25 @@ TEST(ManyRanks, SpeakOnce)
   expect_kept(process, "output/case/1_mm-s", "tips over");
   expect_kept(process, "output/case/2_mm-s", "tips over");
 }
+
+
+
+TEST(Point, TellsWhatTheFacesOfTheBlockDoToThePressure)
+{
+  const SlipstepProcess process;
+  process.write(
+    "case.prm",
+    "set Loading/Programme = press 1 MPa in 1 s; slide 1 mm/s for 1 um\n");
+  const auto warned = [&](const std::string &top) {
+    const auto result = process.run(
+      {"point", "case.prm", "--quiet", "--set", "Block/Faces/top=" + top});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  EXPECT_NE(
+    warned("pressure 3 x programme; drive").find("take 3 x the pressure"),
+    std::string::npos);
+  EXPECT_NE(warned("pressure 5 MPa; drive").find("take 0 x the pressure"),
+            std::string::npos);
+  EXPECT_EQ(warned("pressure programme; drive"), "");
+}
