@@ -300,7 +300,7 @@ namespace SlipStep
         replay.plan(FrictionLaw(parameters),
                     Machine(parameters),
                     simulator.campaign.search_tolerance,
-                    5000);
+                    Replay::most_steps_of_imagined_test);
       }
       {
         const Parameters &parameters = simulator.with(shifted(step));

@@ -3,8 +3,8 @@
 #include <slipstep/calibration/calibration_report.h>
 #include <slipstep/calibration/calibration_text.h>
 #include <slipstep/calibration/fit.h>
-#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>

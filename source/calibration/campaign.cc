@@ -346,7 +346,7 @@ namespace SlipStep
                    const FrictionLaw  &law,
                    const Machine      &machine,
                    const double        tolerance,
-                   const std::size_t   most_steps = 1000000)
+                   const std::size_t   most_steps = Replay::most_steps)
     {
       try
         {
@@ -399,7 +399,16 @@ namespace SlipStep
         for (std::size_t i = begin; i < end; ++i)
           {
             throw_if_stopped();
-            work(i);
+            try
+              {
+                work(i);
+              }
+            catch (const RunError &)
+              {
+                // A signal is no trouble of the test that it met.
+                throw_if_stopped();
+                throw;
+              }
           }
       },
       1);

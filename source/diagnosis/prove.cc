@@ -35,7 +35,6 @@ namespace SlipStep
                               const std::vector<double> &scaled,
                               const bool                 plan)
       {
-        constexpr std::size_t most_steps = 5000;
         return if_possible([&]() {
           Simulator         simulator(*model.simulator);
           const Parameters &parameters = simulator.with(scaled);
@@ -45,7 +44,7 @@ namespace SlipStep
             replay.plan(law,
                         machine,
                         model.campaign->search_tolerance,
-                        most_steps);
+                        Replay::most_steps_of_imagined_test);
           Replay::Curve curve;
           replay.simulate(law, machine, curve);
           std::vector<double> both = replay.at(curve.friction, motion.time);

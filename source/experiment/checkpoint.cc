@@ -346,18 +346,10 @@ namespace SlipStep
     void write_manifest(const CheckpointManifest &manifest,
                         const fs::path           &folder)
     {
-      const fs::path file = folder / manifest_name;
-      {
-        std::ofstream out(file);
-        out << to_json(manifest).dump(2,
-                                      ' ',
-                                      false,
-                                      json::error_handler_t::replace)
-            << std::endl;
-        if (!out)
-          throw write_failure(file);
-      }
-      synchronise(file);
+      write_file(
+        folder / manifest_name,
+        to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) +
+          '\n');
     }
   } // namespace
 

@@ -5,11 +5,8 @@
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/write_file.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <set>
 
 namespace SlipStep
@@ -287,20 +284,6 @@ namespace SlipStep
                            const MeasuredTest          &test,
                            const unsigned int           n_digits)
   {
-    const std::filesystem::path temporary =
-      file.parent_path() / ("." + file.filename().string() + "." +
-                            std::to_string(getpid()) + ".tmp");
-    std::ofstream out(temporary, std::ios::binary);
-    if (!out)
-      throw InputError(file.string() + ": this file cannot be written");
-    out << text_of_test(test, n_digits);
-    out.close();
-    std::error_code error;
-    if (out)
-      std::filesystem::rename(temporary, file, error);
-    if (out && !error)
-      return;
-    std::filesystem::remove(temporary, error);
-    throw write_failure(file);
+    write_file(file, text_of_test(test, n_digits));
   }
 } // namespace SlipStep

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -40,11 +39,10 @@ namespace SlipStep
                              const std::filesystem::path &folder,
                              const std::set<std::string> &omitted_sections)
   {
-    std::ofstream out(folder / "used_parameters.prm");
+    std::ostringstream text;
     relocated_case(parameters, folder)
-      .print(out, Parameters::Format::prm, omitted_sections);
-    if (!out.flush())
-      throw write_failure(folder / "used_parameters.prm");
+      .print(text, Parameters::Format::prm, omitted_sections);
+    write_file(folder / "used_parameters.prm", text.str());
   }
 
 

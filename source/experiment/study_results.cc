@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
@@ -20,8 +19,6 @@ namespace SlipStep
 {
   namespace
   {
-    constexpr double undefined = QuantityOfInterest::undefined;
-
     Summary load(const StudyRun &run, const std::filesystem::path &output)
     {
       Summary summary;
@@ -68,23 +65,24 @@ namespace SlipStep
     double value_in(const Summary &summary, const std::string &name)
     {
       const QuantityValue *quantity = find(summary, name);
-      return is_finished(summary) && quantity != nullptr ? quantity->value :
-                                                           undefined;
+      return is_finished(summary) && quantity != nullptr ?
+               quantity->value :
+               QuantityOfInterest::undefined;
     }
 
 
 
     /// The runs of a curve that came to a value, coarse to fine.
-    struct Series
+    struct SeriesOfRuns
     {
       std::vector<double> sizes, values;
       std::string         finest; ///< label
     };
 
     /// @param n_points of the curve that are looked at
-    Series series_of(const StudyCurve &curve, const std::size_t n_points)
+    SeriesOfRuns series_of(const StudyCurve &curve, const std::size_t n_points)
     {
-      Series series;
+      SeriesOfRuns series;
       for (std::size_t i = 0; i < n_points; ++i)
         if (std::isfinite(curve.points[i].value))
           {
@@ -102,7 +100,9 @@ namespace SlipStep
 
     struct NamedReference
     {
-      ReferenceValue found = {undefined, undefined, false};
+      ReferenceValue found = {QuantityOfInterest::undefined,
+                              QuantityOfInterest::undefined,
+                              false};
       std::string    name;
     };
 
@@ -132,13 +132,16 @@ namespace SlipStep
     {
       const double value = value_in(summary, curve.quantity);
       if (!std::isfinite(value))
-        return {{undefined, undefined, false}, label};
+        return {{QuantityOfInterest::undefined,
+                 QuantityOfInterest::undefined,
+                 false},
+                label};
       StudyCurve complete = curve;
       complete.kind       = curve.kind == StudySequence::Kind::time_step ?
                               curve.kind :
                               StudySequence::Kind::adaptive; // by unknowns
       complete.points.push_back({label, summary, value});
-      const Series series = series_of(complete, complete.points.size());
+      const SeriesOfRuns series = series_of(complete, complete.points.size());
       return {finest_reference(series.sizes, series.values), label};
     }
 
@@ -157,8 +160,8 @@ namespace SlipStep
           const double difference = std::abs(point.value - curve.reference);
           if (difference > curve.uncertainty)
             point.error = difference / scale;
-          point.error_bound   = (difference + curve.uncertainty) / scale;
-          const Series series = series_of(curve, i + 1);
+          point.error_bound         = (difference + curve.uncertainty) / scale;
+          const SeriesOfRuns series = series_of(curve, i + 1);
           curve.order = point.order = shown_order(series.sizes, series.values);
         }
     }
@@ -239,7 +242,7 @@ namespace SlipStep
             mesh                   = finer_run(*own, finer_mesh.label, summary);
             for (StudyCurve *curve : {uniform, adaptive})
               if (curve != nullptr)
-                curve->reference_run = {summary};
+                curve->reference_run = summary;
           }
         if (uniform != nullptr)
           compare(mesh, *uniform);
@@ -285,10 +288,11 @@ namespace SlipStep
     };
     for (const StudyPoint &point : points)
       look_at(point.label, point.summary);
-    for (const Summary &summary : reference_run)
-      look_at("the reference " + reference_name, summary);
+    if (reference_run)
+      look_at("the reference " + reference_name, *reference_run);
     return result;
   }
+
 
 
   double StudyCurve::relative_uncertainty() const
@@ -428,7 +432,7 @@ namespace SlipStep
   void write_study_csv(const std::filesystem::path   &file,
                        const std::vector<StudyCurve> &curves)
   {
-    std::ofstream out(file);
+    std::ostringstream out;
     out << "sequence,run,status,cells,unknowns,steps,cpu_s,memory_MB,quantity,"
            "unit,value,reference,relative_error,order,"
            "reference_uncertainty,error_bound\n";
@@ -449,8 +453,7 @@ namespace SlipStep
             << text(curve.reference) << ',' << text(point.error) << ','
             << text(point.order) << ',' << text(curve.uncertainty) << ','
             << text(point.error_bound) << '\n';
-    if (!out.flush())
-      throw write_failure(file);
+    write_file(file, out.str());
   }
 
 

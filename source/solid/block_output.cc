@@ -17,8 +17,8 @@
 #include <deal.II/numerics/data_postprocessor.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -315,10 +315,9 @@ namespace SlipStep
                            ".pvtu");
     if (rank != 0)
       return;
-    std::ofstream out(folder / (name + ".pvd"));
-    DataOutBase::write_pvd_record(out, entries);
-    if (!out.flush())
-      throw write_failure(folder / (name + ".pvd"));
+    std::ostringstream text;
+    DataOutBase::write_pvd_record(text, entries);
+    write_file(folder / (name + ".pvd"), text.str());
   }
 
 
@@ -401,7 +400,7 @@ namespace SlipStep
       return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
     });
 
-    std::ofstream out(folder / "contact_face.csv");
+    std::ostringstream out;
     out << "x_mm,y_mm,cell_size_x_mm,cell_size_y_mm,area_mm2";
     for (const FaceField &field : fields)
       out << ',' << field.name;
@@ -409,8 +408,7 @@ namespace SlipStep
     for (const Row &row : sorted)
       for (unsigned int i = 0; i < row.size(); ++i)
         out << exact_text(row[i]) << (i + 1 < row.size() ? ',' : '\n');
-    if (!out.flush())
-      throw write_failure(folder / "contact_face.csv");
+    write_file(folder / "contact_face.csv", out.str());
   }
 
 

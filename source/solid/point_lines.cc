@@ -9,7 +9,6 @@
 
 #include <deal.II/base/utilities.h>
 
-#include <fstream>
 #include <regex>
 #include <sstream>
 
@@ -19,7 +18,7 @@ namespace SlipStep
 
   namespace
   {
-    const std::string key = "Output/Lines";
+    const std::string lines_key = "Output/Lines";
 
     Tensor<1, 3> read_point(const Parameters      &parameters,
                             const BlockParameters &block,
@@ -29,7 +28,7 @@ namespace SlipStep
       const auto   coordinates = Utilities::split_string_list(text, ',');
       Tensor<1, 3> point;
       if (coordinates.size() != block.dimension)
-        parameters.reject(key,
+        parameters.reject(lines_key,
                           "'" + line + "': a point of a block in " +
                             std::to_string(block.dimension) + "-D has " +
                             std::to_string(block.dimension) + " coordinates");
@@ -43,7 +42,7 @@ namespace SlipStep
             }
           catch (const InputError &error)
             {
-              parameters.reject(key, "'" + line + "': " + error.what());
+              parameters.reject(lines_key, "'" + line + "': " + error.what());
             }
           if (point[d] >= 0. && point[d] <= block.size[d])
             continue;
@@ -51,7 +50,7 @@ namespace SlipStep
           message << "'" << line << "': along "
                   << "xyz"[d] << " the block reaches from 0 to "
                   << block.size[d] << " mm";
-          parameters.reject(key, message.str());
+          parameters.reject(lines_key, message.str());
         }
       return point;
     }
@@ -62,7 +61,7 @@ namespace SlipStep
   void declare_lines(Parameters &parameters)
   {
     parameters.declare(
-      key,
+      lines_key,
       "",
       Patterns::Anything(),
       "Lines of points of the block whose displacements at the end of the run "
@@ -81,13 +80,13 @@ namespace SlipStep
       "\\(([^()]*)\\) to \\(([^()]*)\\)( with ([0-9]{1,6}) points)?");
     std::vector<PointLine> lines;
     for (const std::string &text :
-         Utilities::split_string_list(parameters.text(key), ';'))
+         Utilities::split_string_list(parameters.text(lines_key), ';'))
       {
         if (text.empty())
           continue;
         std::smatch match;
         if (!std::regex_match(text, match, form))
-          parameters.reject(key,
+          parameters.reject(lines_key,
                             "'" + text +
                               "' is not understood; write e.g. '(0 mm, 5 mm, "
                               "10 mm) to (10 mm, 5 mm, 10 mm) with 51 points'");
@@ -98,9 +97,9 @@ namespace SlipStep
         if (match[4].matched)
           line.n_points = std::stoul(match[4]);
         if (line.n_points < 2 || line.n_points > 100000)
-          parameters.reject(key, "'" + text + "': 2 to 100000 points");
+          parameters.reject(lines_key, "'" + text + "': 2 to 100000 points");
         if (!((line.end - line.begin).norm() > 0.))
-          parameters.reject(key, "'" + text + "' has no length");
+          parameters.reject(lines_key, "'" + text + "' has no length");
         lines.push_back(line);
       }
     return lines;
@@ -147,12 +146,8 @@ namespace SlipStep
 
     const std::filesystem::path file    = folder / "lines.csv";
     const std::string           failure = attempt_together(communicator, [&]() {
-      if (Utilities::MPI::this_mpi_process(communicator) != 0)
-        return;
-      std::ofstream out(file);
-      out << text.str();
-      if (!out.flush())
-        throw write_failure(file);
+      if (Utilities::MPI::this_mpi_process(communicator) == 0)
+        write_file(file, text.str());
     });
     if (!failure.empty())
       throw RunError(failure);

@@ -10,28 +10,28 @@ namespace SlipStep
     const auto is_digit = [&](const std::size_t i) {
       return i < text.size() && text[i] >= '0' && text[i] <= '9';
     };
-    for (std::size_t comma = text.find(','); comma != std::string::npos;
-         comma             = text.find(',', comma + 1))
+    std::size_t comma = std::string::npos;
+    while ((comma = text.find(',', comma + 1)) != std::string::npos)
       {
-                    std::size_t begin = comma, end = comma + 1;
-                    while (begin > 0 && is_digit(begin - 1))
+        std::size_t begin = comma, end = comma + 1;
+        while (begin > 0 && is_digit(begin - 1))
           --begin;
         while (is_digit(end))
           ++end;
         const bool is_number = begin < comma && end > comma + 1;
-                    // The exponent of 1e-3 is no number.
-                    if (begin > 1 && (text[begin - 1] == '-' || text[begin - 1] == '+') &&
+        // The exponent of 1e-3 is no number.
+        if (begin > 1 && (text[begin - 1] == '-' || text[begin - 1] == '+') &&
             std::isalnum(static_cast<unsigned char>(text[begin - 2])) != 0)
           continue;
         const char before = begin == 0 ? ' ' : text[begin - 1];
-                    const bool is_list =
-                      end < text.size() && text[end] == ',' && is_digit(end + 1);
-                    const char after = end == text.size() ? ' ' : text[end];
-                    if (is_number && before != '.' && before != ',' && before != '_' &&
+        const bool is_list =
+          end < text.size() && text[end] == ',' && is_digit(end + 1);
+        const char after = end == text.size() ? ' ' : text[end];
+        if (is_number && before != '.' && before != ',' && before != '_' &&
             std::isalnum(static_cast<unsigned char>(before)) == 0 &&
             after != '.' && !is_list)
           {
-                        // With its exponent and unit.
+            // With its exponent and unit.
             end = std::min(text.find_first_of(",;)", end), text.size());
             return "decimals begin with a point: " +
                    text.substr(begin, comma - begin) + "." +

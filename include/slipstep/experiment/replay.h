@@ -24,8 +24,8 @@ namespace SlipStep
     /// @param lead_in length [mm] slid before the first row, in the direction
     ///   and with the speed of the first motion, under the first pressure: for
     ///   records that begin while the contact slides already
-    /// @param row_distance time between neighbouring rows at which curves are wanted
-    ///   [s]; the rows of @p motion if not given
+    /// @param row_distance time between neighbouring rows at which curves are
+    ///   wanted [s]; the rows of @p motion if not given
     explicit Replay(
       const MeasuredTest &motion,
       const double        lead_in      = 0.,
@@ -35,14 +35,20 @@ namespace SlipStep
     /// is at most @p tolerance, relative to the friction at full slip, and that
     /// of straight lines between their ends, which does not add up, four times
     /// that where there are rows in between.
-    /// @param most_steps where to give up, after twice as many attempts: a contact that sticks and slips, or
-    ///   times and lengths that do not go together, may take any number
+    /// @param most_steps where to give up, after twice as many attempts: a
+    ///   contact that sticks and slips, or times and lengths that do not go
+    ///   together, may take any number
     /// @throws RunError if no step is small enough, there are too many, or a
     ///   signal has come
     void plan(const FrictionLaw &law,
               const Machine     &machine,
               const double       tolerance,
-              const std::size_t  most_steps = 1000000);
+              const std::size_t  most_steps = Replay::most_steps);
+
+    /// More steps than any record of a laboratory takes.
+    static constexpr std::size_t most_steps = 1000000;
+    /// The same for tests that are only imagined: another one will do.
+    static constexpr std::size_t most_steps_of_imagined_test = 5000;
 
     /// The same with every step cut into two equal ones: friction differs by
     /// half of its error to first order.

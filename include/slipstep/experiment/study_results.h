@@ -7,6 +7,7 @@
 #include <slipstep/experiment/text_table.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,7 @@ namespace SlipStep
     double      uncertainty = QuantityOfInterest::undefined;
     std::string reference_name; ///< where it comes from
     /// The finer run that the others are compared with, if there is one.
-    std::vector<Summary> reference_run;
+    std::optional<Summary> reference_run;
     /// Order that the last runs show, NaN without one.
     double                  order     = QuantityOfInterest::undefined;
     unsigned int            dimension = 3;
