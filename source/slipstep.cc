@@ -6,8 +6,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/calibration/campaign.h>
-#include <slipstep/fit_commands.h>
-#include <slipstep/outcome.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/import_map.h>
 #include <slipstep/experiment/import_tests.h>
@@ -18,7 +16,9 @@
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/experiment/sweep.h>
 #include <slipstep/experiment/test_set.h>
+#include <slipstep/fit_commands.h>
 #include <slipstep/friction/law.h>
+#include <slipstep/outcome.h>
 #include <slipstep/planting/plant.h>
 #include <slipstep/solid/attempt_together.h>
 #include <slipstep/solid/block_parameters.h>

@@ -14,7 +14,7 @@ namespace SlipStep
   {
     constexpr std::size_t widest = 100;
 
-    std::vector<TableLine> parameter_lines(const Calibration &calibration)
+    std::vector<TableLine> short_parameter_lines(const Calibration &calibration)
     {
       std::vector<TableLine> lines = {
         {"parameter", "value", "unit", interval_name(calibration), "start"}};
@@ -39,7 +39,7 @@ namespace SlipStep
       return lines;
     }
 
-    std::vector<TableLine> test_lines(const Calibration &calibration)
+    std::vector<TableLine> short_test_lines(const Calibration &calibration)
     {
       std::vector<TableLine> lines = {
         {"test", "rows", "start rms", "rms", "noise", "rms/noise"}};
@@ -61,7 +61,7 @@ namespace SlipStep
     std::string text =
       wrapped_text(calibration_headline(calibration), 2, widest) + "\n";
     if (!calibration.parameters.empty())
-      text += text_table(parameter_lines(calibration), widest);
+      text += text_table(short_parameter_lines(calibration), widest);
     if (std::any_of(calibration.parameters.begin(),
                     calibration.parameters.end(),
                     [](const FittedParameter &fitted) {
@@ -71,7 +71,7 @@ namespace SlipStep
     if (!calibration.derived.empty())
       text += "\n" + text_table(derived_lines(calibration), widest);
     if (!calibration.tests.empty())
-      text += "\n" + text_table(test_lines(calibration), widest);
+      text += "\n" + text_table(short_test_lines(calibration), widest);
     if (!calibration.weak.empty())
       text += "\n  What these tests hardly determine:\n";
     for (const WeakDirection &direction : calibration.weak)

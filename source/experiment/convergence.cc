@@ -10,7 +10,7 @@ namespace SlipStep
 {
   namespace
   {
-    constexpr double undefined   = std::numeric_limits<double>::quiet_NaN();
+    constexpr double no_value    = std::numeric_limits<double>::quiet_NaN();
     constexpr double infinite    = std::numeric_limits<double>::infinity();
     constexpr double least_order = 0.1, largest_order = 20.;
   } // namespace
@@ -21,7 +21,7 @@ namespace SlipStep
                            const std::vector<double> &values)
   {
     const std::size_t   n    = values.size();
-    const Extrapolation none = {undefined, undefined};
+    const Extrapolation none = {no_value, no_value};
     if (n < 3 || sizes.size() != n)
       return none;
     const double h1 = sizes[n - 3], h2 = sizes[n - 2], h3 = sizes[n - 1];
@@ -58,7 +58,7 @@ namespace SlipStep
   {
     const double order =
       std::log(std::abs(error_1 / error_2)) / std::log(h_1 / h_2);
-    return std::isfinite(order) ? order : undefined;
+    return std::isfinite(order) ? order : no_value;
   }
 
 
@@ -116,14 +116,14 @@ namespace SlipStep
                      const std::vector<double> &values)
   {
     if (values.size() < 4 || sizes.size() != values.size())
-      return undefined;
+      return no_value;
     const double order = richardson(sizes, values).order;
     const double order_before =
       richardson(without_last(sizes), without_last(values)).order;
     return std::abs(order - order_before) <=
                0.15 * std::max(order, order_before) ?
              order :
-             undefined;
+             no_value;
   }
 
 
@@ -152,7 +152,7 @@ namespace SlipStep
                                   const std::vector<double> &values)
   {
     if (values.empty() || sizes.size() != values.size())
-      return {undefined, infinite, false};
+      return {no_value, infinite, false};
     double uncertainty = uncertainty_of_last(sizes, values);
     if (std::isfinite(shown_order(sizes, values)))
       {

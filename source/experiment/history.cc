@@ -78,8 +78,6 @@ namespace SlipStep
       return all;
     }
 
-    constexpr std::size_t most_probes = 99;
-
     std::size_t index_of(const ContactMemory &memory)
     {
       const auto all = ContactState::memories();

@@ -2,10 +2,10 @@
 
 #include <slipstep/experiment/point_driver.h>
 
-#include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/process.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/experiment/stability.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/process.h>
 
 #include <deal.II/base/numbers.h>
 

@@ -20,9 +20,7 @@ namespace SlipStep
   {
     using Kind = QuantityOfInterest::Kind;
 
-    const char *const key = "Output/Quantities";
-
-    constexpr std::size_t most_probes = 99;
+    const char *const quantities_key = "Output/Quantities";
 
     const std::vector<std::string> face_names =
       {"left", "right", "front", "back", "bottom", "top"};
@@ -107,7 +105,7 @@ namespace SlipStep
 
       [[noreturn]] void fail(const std::string &why) const
       {
-        parameters.reject(key, why);
+        parameters.reject(quantities_key, why);
       }
 
       [[noreturn]] void show_example() const
@@ -127,7 +125,8 @@ namespace SlipStep
     std::vector<QuantityOfInterest> Reader::read()
     {
       for (const std::string &item :
-           dealii::Utilities::split_string_list(parameters.text(key), ';'))
+           dealii::Utilities::split_string_list(parameters.text(quantities_key),
+                                                ';'))
         if (!item.empty())
           read_item(squeezed(item));
       if (probes_among(quantities).size() > most_probes)
@@ -373,7 +372,7 @@ namespace SlipStep
   void declare_quantities(Parameters &parameters)
   {
     parameters.declare(
-      key,
+      quantities_key,
       "",
       AnythingWithWords(words_of_quantities()),
       "Quantities of interest, evaluated at the end of a run and written to "

@@ -1,14 +1,16 @@
 #include <slipstep/experiment/report.h>
 
+#include <slipstep/experiment/repeat_command.h>
 #include <slipstep/experiment/report_data.h>
 #include <slipstep/experiment/report_figures.h>
-#include <slipstep/experiment/repeat_command.h>
 #include <slipstep/experiment/report_html.h>
 #include <slipstep/utilities/figure.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/patterns.h>
+
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -318,11 +320,6 @@ namespace SlipStep
       return lines;
     }
 
-    bool begins_with(const std::string &text, const std::string &beginning)
-    {
-      return text.compare(0, beginning.size(), beginning) == 0;
-    }
-
     /// What the user set, and in what the variants differ.
     std::vector<TableLine> condition_lines(const Parameters &parameters,
                                            const std::vector<RunResults> &runs)
@@ -334,10 +331,12 @@ namespace SlipStep
             std::any_of(runs[0].summary.effects.begin(),
                         runs[0].summary.effects.end(),
                         [&path](const std::string &effect) {
-                          return begins_with(path, "Friction/" + effect + "/");
+                          return boost::algorithm::starts_with(path,
+                                                               "Friction/" +
+                                                                 effect + "/");
                         });
           if (parameters.is_set(path) && !shown_above &&
-              !begins_with(path, "Report/"))
+              !boost::algorithm::starts_with(path, "Report/"))
             lines.push_back({path, parameters.text(path)});
         }
       for (const Variant &variant : parameters.variants())

@@ -12,8 +12,6 @@ namespace SlipStep
 {
   namespace
   {
-    constexpr double mm_min = 60.; // mm/s in mm/min
-
     const std::vector<std::string> face_columns = {"x_mm",
                                                    "y_mm",
                                                    "cell_size_x_mm",

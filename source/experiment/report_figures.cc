@@ -4,6 +4,7 @@
 #include <slipstep/experiment/report_faces.h>
 
 #include <slipstep/utilities/figure.h>
+#include <slipstep/utilities/units.h>
 
 #include <algorithm>
 #include <array>
@@ -14,8 +15,6 @@ namespace SlipStep
 {
   namespace
   {
-    constexpr double mm_min = 60.; // mm/s in mm/min
-
     /// Colours of Okabe and Ito, distinct for colour-blind readers; dashes keep
     /// the curves apart in print. (Their yellow is lost on white.)
     std::string line_style(const std::size_t i)

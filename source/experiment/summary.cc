@@ -1,5 +1,6 @@
 #include <slipstep/experiment/summary.h>
 
+#include <slipstep/utilities/units.h>
 #include <slipstep/utilities/version.h>
 #include <slipstep/utilities/write_file.h>
 
@@ -20,8 +21,7 @@ namespace SlipStep
     using json = nlohmann::ordered_json;
 
     constexpr double degrees   = 180. / dealii::numbers::PI;
-    constexpr double mm_min    = 60.; // mm/s in mm/min
-    constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+    constexpr double undefined = QuantityOfInterest::undefined;
 
     json slide_to_json(const SlideSummary &slide)
     {

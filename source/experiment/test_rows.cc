@@ -34,10 +34,10 @@ namespace SlipStep
     }
 
     /// The rows of a test, on their way to being in order.
-    class Rows
+    class RowsOfTest
     {
     public:
-      Rows(MeasuredTest &test, const RowOrigin &origin)
+      RowsOfTest(MeasuredTest &test, const RowOrigin &origin)
         : test(test)
         , origin(origin)
         , filled(filled_channels(test))
@@ -81,7 +81,7 @@ namespace SlipStep
 
 
     /// Keep some rows, in that order.
-    void Rows::keep(const std::vector<std::size_t> &rows)
+    void RowsOfTest::keep(const std::vector<std::size_t> &rows)
     {
       keep_rows(test, rows);
       choose(kept, rows);
@@ -89,7 +89,7 @@ namespace SlipStep
 
 
 
-    void Rows::leave_out_gaps()
+    void RowsOfTest::leave_out_gaps()
     {
       std::vector<bool> has_gap(kept.size(), false);
       for (const Channel *channel : filled)
@@ -128,7 +128,7 @@ namespace SlipStep
 
 
 
-    void Rows::put_in_order()
+    void RowsOfTest::put_in_order()
     {
       const std::vector<double> &time = test.time;
       if (std::is_sorted(time.begin(), time.end()))
@@ -168,7 +168,7 @@ namespace SlipStep
 
 
 
-    void Rows::average_repeated()
+    void RowsOfTest::average_repeated()
     {
       std::vector<std::size_t> rows;
       double                   largest_spread = 0.;
@@ -207,7 +207,7 @@ namespace SlipStep
 
 
 
-    void Rows::check_pressure() const
+    void RowsOfTest::check_pressure() const
     {
       for (std::size_t i = 0; i < kept.size(); ++i)
         {
@@ -231,7 +231,7 @@ namespace SlipStep
 
 
 
-    void Rows::check_sign_of_friction() const
+    void RowsOfTest::check_sign_of_friction() const
     {
       double     work = 0., possible = 0.;
       const auto add = [&](const std::vector<double> &displacement,
@@ -271,7 +271,7 @@ namespace SlipStep
   void tidy_rows(MeasuredTest &test, const RowOrigin &origin)
   {
     const std::size_t n_recorded = test.time.size();
-    Rows              rows(test, origin);
+    RowsOfTest        rows(test, origin);
     rows.leave_out_gaps();
     rows.put_in_order();
     rows.average_repeated();

@@ -19,16 +19,16 @@ namespace SlipStep
       return test.file.empty() ? test.name : test.file.string();
     }
 
-    struct Motion
+    struct MotionOfTest
     {
       double path     = 0.; ///< [mm]
       double duration = 0.; ///< from first to last motion [s]
     };
 
-    Motion motion_of(const MeasuredTest &test)
+    MotionOfTest motion_of(const MeasuredTest &test)
     {
-      Motion      result;
-      std::size_t first = test.time.size(), last = 0;
+      MotionOfTest result;
+      std::size_t  first = test.time.size(), last = 0;
       for (const auto *displacement :
            {&test.displacement, &test.displacement_y})
         {
@@ -144,7 +144,7 @@ namespace SlipStep
 
   double mean_speed(const MeasuredTest &test)
   {
-    const Motion motion = motion_of(test);
+    const MotionOfTest motion = motion_of(test);
     return motion.duration > 0. ? motion.path / motion.duration : 0.;
   }
 

@@ -9,12 +9,14 @@ namespace SlipStep
 {
   namespace Planting
   {
-    namespace
+    // Named as those of the catalogue.
+    namespace Alternative
     {
       using Truth = std::vector<TruthParameter>;
 
       // r_s + A asinh(lambda/V_0), from slow to fast by the amplitude.
-      Truth overstress(TrueContact &contact, const double a, Random &random)
+      static Truth
+      overstress(TrueContact &contact, const double a, Random &random)
       {
         FlowRule &flow  = contact.flow;
         flow.formula    = Formula::alternative;
@@ -27,7 +29,8 @@ namespace SlipStep
 
 
 
-      Truth softening(TrueContact &contact, const double a, Random &random)
+      static Truth
+      softening(TrueContact &contact, const double a, Random &random)
       {
         CoefficientRule &rule    = contact.coefficient;
         rule.softening           = Formula::alternative;
@@ -43,7 +46,7 @@ namespace SlipStep
       // they spread: at rest as the fifth root of time; Brechet and Estrin
       // (1994), Scr. Metall. Mater. 30, 1449. What was won is lost in
       // proportion to slip.
-      Truth healing(TrueContact &contact, const double a, Random &random)
+      static Truth healing(TrueContact &contact, const double a, Random &random)
       {
         const double t_0    = log_uniform(random, 1., 10.);
         const double length = log_uniform(random, 0.02, 0.5);
@@ -65,7 +68,7 @@ namespace SlipStep
 
 
 
-      Truth pressure(TrueContact &contact, const double a, Random &)
+      static Truth pressure(TrueContact &contact, const double a, Random &)
       {
         const double p_0 = Reach::reference_pressure;
         const double m   = a / std::log(Reach::largest_pressure / p_0);
@@ -82,7 +85,7 @@ namespace SlipStep
 
 
       // 1/sqrt(1 + x^2) is about 1 - x^2/2.
-      Truth shear_cap(TrueContact &contact, const double a, Random &)
+      static Truth shear_cap(TrueContact &contact, const double a, Random &)
       {
         const double limit = Reach::largest_pressure *
                              contact.coefficient.static_coefficient /
@@ -100,7 +103,8 @@ namespace SlipStep
 
 
       // Bonds as many as the pressure makes, up to all of them.
-      Truth adhesion(TrueContact &contact, const double a, Random &random)
+      static Truth
+      adhesion(TrueContact &contact, const double a, Random &random)
       {
         const double p_1 = uniform(random, 0.3, 1.);
         const double c   = a * Reach::least_pressure *
@@ -120,7 +124,7 @@ namespace SlipStep
 
       // Weakening in proportion to the temperature, cooling by free convection
       // with its exponent 5/4.
-      Truth heating(TrueContact &contact, const double a, Random &random)
+      static Truth heating(TrueContact &contact, const double a, Random &random)
       {
         const double t_c   = log_uniform(random, 3., 20.);
         const double power = Reach::reference_pressure *
@@ -145,7 +149,7 @@ namespace SlipStep
 
 
 
-      Truth run_in(TrueContact &contact, const double a, Random &random)
+      static Truth run_in(TrueContact &contact, const double a, Random &random)
       {
         const double w      = either_sign(random) * a;
         const double length = log_uniform(random, 8., 40.);
@@ -162,7 +166,8 @@ namespace SlipStep
 
 
       // Traction and slip stay parallel.
-      Truth anisotropy(TrueContact &contact, const double a, Random &random)
+      static Truth
+      anisotropy(TrueContact &contact, const double a, Random &random)
       {
         const double d = either_sign(random) * a;
         contact.influences.push_back(
@@ -179,7 +184,8 @@ namespace SlipStep
 
 
       // The same traction more at any pressure, on strokes that go back.
-      Truth direction(TrueContact &contact, const double a, Random &random)
+      static Truth
+      direction(TrueContact &contact, const double a, Random &random)
       {
         const double c = either_sign(random) * a * Reach::reference_pressure *
                          contact.coefficient.kinetic_coefficient;
@@ -196,7 +202,8 @@ namespace SlipStep
 
 
       // 1/(1 + x^q) is steepest over ln(x) at x = 1, where it falls by q/4.
-      Truth stribeck(TrueContact &contact, const double a, Random &random)
+      static Truth
+      stribeck(TrueContact &contact, const double a, Random &random)
       {
         const double speed = log_uniform(random, 0.05, 1.);
         const double q     = uniform(random, 1., 2.);
@@ -215,7 +222,7 @@ namespace SlipStep
 
 
       // A film that thins in shear.
-      Truth viscous(TrueContact &contact, const double a, Random &)
+      static Truth viscous(TrueContact &contact, const double a, Random &)
       {
         const double exponent = 0.8;
         const double drag     = a * Reach::reference_pressure *
@@ -235,7 +242,7 @@ namespace SlipStep
 
 
       // Twice as stiff at a usual traction.
-      Truth compliance(TrueContact &contact, const double a, Random &)
+      static Truth compliance(TrueContact &contact, const double a, Random &)
       {
         contact.compliance = a / 0.3;
         contact.stiffening_traction =
@@ -245,37 +252,47 @@ namespace SlipStep
                  "MPa/mm"},
                 {"traction at twice k", contact.stiffening_traction, "MPa"}};
       }
-    } // namespace
+    } // namespace Alternative
 
 
 
     std::vector<HiddenEffectKind> alternative_effects()
     {
-      return {{"overstress", "r = r_s + A asinh(lambda / V_0)", &overstress},
+      return {{"overstress",
+               "r = r_s + A asinh(lambda / V_0)",
+               &Alternative::overstress},
               {"softening",
                "d mu/d lambda = -(mu - mu_k)^2 / (L (mu_s - mu_k))",
-               &softening},
+               &Alternative::softening},
               {"healing",
                "G = 1 + g, dg/dt = c/(5 t_0) (1 + g/c)^-4 - lambda g/L",
-               &healing},
-              {"pressure", "G = 1 - m ln(p / p_0)", &pressure},
+               &Alternative::healing},
+              {"pressure", "G = 1 - m ln(p / p_0)", &Alternative::pressure},
               {"shear_cap",
                "p mu -> p mu / sqrt(1 + (p mu / tau_c)^2)",
-               &shear_cap},
-              {"adhesion", "tau_y = ... + c (1 - exp(-p / p_1))", &adhesion},
+               &Alternative::shear_cap},
+              {"adhesion",
+               "tau_y = ... + c (1 - exp(-p / p_1))",
+               &Alternative::adhesion},
               {"heating",
                "G = 1 - beta T, dT/dt = h |f_t| lambda - (T/T_1)^1.25 T_1/t_c",
-               &heating},
-              {"run_in", "G = 1 + w D / (D + D_w)", &run_in},
+               &Alternative::heating},
+              {"run_in", "G = 1 + w D / (D + D_w)", &Alternative::run_in},
               {"anisotropy",
                "G = 1 + d (1 - cos(2 phi)) / 2, slip along the traction",
-               &anisotropy},
-              {"direction", "tau_y = ... + c max(-cos(phi), 0)", &direction},
-              {"stribeck", "G = 1 + s / (1 + (lambda / V_s)^q)", &stribeck},
-              {"viscous", "tau_y = ... + c_v lambda^0.8", &viscous},
+               &Alternative::anisotropy},
+              {"direction",
+               "tau_y = ... + c max(-cos(phi), 0)",
+               &Alternative::direction},
+              {"stribeck",
+               "G = 1 + s / (1 + (lambda / V_s)^q)",
+               &Alternative::stribeck},
+              {"viscous",
+               "tau_y = ... + c_v lambda^0.8",
+               &Alternative::viscous},
               {"compliance",
                "spring that stiffens: k (1 + |f_t| / f_1)",
-               &compliance}};
+               &Alternative::compliance}};
     }
   } // namespace Planting
 } // namespace SlipStep

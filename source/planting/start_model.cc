@@ -11,7 +11,7 @@ namespace SlipStep
   {
     namespace
     {
-      double rounded(const double value)
+      double to_three_digits(const double value)
       {
         return std::stod(rounded_text(value, 3));
       }
@@ -29,17 +29,19 @@ namespace SlipStep
     TrueContact draw_base(Random &random)
     {
       TrueContact contact;
-      contact.stiffness       = rounded(log_uniform(random, 500., 3000.));
-      contact.subloading_rate = rounded(log_uniform(random, 50., 500.));
-      contact.flow.viscosity  = rounded(log_uniform(random, 100., 2000.));
-      contact.flow.exponent   = rounded(uniform(random, 13., 22.));
+      contact.stiffness = to_three_digits(log_uniform(random, 500., 3000.));
+      contact.subloading_rate = to_three_digits(log_uniform(random, 50., 500.));
+      contact.flow.viscosity =
+        to_three_digits(log_uniform(random, 100., 2000.));
+      contact.flow.exponent   = to_three_digits(uniform(random, 13., 22.));
       CoefficientRule &rule   = contact.coefficient;
-      rule.static_coefficient = rounded(uniform(random, 0.115, 0.145));
+      rule.static_coefficient = to_three_digits(uniform(random, 0.115, 0.145));
       rule.kinetic_coefficient =
-        rounded(rule.static_coefficient * uniform(random, 0.72, 0.85));
-      rule.steepness = rounded(log_uniform(random, 1., 20.));
+        to_three_digits(rule.static_coefficient * uniform(random, 0.72, 0.85));
+      rule.steepness = to_three_digits(log_uniform(random, 1., 20.));
       // 95 % of the fall take three times this length [mm].
-      rule.rate = rounded(1. / (rule.steepness * log_uniform(random, 0.5, 6.)));
+      rule.rate =
+        to_three_digits(1. / (rule.steepness * log_uniform(random, 0.5, 6.)));
       return contact;
     }
 

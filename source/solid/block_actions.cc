@@ -114,6 +114,8 @@ namespace SlipStep
 
 
 
+#ifndef SLIPSTEP_UNITY_BUILD
   template class Block<2>;
   template class Block<3>;
+#endif
 } // namespace SlipStep

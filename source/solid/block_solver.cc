@@ -154,6 +154,7 @@ namespace SlipStep
 
 
 
+  // In a unity build of all that there is.
   template class Block<2>;
   template class Block<3>;
 } // namespace SlipStep

@@ -2,12 +2,12 @@
 
 #include <slipstep/calibration/fit_parameter.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
-#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/machine.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/refinement_study.h>
 #include <slipstep/experiment/report.h>
+#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/step_control.h>
 #include <slipstep/friction/law.h>

@@ -12,7 +12,7 @@ namespace SlipStep
 {
   namespace
   {
-    const std::string key = "Output/Fields";
+    const std::string fields_key = "Output/Fields";
 
     const char *const allowed =
       "allowed are 'none', 'end', 'statements', 'every 1 mm', 'every 0.1 s' and "
@@ -62,7 +62,7 @@ namespace SlipStep
   void FieldSchedule::declare_parameters(Parameters &parameters)
   {
     parameters.declare(
-      key,
+      fields_key,
       "statements",
       AnythingWithWords(
         {"none", "end", "statements", "every", "steps", "step"}),
@@ -79,7 +79,7 @@ namespace SlipStep
 
   FieldSchedule::FieldSchedule(const Parameters &parameters)
   {
-    const std::string  text = parameters.text(key);
+    const std::string  text = parameters.text(fields_key);
     std::istringstream words(text);
     std::string        first, rest;
     words >> first;
@@ -102,13 +102,13 @@ namespace SlipStep
               interval = form.second;
             }
         if (!(interval > 0.) || std::isinf(interval))
-          parameters.reject(key,
+          parameters.reject(fields_key,
                             "after 'every' comes a length, a time or a number "
                             "of steps above 0, with its unit; " +
                               std::string(allowed));
       }
     else
-      parameters.reject(key,
+      parameters.reject(fields_key,
                         std::string(allowed) +
                           did_you_mean(first,
                                        {"none", "end", "statements", "every"}));

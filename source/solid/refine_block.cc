@@ -1,9 +1,9 @@
 #include <slipstep/solid/refine_block.h>
 
-#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/refinement_study.h>
 #include <slipstep/experiment/report.h>
+#include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/experiment/study_results.h>

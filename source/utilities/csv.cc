@@ -2,10 +2,13 @@
 #include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
 
+#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -27,11 +30,6 @@ namespace SlipStep
       while (!text.empty() && is_blank(text.back()))
         text.remove_suffix(1);
       return text;
-    }
-
-    bool begins_with(const std::string_view text, const std::string_view start)
-    {
-      return text.substr(0, start.size()) == start;
     }
 
     /// Cuts a line into cells.
@@ -118,14 +116,6 @@ namespace SlipStep
       std::replace_copy(cell.begin(), cell.end(), copy.begin(), ',', '.');
       return read_number({copy.data(), cell.size()}, value);
     }
-
-    std::string joined(const std::vector<std::string> &names)
-    {
-      std::string text;
-      for (const std::string &name : names)
-        text += (text.empty() ? "" : ", ") + name;
-      return text;
-    }
   } // namespace
 
 
@@ -201,9 +191,10 @@ namespace SlipStep
       std::replace(content.begin(), content.end(), '\r', '\n');
     text = std::make_shared<const std::string>(std::move(content));
     next = text->data();
-    if (begins_with(*text, "\xEF\xBB\xBF"))
+    if (boost::algorithm::starts_with(*text, "\xEF\xBB\xBF"))
       next += 3;
-    if (begins_with(*text, "\xFF\xFE") || begins_with(*text, "\xFE\xFF"))
+    if (boost::algorithm::starts_with(*text, "\xFF\xFE") ||
+        boost::algorithm::starts_with(*text, "\xFE\xFF"))
       throw InputError(file.string() +
                        ": this text is in UTF-16; save it as UTF-8");
   }
@@ -223,11 +214,12 @@ namespace SlipStep
         const std::string_view content = trim(line);
         if (content.empty())
           continue;
-        const bool is_comment = std::any_of(format.comment_marks.begin(),
-                                            format.comment_marks.end(),
-                                            [&](const std::string &mark) {
-                                              return begins_with(content, mark);
-                                            });
+        const bool is_comment =
+          std::any_of(format.comment_marks.begin(),
+                      format.comment_marks.end(),
+                      [&](const std::string &mark) {
+                        return boost::algorithm::starts_with(content, mark);
+                      });
         if (!is_comment)
           return true;
         read_comment(content);
@@ -478,7 +470,7 @@ namespace SlipStep
   {
     constexpr std::size_t longest = 200;
 
-    std::string words = joined(names);
+    std::string words = boost::algorithm::join(names, ", ");
     // A binary file has anything.
     for (char &letter : words)
       if (std::iscntrl(static_cast<unsigned char>(letter)) != 0 ||
@@ -504,7 +496,8 @@ namespace SlipStep
   void CsvTable::fail(const char *place, const std::string &why) const
   {
     const char *const begin =
-      text->data() + (begins_with(*text, "\xEF\xBB\xBF") ? 3 : 0);
+      text->data() +
+      (boost::algorithm::starts_with(*text, "\xEF\xBB\xBF") ? 3 : 0);
     const std::size_t line =
       1 + std::count(text->data(), std::max(text->data(), place), '\n');
     const char *start = std::max(begin, place);

@@ -9,6 +9,8 @@
 #include <slipstep/utilities/parameters.h>
 #include <slipstep/utilities/pattern_words.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 
 namespace SlipStep
@@ -17,19 +19,13 @@ namespace SlipStep
 
   namespace
   {
-    bool begins_with(const std::string &text, const std::string &prefix)
-    {
-      return text.compare(0, prefix.size(), prefix) == 0;
-    }
-
-
-
     // What stands before the path in a message: "case.prm:12: ", "--set ".
     std::string introduction(const std::string &origin)
     {
       if (origin.empty())
         return "";
-      return origin + (begins_with(origin, "--") ? " " : ": ");
+      return origin +
+             (boost::algorithm::starts_with(origin, "--") ? " " : ": ");
     }
 
 
@@ -328,7 +324,7 @@ namespace SlipStep
   {
     std::vector<std::string> found;
     for (const Entry &entry : entries)
-      if (begins_with(entry.path, prefix))
+      if (boost::algorithm::starts_with(entry.path, prefix))
         found.push_back(entry.path);
     return found;
   }
@@ -418,7 +414,8 @@ namespace SlipStep
       if (std::none_of(omitted_sections.begin(),
                        omitted_sections.end(),
                        [&](const std::string &section) {
-                         return begins_with(entry.path, section + "/");
+                         return boost::algorithm::starts_with(entry.path,
+                                                              section + "/");
                        }))
         shown.push_back(&entry);
     const ParameterSection root = parameter_tree(shown);

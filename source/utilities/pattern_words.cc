@@ -6,6 +6,8 @@
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/units.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <limits>
 #include <regex>
@@ -34,16 +36,6 @@ namespace SlipStep
         return {};
       return dealii::Utilities::split_string_list(
         dealii::Utilities::trim(match[1]), '|');
-    }
-
-
-
-    std::string joined(const std::vector<std::string> &names)
-    {
-      std::string text;
-      for (const std::string &name : names)
-        text += (text.empty() ? "" : ", ") + name;
-      return text;
     }
 
 
@@ -96,9 +88,9 @@ namespace SlipStep
     if (dynamic_cast<const P::Bool *>(&pattern))
       return "true or false";
     if (dynamic_cast<const P::Selection *>(&pattern))
-      return "one of: " + joined(alternatives(pattern));
+      return "one of: " + boost::algorithm::join(alternatives(pattern), ", ");
     if (dynamic_cast<const P::MultipleSelection *>(&pattern))
-      return "any of: " + joined(alternatives(pattern));
+      return "any of: " + boost::algorithm::join(alternatives(pattern), ", ");
     if (dynamic_cast<const P::Anything *>(&pattern))
       return "any text";
     if (dynamic_cast<const P::FileName *>(&pattern))

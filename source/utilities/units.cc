@@ -6,6 +6,8 @@
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/units.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -174,10 +176,7 @@ namespace SlipStep
 
     std::string joined_unit_names(const Dimension dimension)
     {
-      std::string text;
-      for (const std::string &name : unit_names(dimension))
-        text += (text.empty() ? "" : ", ") + name;
-      return text;
+      return boost::algorithm::join(unit_names(dimension), ", ");
     }
 
 

@@ -7,27 +7,6 @@
 
 #include "slipstep_process.h"
 
-namespace
-{
-  // One message naming the matter, exit code 2.
-  void expect_refusal(const SlipstepProcess::Result  &result,
-                      const std::vector<std::string> &words)
-  {
-    EXPECT_EQ(result.exit_code, 2) << result.err;
-    EXPECT_EQ(result.out, "");
-    EXPECT_LE(result.n_error_lines(), 2u) << result.err;
-    for (const std::string &word : words)
-      EXPECT_NE(result.err.find(word), std::string::npos)
-        << "  \"" << word << "\" is not in: " << result.err;
-  }
-
-
-
-  // A case which is right and short, should it ever be run.
-  const char *const right = "set Loading/Programme = press 1 MPa in 1 s; "
-                            "slide 1 mm/s for 0.01 mm\n";
-} // namespace
-
 
 
 TEST(CommandLine, UnknownWordsComeWithTheNearest)

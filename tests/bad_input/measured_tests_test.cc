@@ -7,22 +7,10 @@
 #include <vector>
 
 #include "slipstep_process.h"
+#include "tests/rows_header.h"
 
 namespace
 {
-  const std::string header = "time_s,displacement_mm,pressure_MPa,friction\n";
-
-  void expect_refusal(const SlipstepProcess::Result  &result,
-                      const std::vector<std::string> &words)
-  {
-    EXPECT_EQ(result.exit_code, 2) << result.err;
-    EXPECT_EQ(result.out, "");
-    EXPECT_LE(result.n_error_lines(), 2u) << result.err;
-    for (const std::string &word : words)
-      EXPECT_NE(result.err.find(word), std::string::npos)
-        << "  \"" << word << "\" is not in: " << result.err;
-  }
-
   void expect_refused_test(const std::string              &content,
                            const std::vector<std::string> &words)
   {

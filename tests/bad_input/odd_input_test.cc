@@ -6,16 +6,12 @@
 #include <vector>
 
 #include "slipstep_process.h"
+#include "tests/rows_header.h"
 
 namespace
 {
-  const char *const right = "set Loading/Programme = press 1 MPa in 1 s; "
-                            "slide 1 mm/s for 0.01 mm\n";
-
-  const char *const header = "time_s,displacement_mm,pressure_MPa,friction\n";
-
-  void expect_refusal(const SlipstepProcess::Result &result,
-                      const std::string             &words)
+  void expect_short_refusal(const SlipstepProcess::Result &result,
+                            const std::string             &words)
   {
     EXPECT_EQ(result.exit_code, 2) << result.err;
     EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
@@ -34,21 +30,21 @@ TEST(OddInput, NamesThatAreTooLong)
   const std::string     too_long = "File name too long";
   process.write("case.prm", right);
   for (const std::string command : {"check", "point", "calibrate", "diagnose"})
-    expect_refusal(process.run({command, name + ".prm"}), too_long);
-  expect_refusal(process.run({"check", name + ".csv"}), too_long);
-  expect_refusal(process.run({"plant", name}), too_long);
-  expect_refusal(process.run({"point", "case.prm", "--output", name}),
-                 too_long);
-  expect_refusal(process.run({"point", "case.prm", "--variant", name}),
-                 "no such variant; it has none");
+    expect_short_refusal(process.run({command, name + ".prm"}), too_long);
+  expect_short_refusal(process.run({"check", name + ".csv"}), too_long);
+  expect_short_refusal(process.run({"plant", name}), too_long);
+  expect_short_refusal(process.run({"point", "case.prm", "--output", name}),
+                       too_long);
+  expect_short_refusal(process.run({"point", "case.prm", "--variant", name}),
+                       "no such variant; it has none");
   process.write("include.prm", "include " + name + ".prm\n");
-  expect_refusal(process.run({"check", "include.prm"}),
-                 "include.prm:1: include xxx");
+  expect_short_refusal(process.run({"check", "include.prm"}),
+                       "include.prm:1: include xxx");
   process.write("variant.prm",
                 "subsection Variants\nsubsection " + std::string(300, 'v') +
                   "\nend\nend\n");
-  expect_refusal(process.run({"check", "variant.prm"}),
-                 "variant.prm:2: the variant");
+  expect_short_refusal(process.run({"check", "variant.prm"}),
+                       "variant.prm:2: the variant");
   EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
 }
 
@@ -66,11 +62,12 @@ TEST(OddInput, TheHomeFolderIsKnown)
   };
   EXPECT_EQ(run({"point", "outer.prm", "--output=~/out"}, home).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(process.folder() / "out/summary.json"));
-  expect_refusal(run({"point", "case.prm", "--output=~/out"}, "unset HOME &&"),
-                 "HOME is not set");
+  expect_short_refusal(run({"point", "case.prm", "--output=~/out"},
+                           "unset HOME &&"),
+                       "HOME is not set");
   process.write("other.prm", "include ~other/case.prm\n");
-  expect_refusal(run({"check", "other.prm"}, home),
-                 "other.prm:1: include ~other/case.prm: of home folders");
+  expect_short_refusal(run({"check", "other.prm"}, home),
+                       "other.prm:1: include ~other/case.prm: of home folders");
   EXPECT_FALSE(std::filesystem::exists(process.folder() / "~"));
 }
 
@@ -83,18 +80,19 @@ TEST(OddInput, CellsThatAreNoNumbersAreNamed)
     process.write("test.csv", header + rows);
     return process.run({"check", "test.csv"});
   };
-  expect_refusal(check("0,0,5,0.1\n1,1,5,inf\n2,2,5,0.1\n"),
-                 "test.csv:3:7: friction is not finite");
-  expect_refusal(check("0,0,0,0.1\n1,1,-inf,0.1\n2,2,0,0.1\n"),
-                 "test.csv:3:5: pressure is not finite");
-  expect_refusal(check("0,0,5,nan\n1,1,5,nan\n2,2,5,0.1\n"),
-                 "test.csv:2:7: friction has no value, and so it is in 2 of 3 "
-                 "rows");
+  expect_short_refusal(check("0,0,5,0.1\n1,1,5,inf\n2,2,5,0.1\n"),
+                       "test.csv:3:7: friction is not finite");
+  expect_short_refusal(check("0,0,0,0.1\n1,1,-inf,0.1\n2,2,0,0.1\n"),
+                       "test.csv:3:5: pressure is not finite");
+  expect_short_refusal(
+    check("0,0,5,nan\n1,1,5,nan\n2,2,5,0.1\n"),
+    "test.csv:2:7: friction has no value, and so it is in 2 of 3 "
+    "rows");
   // Old Macintoshes.
   process.write("cr.csv",
                 "time_s,displacement_mm,pressure_MPa,friction\r0,0,5,0.1\r"
                 "1,1,5,x\r");
-  expect_refusal(process.run({"check", "cr.csv"}), "cr.csv:3:7: 'x'");
+  expect_short_refusal(process.run({"check", "cr.csv"}), "cr.csv:3:7: 'x'");
 }
 
 

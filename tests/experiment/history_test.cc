@@ -12,7 +12,7 @@ using namespace SlipStep;
 
 namespace
 {
-  std::filesystem::path scratch_file()
+  std::filesystem::path history_file()
   {
     return test_folder() / "history.csv";
   }
@@ -57,8 +57,8 @@ namespace
 // Users and scripts read these columns: a change here is a change for them.
 TEST(History, TheColumnsAreTheDocumentedOnes)
 {
-  HistoryWriter{scratch_file()};
-  std::ifstream in(scratch_file());
+  HistoryWriter{history_file()};
+  std::ifstream in(history_file());
   std::string   line;
   std::getline(in, line);
   EXPECT_EQ(line,
@@ -79,24 +79,24 @@ TEST(History, OnlyMemoriesThatTheLawUsesAreColumns)
   for (std::size_t i = 0; i < n; ++i)
     row.memories[i] = (i + 1) / 3.;
   row.probes = {7.};
-  HistoryWriter(scratch_file(), {all[0], all[2]}, 1).write(row);
-  std::ifstream in(scratch_file());
+  HistoryWriter(history_file(), {all[0], all[2]}, 1).write(row);
+  std::ifstream in(history_file());
   std::string   header;
   std::getline(in, header);
   const std::string end = ",slip_mm,temperature_rise_degC,hold_time_s,probe_1";
   ASSERT_GT(header.size(), end.size());
   EXPECT_EQ(header.substr(header.size() - end.size()), end);
 
-  const HistoryRow back = read_history(scratch_file())[0];
+  const HistoryRow back = read_history(history_file())[0];
   EXPECT_EQ(back.memories[0], row.memories[0]);
   EXPECT_EQ(back.memories[1], 0.);
   EXPECT_EQ(back.memories[2], row.memories[2]);
   EXPECT_EQ(back.probes, row.probes);
 
   // Continued after a stop, it goes on with the same columns.
-  const auto bytes = std::filesystem::file_size(scratch_file());
-  HistoryWriter(scratch_file(), bytes, {all[0], all[2]}).write(row);
-  EXPECT_EQ(read_history(scratch_file())[1].memories, back.memories);
+  const auto bytes = std::filesystem::file_size(history_file());
+  HistoryWriter(history_file(), bytes, {all[0], all[2]}).write(row);
+  EXPECT_EQ(read_history(history_file())[1].memories, back.memories);
 }
 
 
@@ -104,11 +104,11 @@ TEST(History, OnlyMemoriesThatTheLawUsesAreColumns)
 TEST(History, RowsReadBackExactly)
 {
   const HistoryRow row = sample_row();
-  HistoryWriter    writer(scratch_file());
+  HistoryWriter    writer(history_file());
   writer.write(row);
   writer.write(row);
 
-  const std::vector<HistoryRow> rows = read_history(scratch_file());
+  const std::vector<HistoryRow> rows = read_history(history_file());
   ASSERT_EQ(rows.size(), 2u);
   const HistoryRow &back = rows[1];
   EXPECT_EQ(back.time, row.time);
@@ -138,11 +138,11 @@ TEST(History, RowsReadBackExactly)
 
 TEST(History, TheFileIsCompleteAfterEveryRow)
 {
-  HistoryWriter writer(scratch_file());
+  HistoryWriter writer(history_file());
   for (unsigned int n = 1; n < 4; ++n)
     {
       writer.write(sample_row());
-      EXPECT_EQ(read_history(scratch_file()).size(), n);
+      EXPECT_EQ(read_history(history_file()).size(), n);
     }
 }
 
@@ -152,8 +152,8 @@ TEST(History, AnUndefinedRatioSurvives)
 {
   HistoryRow row;
   row.friction = std::nan("");
-  HistoryWriter(scratch_file()).write(row);
-  EXPECT_TRUE(std::isnan(read_history(scratch_file())[0].friction));
+  HistoryWriter(history_file()).write(row);
+  EXPECT_TRUE(std::isnan(read_history(history_file())[0].friction));
 }
 
 
@@ -167,11 +167,11 @@ TEST(History, AFolderThatDoesNotExistIsReported)
 
 TEST(History, ADamagedFileIsReported)
 {
-  HistoryWriter(scratch_file()).write(sample_row());
-  std::ofstream(scratch_file(), std::ios::app) << "1,2,3\n";
+  HistoryWriter(history_file()).write(sample_row());
+  std::ofstream(history_file(), std::ios::app) << "1,2,3\n";
   try
     {
-      read_history(scratch_file());
+      read_history(history_file());
       FAIL() << "a short row is accepted";
     }
   catch (const InputError &error)

@@ -8,14 +8,13 @@
 #include <iterator>
 #include <sstream>
 
+#include "tests/rows_header.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
 
 namespace
 {
-  const std::string header = "time_s,displacement_mm,pressure_MPa,friction\n";
-
   std::filesystem::path file_with(const std::string &content)
   {
     const auto file = test_folder() / "slipstep_measured.csv";

@@ -17,17 +17,17 @@ namespace
 {
   constexpr double default_speed = 2. / 60.; // mm/s
 
-  Programme parse(const std::string &text)
+  Programme programme_of(const std::string &text)
   {
     return Programme(text, default_speed, ".");
   }
 
   /// The message for a wrong programme, "" if it is accepted.
-  std::string message(const std::string &text)
+  std::string message_about_programme(const std::string &text)
   {
     try
       {
-        parse(text);
+        programme_of(text);
       }
     catch (const InputError &error)
       {
@@ -51,8 +51,8 @@ namespace
 TEST(Programme, TheExampleOfTheDesignIsRead)
 {
   const Programme programme =
-    parse("press 5.8 MPa in 1 s; hold 10 s; slide 1 mm/min for 60 mm; "
-          "hold 100 s; slide -1 mm/min for 5 mm; press 8 MPa in 1 s");
+    programme_of("press 5.8 MPa in 1 s; hold 10 s; slide 1 mm/min for 60 mm; "
+                 "hold 100 s; slide -1 mm/min for 5 mm; press 8 MPa in 1 s");
   ASSERT_EQ(programme.segments().size(), 6u);
   EXPECT_NEAR(programme.end_time(), 1 + 10 + 3600 + 100 + 300 + 1, 1e-9);
   EXPECT_DOUBLE_EQ(programme.at(0.25).pressure, 0.25 * 5.8);
@@ -70,9 +70,9 @@ TEST(Programme, TheExampleOfTheDesignIsRead)
 
 TEST(Programme, SegmentsJoinWithoutAJump)
 {
-  const auto programme =
-    parse("slide for 1 mm; press 3 MPa in 2 s; slide 1 mm/s for 2 s at 90 deg;"
-          "press 1 MPa in 1 s; slide -1 mm/s at 45 deg for 1 mm;");
+  const auto programme = programme_of(
+    "slide for 1 mm; press 3 MPa in 2 s; slide 1 mm/s for 2 s at 90 deg;"
+    "press 1 MPa in 1 s; slide -1 mm/s at 45 deg for 1 mm;");
   const auto &segments = programme.segments();
   ASSERT_EQ(segments.size(), 5u);
   EXPECT_EQ(segments.front().start.pressure, 0.);
@@ -97,7 +97,7 @@ TEST(Programme, SegmentsJoinWithoutAJump)
 
 TEST(Programme, AtTheBorderTheEarlierVelocityHolds)
 {
-  const Programme programme = parse("slide 1 mm/s for 2 mm; hold 3 s");
+  const Programme programme = programme_of("slide 1 mm/s for 2 mm; hold 3 s");
   EXPECT_DOUBLE_EQ(programme.at(2.).velocity[0], 1.);
   EXPECT_DOUBLE_EQ(programme.at(2.).displacement[0], 2.);
   EXPECT_DOUBLE_EQ(programme.at(2.0001).velocity[0], 0.);
@@ -107,9 +107,9 @@ TEST(Programme, AtTheBorderTheEarlierVelocityHolds)
 
 TEST(Programme, UnitsAreConverted)
 {
-  EXPECT_NEAR(parse("slide 60 mm/min for 1 mm").end_time(), 1., 1e-12);
-  EXPECT_NEAR(parse("hold 2 min").end_time(), 120., 1e-9);
-  EXPECT_NEAR(parse("slide +1 mm/s for 1 min").at(60.).displacement[0],
+  EXPECT_NEAR(programme_of("slide 60 mm/min for 1 mm").end_time(), 1., 1e-12);
+  EXPECT_NEAR(programme_of("hold 2 min").end_time(), 120., 1e-9);
+  EXPECT_NEAR(programme_of("slide +1 mm/s for 1 min").at(60.).displacement[0],
               60.,
               1e-9);
 }
@@ -121,7 +121,7 @@ TEST(Programme, AMissingSemicolonIsNamed)
   for (const std::string border : {",", ""})
     try
       {
-        parse("press 5 MPa in 1 s" + border + " slide 1 mm/s for 1 mm");
+        programme_of("press 5 MPa in 1 s" + border + " slide 1 mm/s for 1 mm");
         ADD_FAILURE();
       }
     catch (const InputError &error)
@@ -150,7 +150,7 @@ TEST(Programme, CapitalsOfWordsDoNotMatter)
                                           {" in ", " In "},
                                           {"hold", "Hold"}})
     capitals.replace(capitals.find(word), word.size(), other);
-  const Programme expected = parse(text), found = parse(capitals);
+  const Programme expected = programme_of(text), found = programme_of(capitals);
   ASSERT_EQ(found.segments().size(), expected.segments().size());
   EXPECT_EQ(found.at(2.5).displacement, expected.at(2.5).displacement);
 }
@@ -210,7 +210,7 @@ TEST(Programme, TheCaretMarksTheFault)
     {"follow no such file.csv", "no such file.csv"}};
   for (const auto &[fault, expected] : cases)
     {
-      const std::string text = message(good + fault);
+      const std::string text = message_about_programme(good + fault);
       ASSERT_NE(text, "") << fault << " is accepted";
       EXPECT_EQ(under_caret(text).substr(0, expected.size()), expected) << text;
       // Where nothing may follow, the caret stands behind the last word.
@@ -225,9 +225,10 @@ TEST(Programme, TheCaretMarksTheFault)
 
 TEST(Programme, TheNearestVerbIsNamed)
 {
-  EXPECT_NE(message("sldie 1 mm/s for 1 mm").find("'slide'"),
+  EXPECT_NE(message_about_programme("sldie 1 mm/s for 1 mm").find("'slide'"),
             std::string::npos);
-  EXPECT_NE(message("pres 1 MPa in 1 s").find("'press'"), std::string::npos);
+  EXPECT_NE(message_about_programme("pres 1 MPa in 1 s").find("'press'"),
+            std::string::npos);
 }
 
 
@@ -237,7 +238,7 @@ TEST(Programme, LongProgrammesAreShownAroundTheFault)
   std::string text;
   for (int i = 0; i < 40; ++i)
     text += "hold 10 s; ";
-  const std::string shown = message(text + "hlod 1 s; " + text);
+  const std::string shown = message_about_programme(text + "hlod 1 s; " + text);
   EXPECT_EQ(under_caret(shown).substr(0, 8), "hlod 1 s");
   EXPECT_LT(shown.size(), 260u);
 }
@@ -246,8 +247,8 @@ TEST(Programme, LongProgrammesAreShownAroundTheFault)
 
 TEST(Programme, EmptyProgrammesAreRefused)
 {
-  EXPECT_NE(message(""), "");
-  EXPECT_NE(message(" ; ; "), "");
+  EXPECT_NE(message_about_programme(""), "");
+  EXPECT_NE(message_about_programme(" ; ; "), "");
 }
 
 
@@ -274,18 +275,18 @@ TEST(Programme, WarningsOfAFollowedTestArePassedOn)
 
 TEST(Programme, RepeatGoesOnFromWhereItEnded)
 {
-  const Programme programme =
-    parse("press 1 MPa in 1 s; repeat 2 times { slide 1 mm/s for 3 mm; "
-          "repeat 3 times { hold 1 s; press 2 MPa in 1 s }; press 1 MPa in 2 s;"
-          "slide -1 mm/s for 2 mm; }; hold 5 s");
-  const Programme written =
-    parse("press 1 MPa in 1 s;"
-          "slide 1 mm/s for 3 mm; hold 1 s; press 2 MPa in 1 s; hold 1 s;"
-          "press 2 MPa in 1 s; hold 1 s; press 2 MPa in 1 s; press 1 MPa in 2 "
-          "s; slide -1 mm/s for 2 mm;"
-          "slide 1 mm/s for 3 mm; hold 1 s; press 2 MPa in 1 s; hold 1 s;"
-          "press 2 MPa in 1 s; hold 1 s; press 2 MPa in 1 s; press 1 MPa in 2 "
-          "s; slide -1 mm/s for 2 mm; hold 5 s");
+  const Programme programme = programme_of(
+    "press 1 MPa in 1 s; repeat 2 times { slide 1 mm/s for 3 mm; "
+    "repeat 3 times { hold 1 s; press 2 MPa in 1 s }; press 1 MPa in 2 s;"
+    "slide -1 mm/s for 2 mm; }; hold 5 s");
+  const Programme written = programme_of(
+    "press 1 MPa in 1 s;"
+    "slide 1 mm/s for 3 mm; hold 1 s; press 2 MPa in 1 s; hold 1 s;"
+    "press 2 MPa in 1 s; hold 1 s; press 2 MPa in 1 s; press 1 MPa in 2 "
+    "s; slide -1 mm/s for 2 mm;"
+    "slide 1 mm/s for 3 mm; hold 1 s; press 2 MPa in 1 s; hold 1 s;"
+    "press 2 MPa in 1 s; hold 1 s; press 2 MPa in 1 s; press 1 MPa in 2 "
+    "s; slide -1 mm/s for 2 mm; hold 5 s");
   ASSERT_EQ(programme.segments().size(), written.segments().size());
   for (std::size_t i = 0; i < written.segments().size(); ++i)
     {

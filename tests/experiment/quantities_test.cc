@@ -27,7 +27,7 @@ namespace
     return parameters;
   }
 
-  std::vector<QuantityOfInterest> parse(const std::string &quantities)
+  std::vector<QuantityOfInterest> quantities_of(const std::string &quantities)
   {
     const Parameters parameters = with_quantities(quantities);
     return parse_quantities(parameters, parse_programme(parameters));
@@ -81,11 +81,11 @@ namespace
                                3);
   }
 
-  std::string message(const std::string &quantities)
+  std::string message_about(const std::string &quantities)
   {
     try
       {
-        parse(quantities);
+        quantities_of(quantities);
       }
     catch (const InputError &error)
       {
@@ -99,13 +99,13 @@ namespace
 
 TEST(Quantities, are_read)
 {
-  const auto quantities =
-    parse("friction force at 5 um, 0.02 mm; peak coefficient;"
-          "displacement at  peak; pressure at (9.5 mm, 5 mm);"
-          "pressure at 1 mm after 0.01 mm; slip front;"
-          "slip front at r = 0.9 after 0.02 mm; dissipated energy;"
-          "displacement y at (1 mm, 2 mm, 3 mm); force x on left after 0.01 mm;"
-          "moment z on top; largest pressure; smallest pressure after 5 um");
+  const auto quantities = quantities_of(
+    "friction force at 5 um, 0.02 mm; peak coefficient;"
+    "displacement at  peak; pressure at (9.5 mm, 5 mm);"
+    "pressure at 1 mm after 0.01 mm; slip front;"
+    "slip front at r = 0.9 after 0.02 mm; dissipated energy;"
+    "displacement y at (1 mm, 2 mm, 3 mm); force x on left after 0.01 mm;"
+    "moment z on top; largest pressure; smallest pressure after 5 um");
   ASSERT_EQ(quantities.size(), 14u);
   EXPECT_EQ(quantities[9].component, 1u);
   EXPECT_EQ(quantities[9].position, (std::vector<double>{1., 2., 3.}));
@@ -126,7 +126,7 @@ TEST(Quantities, are_read)
   EXPECT_DOUBLE_EQ(quantities[6].loading_ratio, 0.99);
   EXPECT_DOUBLE_EQ(quantities[7].loading_ratio, 0.9);
   EXPECT_EQ(probes_among(quantities).size(), 9u);
-  EXPECT_TRUE(parse("").empty());
+  EXPECT_TRUE(quantities_of("").empty());
 }
 
 
@@ -158,8 +158,8 @@ TEST(Quantities, wrong_ones_are_refused_in_words)
     {"largest presure", "did you mean 'largest pressure'"},
     {"peak coefficient; peak coefficient", "listed twice"}};
   for (const auto &entry : cases)
-    EXPECT_NE(message(entry.first).find(entry.second), std::string::npos)
-      << entry.first << " -> " << message(entry.first);
+    EXPECT_NE(message_about(entry.first).find(entry.second), std::string::npos)
+      << entry.first << " -> " << message_about(entry.first);
 }
 
 

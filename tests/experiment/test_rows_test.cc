@@ -10,14 +10,13 @@
 #include <fstream>
 #include <random>
 
+#include "tests/rows_header.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
 
 namespace
 {
-  const std::string header = "time_s,displacement_mm,pressure_MPa,friction\n";
-
   MeasuredTest read(const std::string &rows)
   {
     const auto file = test_folder() / "rows.csv";
@@ -25,7 +24,7 @@ namespace
     return read_measured_test(file);
   }
 
-  std::string message(const std::string &rows)
+  std::string message_about_rows(const std::string &rows)
   {
     try
       {
@@ -95,7 +94,7 @@ TEST(TestRows, RepeatedTimesAreAveraged)
 TEST(TestRows, TimeThatGoesBackIsRefused)
 {
   const std::string text =
-    message("0,0,1,0\n1,1,1,0.1\n2,1,1,0.1\n0,2,1,0.1\n1,3,1,0.1\n");
+    message_about_rows("0,0,1,0\n1,1,1,0.1\n2,1,1,0.1\n0,2,1,0.1\n1,3,1,0.1\n");
   EXPECT_EQ(text.substr(0, 6), ":5:1: ") << text;
   EXPECT_NE(text.find("0 s follows 2 s"), std::string::npos) << text;
 }
@@ -104,10 +103,11 @@ TEST(TestRows, TimeThatGoesBackIsRefused)
 
 TEST(TestRows, PressureIsPositiveWhereThereIsFriction)
 {
-  EXPECT_EQ(message("0,0,0,0\n1,0,1,0\n2,1,1,0.1\n"), "");
-  EXPECT_EQ(message("0,0,0,0\n1,1,0,0.1\n2,1,1,0.1\n").substr(0, 6), ":3:5: ");
-  EXPECT_EQ(message("0,0,1,0\n1,1,-2,0.1\n").substr(0, 6), ":3:5: ");
-  EXPECT_NE(message("0,0,0,0\n1,1,0,0\n").find("zero throughout"),
+  EXPECT_EQ(message_about_rows("0,0,0,0\n1,0,1,0\n2,1,1,0.1\n"), "");
+  EXPECT_EQ(message_about_rows("0,0,0,0\n1,1,0,0.1\n2,1,1,0.1\n").substr(0, 6),
+            ":3:5: ");
+  EXPECT_EQ(message_about_rows("0,0,1,0\n1,1,-2,0.1\n").substr(0, 6), ":3:5: ");
+  EXPECT_NE(message_about_rows("0,0,0,0\n1,1,0,0\n").find("zero throughout"),
             std::string::npos);
 }
 
@@ -129,8 +129,8 @@ TEST(TestRows, AWrongSignIsAskedNotGuessed)
       back_and_forth += row + std::to_string(friction) + '\n';
       wrong += row + std::to_string(-friction) + '\n';
     }
-  EXPECT_EQ(message(back_and_forth), "");
-  const std::string text = message(wrong);
+  EXPECT_EQ(message_about_rows(back_and_forth), "");
+  const std::string text = message_about_rows(wrong);
   EXPECT_EQ(text.substr(0, 3), ":2:") << text;
   EXPECT_NE(text.find("slipstep import"), std::string::npos) << text;
 }

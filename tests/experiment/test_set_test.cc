@@ -10,14 +10,13 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/rows_header.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
 
 namespace
 {
-  const std::string header = "time_s,displacement_mm,pressure_MPa,friction\n";
-
   void write(const std::string &name,
              const std::string &condition,
              const double       pressure,

@@ -35,17 +35,17 @@ namespace SlipStep
       }
     };
 
-    const RegisterEffect
-      registration({"probe",
-                    ExclusiveSlot::none,
-                    "a strength that depends on slip, pressure and direction",
-                    "made for the tests",
-                    "not neutral",
-                    [](Parameters &) {},
-                    [](const Parameters &, const CoefficientBasis &) {
-                      return std::make_unique<Probe>();
-                    },
-                    {},
-                    {}});
+    const RegisterEffect probe_registration(
+      {"probe",
+       ExclusiveSlot::none,
+       "a strength that depends on slip, pressure and direction",
+       "made for the tests",
+       "not neutral",
+       [](Parameters &) {},
+       [](const Parameters &, const CoefficientBasis &) {
+         return std::make_unique<Probe>();
+       },
+       {},
+       {}});
   } // namespace
 } // namespace SlipStep

@@ -57,7 +57,7 @@ namespace SlipStep
       const double L;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect template_registration(
       {"template",
        ExclusiveSlot::none,
        "G = 1 + w tanh(D / L), D: slip path",

@@ -71,7 +71,7 @@ namespace
     return point;
   }
 
-  const std::string paper = "subloading, overstress, softening";
+  const std::string paper_effects = "subloading, overstress, softening";
 
   struct SmoothCase
   {
@@ -87,11 +87,11 @@ namespace
     const Tensor<1, 2> forward = vector(V), faster = vector(3. * V),
                        turned = V * vector(0.8, 0.6);
     return {{"paper",
-             {{"Effects", paper}},
+             {{"Effects", paper_effects}},
              {forward, 5.8, 1e-3},
              {forward, 5.8, 1e-2}},
             {"pressure_ramp",
-             {{"Effects", paper + ", pressure"}},
+             {{"Effects", paper_effects + ", pressure"}},
              {forward, 20., 0.1},
              {forward, 34.2, 0.1}},
             {"turn",
@@ -99,11 +99,12 @@ namespace
              {forward, 5.8, 0.1},
              {turned, 5.8, 1e-4}},
             {"anisotropy",
-             {{"Effects", paper + ", anisotropy"}, {"anisotropy/Ratio", "0.6"}},
+             {{"Effects", paper_effects + ", anisotropy"},
+              {"anisotropy/Ratio", "0.6"}},
              {forward, 5.8, 0.1},
              {turned, 5.8, 1e-4}},
             {"healing_and_ageing",
-             {{"Effects", paper + ", healing, ageing"},
+             {{"Effects", paper_effects + ", healing, ageing"},
               {"healing/Rate", "0.01"},
               {"healing/Steepness", "100"},
               {"softening/Rate", "20"},
@@ -113,7 +114,7 @@ namespace
              {forward, 5.8, 0.01},
              {forward, 5.8, 0.1}},
             {"heating",
-             {{"Effects", paper + ", heating"},
+             {{"Effects", paper_effects + ", heating"},
               {"heating/Weakening", "0.02"},
               {"heating/Cooling time", "0.5 s"}},
              {forward, 5.8, 0.1},

@@ -56,7 +56,10 @@ namespace
     for (std::string name; std::getline(names, name, ',');)
       if (name.find("x_mm") == std::string::npos &&
           name.find("y_mm") == std::string::npos && name != "area_mm2")
-        EXPECT_NE(vtu.str().find('"' + name + '"'), std::string::npos) << name;
+        {
+          EXPECT_NE(vtu.str().find('"' + name + '"'), std::string::npos)
+            << name;
+        }
     return header;
   }
 

@@ -14,10 +14,10 @@ using namespace SlipStep::Testing;
 
 namespace
 {
-  const Settings plane = {{"Block/Dimension", "2"},
-                          {"Block/Size", "10 mm, 5 mm"},
-                          {"Block/Subdivisions", "5, 3"},
-                          {"Time stepping/Tolerance", "1e-3"}};
+  const Settings plane_block = {{"Block/Dimension", "2"},
+                                {"Block/Size", "10 mm, 5 mm"},
+                                {"Block/Subdivisions", "5, 3"},
+                                {"Time stepping/Tolerance", "1e-3"}};
 
   // Values of the probes when the case is over.
   template <int dim>
@@ -149,11 +149,11 @@ TEST(FaceProbes, slip_front_of_a_curve)
 {
   const auto error_with = [](const std::string &n_cells) {
     const Parameters parameters = make_parameters(
-      plane + Settings{{"Block/Subdivisions", n_cells + ", 1"},
-                       {"Loading/Programme",
-                        "press 5.8 MPa in 1 s; slide 1 mm/s "
-                        "for 0.00001 mm"},
-                       {"Output/Quantities", "slip front at r = 0.7"}});
+      plane_block + Settings{{"Block/Subdivisions", n_cells + ", 1"},
+                             {"Loading/Programme",
+                              "press 5.8 MPa in 1 s; slide 1 mm/s "
+                              "for 0.00001 mm"},
+                             {"Output/Quantities", "slip front at r = 0.7"}});
     const Programme programme = parse_programme(parameters);
     double          error     = 0.;
     run_block_case<2>(parameters, MPI_COMM_SELF, [&](const Block<2> &block) {
@@ -186,9 +186,10 @@ TEST(FaceProbes, slip_front_of_a_curve)
 TEST(FaceProbes, no_slip_front_where_nothing_slips)
 {
   const auto values = probes_at_end<2>(make_parameters(
-    plane + Settings{{"Loading/Programme",
-                      "press 5.8 MPa in 1 s; slide 1 mm/s for 0.00001 mm"},
-                     {"Output/Quantities", "slip front; pressure at 5 mm"}}));
+    plane_block +
+    Settings{{"Loading/Programme",
+              "press 5.8 MPa in 1 s; slide 1 mm/s for 0.00001 mm"},
+             {"Output/Quantities", "slip front; pressure at 5 mm"}}));
   EXPECT_TRUE(std::isnan(values[0]));
   EXPECT_GT(values[1], 1.);
 }

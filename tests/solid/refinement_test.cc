@@ -18,8 +18,6 @@ namespace
   // u_0: a bar on tangential springs k, so that F = E h u_0 / Lambda
   // tanh(L / Lambda) with Lambda = sqrt(E h / k) = 1 mm; what the bar theory
   // leaves out is of the order k h / G = 2e-6.
-  constexpr double L = 3., h = 1e-3, E = 206e3, k = 206., u_0 = 2e-5;
-
   Settings strip(const std::string &degree, const unsigned int n_cells)
   {
     return {{"Friction/Effects", ""},
@@ -68,7 +66,8 @@ namespace
 // of the gradient's.
 TEST(Refinement, orders_of_Q1_and_Q2)
 {
-  const double exact = E * h * u_0 * std::tanh(L);
+  constexpr double L = 3., h = 1e-3, E = 206e3, u_0 = 2e-5;
+  const double     exact = E * h * u_0 * std::tanh(L);
   for (const unsigned int degree : {1, 2})
     {
       std::vector<double> sizes, forces;

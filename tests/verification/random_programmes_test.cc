@@ -21,12 +21,12 @@ using namespace SlipStep::Testing;
 
 namespace
 {
-  constexpr std::size_t  most_steps        = 200000;
-  constexpr double       default_tolerance = 5e-4;
-  constexpr unsigned int default_number    = 200;
+  constexpr std::size_t  most_steps      = 200000;
+  constexpr double       usual_tolerance = 5e-4;
+  constexpr unsigned int default_number  = 200;
 
   /// What a run says, and what is wrong with its rows.
-  struct Outcome
+  struct OutcomeOfProgramme
   {
     std::vector<std::string> complaints;
     std::size_t              steps         = 0;
@@ -45,7 +45,7 @@ namespace
       , coefficients(law.coefficient_range())
     {}
 
-    void operator()(const HistoryRow &row, Outcome &outcome)
+    void operator()(const HistoryRow &row, OutcomeOfProgramme &outcome)
     {
       const double r = row.loading_ratio.mean, r_s = row.normal_ratio.mean,
                    mu   = row.coefficient.mean;
@@ -80,19 +80,19 @@ namespace
     std::map<std::string, unsigned int> complained;
   };
 
-  Outcome run(const Settings   &settings,
-              const double      tolerance,
-              const std::size_t steps_allowed)
+  OutcomeOfProgramme run(const Settings   &settings,
+                         const double      tolerance,
+                         const std::size_t steps_allowed)
   {
     Parameters parameters = point_parameters(settings);
     parameters.set("Time stepping/Tolerance", exact_text(tolerance), "test");
     parameters.set("Time stepping/Most steps per statement",
                    std::to_string(steps_allowed),
                    "test");
-    const FrictionLaw law(parameters);
-    const Programme   programme = parse_programme(parameters);
-    Outcome           outcome;
-    RowCheck          check(law);
+    const FrictionLaw  law(parameters);
+    const Programme    programme = parse_programme(parameters);
+    OutcomeOfProgramme outcome;
+    RowCheck           check(law);
     for (const std::string &effect : law.effects())
       check.has_subloading = check.has_subloading || effect == "subloading";
     Summary summary;
@@ -175,11 +175,11 @@ namespace
 
   /// What a run with a smaller tolerance says otherwise; nothing if that is
   /// little.
-  std::string sensitivity(const RandomProgramme &programme,
-                          const Outcome         &outcome)
+  std::string sensitivity(const RandomProgramme    &programme,
+                          const OutcomeOfProgramme &outcome)
   {
-    const Outcome finer =
-      run(programme.settings(), default_tolerance / 10., 4 * most_steps);
+    const OutcomeOfProgramme finer =
+      run(programme.settings(), usual_tolerance / 10., 4 * most_steps);
     if (finer.is_given_up)
       return "";
     const double friction =
@@ -209,9 +209,9 @@ namespace
              const std::size_t   steps_allowed,
              Tally              &tally)
   {
-    const RandomProgramme programme(seed);
-    const Outcome         outcome =
-      run(programme.settings(), default_tolerance, steps_allowed);
+    const RandomProgramme    programme(seed);
+    const OutcomeOfProgramme outcome =
+      run(programme.settings(), usual_tolerance, steps_allowed);
     ++tally.n;
     tally.steps += outcome.steps;
     for (const std::string &complaint : outcome.complaints)

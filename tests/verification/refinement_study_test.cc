@@ -15,19 +15,19 @@ using namespace SlipStep::Testing;
 
 namespace
 {
-  struct Outcome
+  struct OutcomeOfStudy
   {
     double n_unknowns = 0., edge_pressure = 0., dissipated = 0.;
   };
 
-  Outcome run_study_case(const Settings &mesh)
+  OutcomeOfStudy run_study_case(const Settings &mesh)
   {
     const Parameters parameters =
       make_parameters(Settings{{"Output/Quantities", "pressure at 10 mm"}} +
                         mesh,
                       "refinement_study/refinement_study.prm");
     const Programme programme = parse_programme(parameters);
-    Outcome         outcome;
+    OutcomeOfStudy  outcome;
     const auto      result =
       run_block_case<2>(parameters, MPI_COMM_SELF, [&](const Block<2> &block) {
         const FaceProbes<2> probes(BlockParameters(parameters, programme),
@@ -42,8 +42,8 @@ namespace
     return outcome;
   }
 
-  Outcome adaptive(const std::string &tolerance,
-                   const std::string &goal = "energy")
+  OutcomeOfStudy adaptive(const std::string &tolerance,
+                          const std::string &goal = "energy")
   {
     return run_study_case({{"Block/Refinement", "adaptive 10"},
                            {"Block/Adaptivity/Goal", goal},
@@ -55,19 +55,21 @@ namespace
 
 TEST(RefinementStudy, adaptive_needs_a_tenth)
 {
-  const Outcome reference = adaptive("0.001");
-  const Outcome uniform   = run_study_case({{"Block/Refinement", "uniform 4"}});
-  const Outcome refined   = adaptive("0.01");
-  const auto error = [&](const double Outcome::*value, const Outcome &outcome) {
+  const OutcomeOfStudy reference = adaptive("0.001");
+  const OutcomeOfStudy uniform =
+    run_study_case({{"Block/Refinement", "uniform 4"}});
+  const OutcomeOfStudy refined = adaptive("0.01");
+  const auto           error   = [&](const double OutcomeOfStudy::*value,
+                         const OutcomeOfStudy         &outcome) {
     return std::abs(outcome.*value - reference.*value);
   };
   // The finest cells are as small, and there are few of them.
   EXPECT_LT(refined.n_unknowns, uniform.n_unknowns / 10.);
-  EXPECT_LT(error(&Outcome::edge_pressure, refined),
-            1.1 * error(&Outcome::edge_pressure, uniform));
+  EXPECT_LT(error(&OutcomeOfStudy::edge_pressure, refined),
+            1.1 * error(&OutcomeOfStudy::edge_pressure, uniform));
   // No corner takes part in this one: it gains less.
-  EXPECT_LT(error(&Outcome::dissipated, refined),
-            4. * error(&Outcome::dissipated, uniform));
+  EXPECT_LT(error(&OutcomeOfStudy::dissipated, refined),
+            4. * error(&OutcomeOfStudy::dissipated, uniform));
 }
 
 
@@ -76,11 +78,12 @@ TEST(RefinementStudy, adaptive_needs_a_tenth)
 // interior.
 TEST(RefinementStudy, contact_goal_needs_less)
 {
-  const Outcome reference = adaptive("0.001");
-  const Outcome uniform   = run_study_case({{"Block/Refinement", "uniform 4"}});
-  const Outcome energy    = adaptive("0.005");
-  const Outcome contact   = adaptive("0.01", "contact");
-  const auto    error     = [&](const Outcome &outcome) {
+  const OutcomeOfStudy reference = adaptive("0.001");
+  const OutcomeOfStudy uniform =
+    run_study_case({{"Block/Refinement", "uniform 4"}});
+  const OutcomeOfStudy energy  = adaptive("0.005");
+  const OutcomeOfStudy contact = adaptive("0.01", "contact");
+  const auto           error   = [&](const OutcomeOfStudy &outcome) {
     return std::abs(outcome.edge_pressure - reference.edge_pressure);
   };
   EXPECT_LT(contact.n_unknowns, uniform.n_unknowns / 20.);

@@ -13,6 +13,9 @@
 
 namespace SlipStep
 {
+  /// Columns of probes that a history can have.
+  constexpr std::size_t most_probes = 99;
+
   /// Mean over the contact (weighted by normal load) and extremes.
   struct Spread
   {

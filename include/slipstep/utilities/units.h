@@ -32,6 +32,9 @@ namespace SlipStep
     temperature      ///< degC
   };
 
+  /// From mm/s to mm/min.
+  constexpr double mm_min = 60.;
+
   /// The unit that a bare number of this dimension is taken to be in, as shown
   /// in documentation ("mm", "MPa/mm", ...; "deg" for angles).
   std::string base_unit(const Dimension dimension);

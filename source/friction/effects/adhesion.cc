@@ -35,7 +35,7 @@ namespace SlipStep
       const double c;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect adhesion_registration(
       {"adhesion",
        ExclusiveSlot::none,
        "tau_y = f_n mu G_1 G_2 ... + c",

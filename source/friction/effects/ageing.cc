@@ -81,7 +81,7 @@ namespace SlipStep
       const double L;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect ageing_registration(
       {"ageing",
        ExclusiveSlot::none,
        "G = 1 + b_age ln(1 + theta/t_0), d theta/dt = 1 - lambda theta/L",

@@ -58,7 +58,7 @@ namespace SlipStep
       const double angle;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect anisotropy_registration(
       {"anisotropy",
        ExclusiveSlot::anisotropy,
        "|f_t| = sqrt(f_1^2 + (f_2 / rho)^2), slip normal to the ellipse",

@@ -53,7 +53,7 @@ namespace SlipStep
       dealii::Tensor<1, 2> n;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect direction_registration(
       {"direction",
        ExclusiveSlot::none,
        "G = 1 + d (1 - cos(phi)) / 2, phi: from the forward angle to slip",

@@ -253,7 +253,7 @@ namespace SlipStep
       const Table       table;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect expression_registration(
       {"expression",
        ExclusiveSlot::none,
        "G = formula of one covariate x, From <= x <= To",

@@ -55,7 +55,7 @@ namespace SlipStep
       const double mu_s;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect healing_registration(
       {"healing",
        ExclusiveSlot::none,
        "d mu/dt = xi (exp(b (mu_s - mu)) - 1)",

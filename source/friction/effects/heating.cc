@@ -80,7 +80,7 @@ namespace SlipStep
       const double t_c;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect heating_registration(
       {"heating",
        ExclusiveSlot::none,
        "G = 1 / (1 + beta T), dT/dt = h |f_t| lambda - T / t_c",

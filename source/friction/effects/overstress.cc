@@ -87,7 +87,7 @@ namespace SlipStep
       const double r_m;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect overstress_registration(
       {"overstress",
        ExclusiveSlot::overstress,
        "lambda = (exp(n (r - r_s)) - 1) / (eta_v (r_m - r)) for r > r_s",

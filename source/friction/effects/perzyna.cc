@@ -66,7 +66,7 @@ namespace SlipStep
       const double n;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect perzyna_registration(
       {"perzyna",
        ExclusiveSlot::overstress,
        "lambda = <r - r_s>^n / eta",

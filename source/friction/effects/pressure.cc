@@ -48,7 +48,7 @@ namespace SlipStep
       const double p_0;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect pressure_registration(
       {"pressure",
        ExclusiveSlot::none,
        "G = (f_n / p_0)^-gamma",

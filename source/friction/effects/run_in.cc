@@ -48,7 +48,7 @@ namespace SlipStep
       const double D_w;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect run_in_registration(
       {"run_in",
        ExclusiveSlot::none,
        "G = 1 + w (1 - exp(-D / D_w)), D: slip path",

@@ -50,7 +50,7 @@ namespace SlipStep
       const double tau_c;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect shear_cap_registration(
       {"shear_cap",
        ExclusiveSlot::none,
        "f_n mu -> tau_c tanh(f_n mu / tau_c)",

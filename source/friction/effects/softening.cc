@@ -72,7 +72,7 @@ namespace SlipStep
       const double mu_k;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect softening_registration(
       {"softening",
        ExclusiveSlot::none,
        "d mu/d lambda = -kappa (exp(a (mu - mu_k)) - 1)",

@@ -67,7 +67,7 @@ namespace SlipStep
       const double q;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect stribeck_registration(
       {"stribeck",
        ExclusiveSlot::none,
        "G = 1 + s exp(-(lambda / V_s)^q)",

@@ -113,7 +113,7 @@ namespace SlipStep
       const bool   is_logarithmic;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect subloading_registration(
       {"subloading",
        ExclusiveSlot::normal_ratio,
        "d r_s/d lambda = u cot(pi r_s/2) or -u ln(r_s); r_s <= r",

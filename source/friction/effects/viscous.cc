@@ -43,7 +43,7 @@ namespace SlipStep
       const double c_v;
     };
 
-    const RegisterEffect registration(
+    const RegisterEffect viscous_registration(
       {"viscous",
        ExclusiveSlot::none,
        "tau_y = f_n mu G_1 G_2 ... + c_v lambda",
