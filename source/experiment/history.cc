@@ -158,6 +158,10 @@ namespace SlipStep
     for (const double probe : row.probes)
       line += ',' + exact_text(probe);
     out << line << '\n' << std::flush;
+    // A file that somebody deleted takes rows that nobody will see.
+    std::error_code gone;
+    if (!std::filesystem::exists(file, gone))
+      throw write_failure(file, ENOENT);
     if (!out)
       {
         // What there is of this row would make the file unreadable.

@@ -6,16 +6,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
 #include "slipstep_process.h"
+#include "tests/restart/background_run.h"
 
 using namespace SlipStep;
 
 namespace
 {
-  // A few seconds of work.
+  // More work than anybody waits for.
   const char *const slow =
     "set Loading/Programme = press 1 MPa in 1 s; slide 1 mm/s for 1 mm\n"
     "set Block/Subdivisions = 2, 2, 2\n"
@@ -53,6 +55,33 @@ namespace
     EXPECT_EQ(summary.status, "failed");
     EXPECT_NE(summary.reason.find(reason), std::string::npos) << summary.reason;
     EXPECT_FALSE(std::filesystem::exists(path / "summary.json.part"));
+  }
+
+
+
+  // Interrupts runs that have rows to keep; returns what is said.
+  std::string interrupted(const SlipstepProcess &process,
+                          const int              signal,
+                          const int              n_runs)
+  {
+    const auto has_rows = [&]() {
+      int        n      = 0;
+      const auto output = process.folder() / "output";
+      if (std::filesystem::exists(output))
+        for (const auto &entry :
+             std::filesystem::recursive_directory_iterator(output))
+          n += entry.path().filename() == "history.csv" &&
+               read_history(entry.path()).size() > 2;
+      return n == n_runs;
+    };
+    BackgroundRun run(process.folder(), {"run", "case.prm"});
+    EXPECT_TRUE(run.wait_until(has_rows)) << run.err();
+    run.send(signal);
+    run.wait();
+    EXPECT_EQ(run.outcome(), -signal);
+    const std::string err = run.err();
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    return err;
   }
 } // namespace
 
@@ -158,12 +187,9 @@ TEST(StoppedRun, LeavesReadableFiles)
 {
   const SlipstepProcess process;
   process.write("case.prm", slow);
-  const auto result =
-    process.run({"run", "case.prm"}, "timeout --preserve-status -s INT 3");
-  EXPECT_EQ(result.exit_code, 130);
-  EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
-  EXPECT_NE(result.err.find("stopped by a signal (Interrupt)"),
-            std::string::npos);
+  EXPECT_NE(
+    interrupted(process, SIGINT, 1).find("stopped by a signal (Interrupt)"),
+    std::string::npos);
   expect_kept(process, "output/case", "stopped by a signal");
 }
 
@@ -173,12 +199,8 @@ TEST(StoppedRun, StopsTheVariants)
 {
   const SlipstepProcess process;
   process.write("case.prm", std::string(slow) + sweep);
-  // In the foreground: only the parent gets the signal.
-  const auto result =
-    process.run({"run", "case.prm"},
-                "timeout --foreground --preserve-status -s TERM 3");
-  EXPECT_EQ(result.exit_code, 143);
-  EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
+  // Only the parent gets the signal.
+  interrupted(process, SIGTERM, 2);
   for (const auto &entry :
        std::filesystem::directory_iterator(process.folder() / "output/case"))
     if (entry.is_directory() &&

@@ -69,7 +69,7 @@ public:
   {
     // A case that is wrongly accepted must not run for hours.
     std::string command = "cd " + quoted(folder().string()) + " && { " +
-                          set_up + " timeout 500 " + launcher + " " +
+                          set_up + " timeout 1500 " + launcher + " " +
                           quoted(binary());
     for (const std::string &argument : arguments)
       command += " " + quoted(argument);

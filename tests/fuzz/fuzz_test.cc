@@ -203,7 +203,7 @@ namespace
     // that is no exit code from 0 to 2.
     SlipstepProcess::Result run_briefly(const std::vector<std::string> &words)
     {
-      return process.run(words, "timeout -k 10 120");
+      return process.run(words, "timeout -k 10 300");
     }
 
     Mutator random{seed};
@@ -371,7 +371,7 @@ TEST_F(Fuzz, Checkpoints)
       const std::string file = "fuzzed/" + files[random.below(files.size())];
       process.write(file, random.mutated(process.read(file)));
       const auto result =
-        run("fuzzed", {"--resume", "--quiet"}, "timeout -k 10 120");
+        run("fuzzed", {"--resume", "--quiet"}, "timeout -k 10 300");
       expect_in_words(result, file, {"fuzzed"});
       if (result.exit_code == 0)
         {

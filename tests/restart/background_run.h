@@ -69,6 +69,19 @@ public:
       kill(pid, signal);
   }
 
+  /// SIGKILL to the program and all that it has started, as in a power cut.
+  void kill_all() const
+  {
+    const std::string  self = std::to_string(pid);
+    std::ifstream      in("/proc/" + self + "/task/" + self + "/children");
+    std::vector<pid_t> children;
+    for (pid_t child; in >> child;)
+      children.push_back(child);
+    send(SIGKILL);
+    for (const pid_t child : children)
+      kill(child, SIGKILL);
+  }
+
   /// Let files grow no more than this, as on a full disk.
   void limit_file_size(const unsigned long bytes) const
   {

@@ -44,6 +44,25 @@ namespace SlipStep::Testing
     }
   };
 
+  inline bool has_mpirun()
+  {
+    return std::system("command -v mpirun > /dev/null") == 0;
+  }
+
+  inline const std::vector<std::string> two_ranks = {"mpirun",
+                                                     "--oversubscribe",
+                                                     "--allow-run-as-root",
+                                                     "-np",
+                                                     "2"};
+
+  inline std::string joined(const std::vector<std::string> &words)
+  {
+    std::string text;
+    for (const std::string &word : words)
+      text += word + " ";
+    return text;
+  }
+
   /// A working directory with case.prm.
   class RestartTest : public testing::Test
   {
