@@ -170,8 +170,8 @@ namespace SlipStep
     Noise::Logarithms                independent;
     for (double &value : independent)
       value = normal(random);
-    const auto factor = covariance.llt().matrixL();
-    return Noise::from_logarithms(noise.logarithms() + factor * independent);
+    return Noise::from_logarithms(noise.logarithms() +
+                                  covariance.llt().matrixL() * independent);
   }
 
 
