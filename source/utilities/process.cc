@@ -86,12 +86,15 @@ namespace SlipStep
 
 
 
-  // Whoever has set the variable keeps its value. Other MPI implementations do
-  // not know it.
+  // Whoever has set the variables keeps their values. Other MPI implementations
+  // do not know them. All isolated processes would share one session directory,
+  // which the first of them to end takes from those that are just starting.
   void start_mpi_without_daemon()
   {
-    if (!is_under_mpirun())
-      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    if (is_under_mpirun())
+      return;
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   }
 
 

@@ -132,3 +132,16 @@ TEST(OddInput, AnEmptyEnvironmentIsEnough)
       EXPECT_EQ(result.exit_code, 0) << result.err;
     }
 }
+
+
+
+// Runs at the same time must not meet in a directory of MPI's.
+TEST(OddInput, ARunNeedsNoTemporaryDirectory)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", right);
+  const auto result =
+    process.run({"run", "case.prm", "--set", "Block/Subdivisions=1, 1, 1"},
+                "env TMPDIR=/proc/none");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}

@@ -22,8 +22,8 @@ namespace SlipStep
   /// How many processes mpirun has started; 1 without it.
   unsigned int n_launched();
 
-  /// A process that mpirun did not start needs no daemon, which Open MPI would
-  /// start for it; before MPI_Init.
+  /// A process that mpirun did not start needs neither the daemon nor the
+  /// session directory that Open MPI would make for it; before MPI_Init.
   void start_mpi_without_daemon();
 
   /// How a program that was started ended.
