@@ -7,15 +7,15 @@
 
 #include <slipstep/calibration/campaign.h>
 #include <slipstep/experiment/checkpoint.h>
-#include <slipstep/experiment/import_map.h>
-#include <slipstep/experiment/import_tests.h>
+#include <slipstep/measured_data/import_map.h>
+#include <slipstep/measured_data/import_tests.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/report.h>
 #include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/experiment/sweep.h>
-#include <slipstep/experiment/test_set.h>
+#include <slipstep/measured_data/test_set.h>
 #include <slipstep/fit_commands.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/outcome.h>

@@ -5,7 +5,7 @@
 set -u
 cd "${1:-$(dirname "$0")/..}" || exit 1
 
-rooms=(utilities friction experiment planting calibration diagnosis solid)
+rooms=(utilities friction measured_data experiment planting calibration diagnosis solid)
 most_lines=700
 violations=0
 
@@ -65,7 +65,7 @@ for room in "${rooms[@]}"; do
     while read -r place header; do
       case $header in
         slipstep/planting/* | slipstep/utilities/*) ;;
-        slipstep/experiment/measured_test.h) ;;
+        slipstep/measured_data/measured_test.h) ;;
         slipstep/*) complain "$place: planting must not include $header" ;;
       esac
     done < <(includes "${files[@]}")

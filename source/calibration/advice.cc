@@ -2,8 +2,8 @@
 
 #include <slipstep/calibration/advice.h>
 #include <slipstep/calibration/fit.h>
-#include <slipstep/experiment/test_rows.h>
-#include <slipstep/experiment/test_set.h>
+#include <slipstep/measured_data/test_rows.h>
+#include <slipstep/measured_data/test_set.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include <deal.II/base/parallel.h>
 
 #include <slipstep/calibration/campaign.h>
-#include <slipstep/experiment/resample.h>
-#include <slipstep/experiment/test_rows.h>
-#include <slipstep/experiment/test_set.h>
+#include <slipstep/measured_data/resample.h>
+#include <slipstep/measured_data/test_rows.h>
+#include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/process.h>
 

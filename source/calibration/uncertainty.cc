@@ -1,6 +1,6 @@
 #include <slipstep/calibration/fit.h>
 #include <slipstep/calibration/uncertainty.h>
-#include <slipstep/experiment/resample.h>
+#include <slipstep/measured_data/resample.h>
 
 #include <boost/math/distributions/fisher_f.hpp>
 

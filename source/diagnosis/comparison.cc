@@ -1,6 +1,6 @@
 #include <slipstep/diagnosis/comparison.h>
 #include <slipstep/diagnosis/least_squares.h>
-#include <slipstep/experiment/test_rows.h>
+#include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <slipstep/diagnosis/element_check.h>
 #include <slipstep/diagnosis/improved_case.h>
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/write_file.h>

@@ -1,6 +1,6 @@
 #include <slipstep/diagnosis/outlier.h>
 #include <slipstep/diagnosis/prepare.h>
-#include <slipstep/experiment/test_rows.h>
+#include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <Eigen/Dense>

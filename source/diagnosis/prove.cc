@@ -1,5 +1,5 @@
 #include <slipstep/diagnosis/prove.h>
-#include <slipstep/experiment/test_rows.h>
+#include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <Eigen/Dense>

@@ -1,7 +1,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <slipstep/diagnosis/track_waves.h>
-#include <slipstep/experiment/test_rows.h>
+#include <slipstep/measured_data/test_rows.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <slipstep/experiment/programme.h>
 
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>

@@ -1,8 +1,8 @@
 // Reading and resampling a measured test of a million rows:
 //   cmake --build build --target benchmark
 
-#include <slipstep/experiment/measured_test.h>
-#include <slipstep/experiment/resample.h>
+#include <slipstep/measured_data/measured_test.h>
+#include <slipstep/measured_data/resample.h>
 
 #include <benchmark/benchmark.h>
 

@@ -3,7 +3,7 @@
 
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/calibration/campaign.h>
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/experiment/report.h>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // same rows by a replay as by a programme.
 
 #include <slipstep/experiment/replay.h>
-#include <slipstep/experiment/resample.h>
+#include <slipstep/measured_data/resample.h>
 #include <slipstep/experiment/stability.h>
 #include <slipstep/utilities/exceptions.h>
 

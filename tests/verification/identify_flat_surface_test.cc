@@ -3,7 +3,7 @@
 #include "../solid/block_test_tools.h"
 
 #include <slipstep/calibration/calibrate.h>
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 
 #include <gtest/gtest.h>
 

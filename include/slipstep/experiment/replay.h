@@ -2,7 +2,7 @@
 #define slipstep_experiment_replay_h
 
 #include <slipstep/experiment/machine.h>
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/friction/law.h>
 
 #include <cstddef>

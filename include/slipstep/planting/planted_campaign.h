@@ -1,7 +1,7 @@
 #ifndef slipstep_planting_planted_campaign_h
 #define slipstep_planting_planted_campaign_h
 
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/planting/record_noise.h>
 #include <slipstep/planting/true_contact.h>
 

@@ -1,7 +1,7 @@
 #ifndef slipstep_planting_protocols_h
 #define slipstep_planting_protocols_h
 
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/planting/influence.h>
 
 #include <string>

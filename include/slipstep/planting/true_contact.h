@@ -1,7 +1,7 @@
 #ifndef slipstep_planting_true_contact_h
 #define slipstep_planting_true_contact_h
 
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/planting/influence.h>
 
 #include <array>

@@ -1,6 +1,6 @@
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 
-#include <slipstep/experiment/test_rows.h>
+#include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/write_file.h>

@@ -1,7 +1,7 @@
-#include <slipstep/experiment/import_map.h>
+#include <slipstep/measured_data/import_map.h>
 
-#include <slipstep/experiment/resample.h>
-#include <slipstep/experiment/test_rows.h>
+#include <slipstep/measured_data/resample.h>
+#include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/csv.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <slipstep/experiment/test_rows.h>
+#include <slipstep/measured_data/test_rows.h>
 
 #include <slipstep/utilities/csv.h>
 

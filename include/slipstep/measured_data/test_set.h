@@ -1,7 +1,7 @@
-#ifndef slipstep_experiment_test_set_h
-#define slipstep_experiment_test_set_h
+#ifndef slipstep_measured_data_test_set_h
+#define slipstep_measured_data_test_set_h
 
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
-#include <slipstep/experiment/resample.h>
+#include <slipstep/measured_data/resample.h>
 
-#include <slipstep/experiment/test_rows.h>
+#include <slipstep/measured_data/test_rows.h>
 
 #include <algorithm>
 #include <cmath>

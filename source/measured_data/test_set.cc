@@ -1,6 +1,6 @@
-#include <slipstep/experiment/test_set.h>
+#include <slipstep/measured_data/test_set.h>
 
-#include <slipstep/experiment/test_rows.h>
+#include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/csv.h>
 
 #include <algorithm>

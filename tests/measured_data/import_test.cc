@@ -1,8 +1,8 @@
 // Files of instruments, converted by a map.
 
-#include <slipstep/experiment/import_map.h>
-#include <slipstep/experiment/import_tests.h>
-#include <slipstep/experiment/test_set.h>
+#include <slipstep/measured_data/import_map.h>
+#include <slipstep/measured_data/import_tests.h>
+#include <slipstep/measured_data/test_set.h>
 
 #include <gtest/gtest.h>
 

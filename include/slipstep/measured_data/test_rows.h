@@ -1,7 +1,7 @@
-#ifndef slipstep_experiment_test_rows_h
-#define slipstep_experiment_test_rows_h
+#ifndef slipstep_measured_data_test_rows_h
+#define slipstep_measured_data_test_rows_h
 
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 
 #include <functional>
 #include <string>

@@ -1,8 +1,8 @@
 // What is kept when a test is resampled: peaks to the last bit, everything else
 // within the tolerances it states.
 
-#include <slipstep/experiment/resample.h>
-#include <slipstep/experiment/test_rows.h>
+#include <slipstep/measured_data/resample.h>
+#include <slipstep/measured_data/test_rows.h>
 
 #include <gtest/gtest.h>
 

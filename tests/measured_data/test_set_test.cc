@@ -1,6 +1,6 @@
 // Folders of tests, and tests that say to be replicates.
 
-#include <slipstep/experiment/test_set.h>
+#include <slipstep/measured_data/test_set.h>
 
 #include <gtest/gtest.h>
 

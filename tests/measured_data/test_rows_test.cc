@@ -1,7 +1,7 @@
 // What is done to the rows of a test as recorded, and what is refused.
 
-#include <slipstep/experiment/measured_test.h>
-#include <slipstep/experiment/test_rows.h>
+#include <slipstep/measured_data/measured_test.h>
+#include <slipstep/measured_data/test_rows.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
-#include <slipstep/experiment/history.h>
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 
 #include <gtest/gtest.h>
 
@@ -253,24 +252,4 @@ TEST(MeasuredTest, AMissingFileIsNamed)
 {
   EXPECT_THROW(read_measured_test("no_such_file.csv"), InputError);
   EXPECT_THROW(read_measured_test("."), InputError);
-}
-
-
-
-TEST(MeasuredTest, AHistoryReadsAsATest)
-{
-  const auto    file     = test_folder() / "as_test.csv";
-  const auto    memories = ContactState::memories();
-  HistoryWriter writer(file, {memories.begin(), memories.end()});
-  HistoryRow    row;
-  row.pressure = 5.8;
-  writer.write(row);
-  row.time     = 0.1;
-  row.friction = 0.1 / 3.;
-  writer.write(row);
-
-  const MeasuredTest test = read_measured_test(file);
-  EXPECT_EQ(test.name, "as_test");
-  EXPECT_EQ(test.friction[1], row.friction);
-  EXPECT_EQ(test.displacement_y.size(), 2u);
 }

@@ -1,7 +1,7 @@
-#include <slipstep/experiment/import_tests.h>
+#include <slipstep/measured_data/import_tests.h>
 
-#include <slipstep/experiment/import_map.h>
-#include <slipstep/experiment/test_set.h>
+#include <slipstep/measured_data/import_map.h>
+#include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/find_variant.h>
 #include <slipstep/utilities/home_folder.h>

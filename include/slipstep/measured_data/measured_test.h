@@ -1,5 +1,5 @@
-#ifndef slipstep_experiment_measured_test_h
-#define slipstep_experiment_measured_test_h
+#ifndef slipstep_measured_data_measured_test_h
+#define slipstep_measured_data_measured_test_h
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/units.h>

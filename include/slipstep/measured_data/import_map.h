@@ -1,7 +1,7 @@
-#ifndef slipstep_experiment_import_map_h
-#define slipstep_experiment_import_map_h
+#ifndef slipstep_measured_data_import_map_h
+#define slipstep_measured_data_import_map_h
 
-#include <slipstep/experiment/measured_test.h>
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/parameters.h>
 
 #include <filesystem>
