@@ -19,7 +19,7 @@
 #include <slipstep/fit_commands.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/outcome.h>
-#include <slipstep/planting/plant.h>
+#include <slipstep/synthetic_tests/plant.h>
 #include <slipstep/solid/attempt_together.h>
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/case.h>

@@ -5,7 +5,7 @@
 set -u
 cd "${1:-$(dirname "$0")/..}" || exit 1
 
-rooms=(utilities friction measured_data experiment planting calibration diagnosis solid)
+rooms=(utilities friction measured_data synthetic_tests experiment calibration diagnosis solid)
 most_lines=700
 violations=0
 
@@ -61,12 +61,12 @@ for room in "${rooms[@]}"; do
   fi
 
   # Who plants an effect must not lean on the law that is to find it.
-  if [ "$room" = planting ]; then
+  if [ "$room" = synthetic_tests ]; then
     while read -r place header; do
       case $header in
-        slipstep/planting/* | slipstep/utilities/*) ;;
+        slipstep/synthetic_tests/* | slipstep/utilities/*) ;;
         slipstep/measured_data/measured_test.h) ;;
-        slipstep/*) complain "$place: planting must not include $header" ;;
+        slipstep/*) complain "$place: synthetic_tests must not include $header" ;;
       esac
     done < <(includes "${files[@]}")
   fi

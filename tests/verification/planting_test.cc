@@ -4,8 +4,8 @@
 #include <slipstep/experiment/machine.h>
 #include <slipstep/experiment/replay.h>
 #include <slipstep/friction/law.h>
-#include <slipstep/planting/protocols.h>
-#include <slipstep/planting/start_model.h>
+#include <slipstep/synthetic_tests/protocols.h>
+#include <slipstep/synthetic_tests/start_model.h>
 #include <slipstep/utilities/csv.h>
 
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <slipstep/diagnosis/judge.h>
 #include <slipstep/diagnosis/prepare.h>
 #include <slipstep/experiment/point_driver.h>
-#include <slipstep/planting/planted_campaign.h>
+#include <slipstep/synthetic_tests/planted_campaign.h>
 
 #include <tests/temporary_folder.h>
 

@@ -1,7 +1,7 @@
-#ifndef slipstep_planting_hidden_effects_h
-#define slipstep_planting_hidden_effects_h
+#ifndef slipstep_synthetic_tests_hidden_effects_h
+#define slipstep_synthetic_tests_hidden_effects_h
 
-#include <slipstep/planting/true_contact.h>
+#include <slipstep/synthetic_tests/true_contact.h>
 
 #include <cmath>
 

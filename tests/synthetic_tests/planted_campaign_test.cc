@@ -1,5 +1,5 @@
-#include <slipstep/planting/answer.h>
-#include <slipstep/planting/planted_campaign.h>
+#include <slipstep/synthetic_tests/answer.h>
+#include <slipstep/synthetic_tests/planted_campaign.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
-#ifndef slipstep_planting_answer_h
-#define slipstep_planting_answer_h
+#ifndef slipstep_synthetic_tests_answer_h
+#define slipstep_synthetic_tests_answer_h
 
-#include <slipstep/planting/planted_campaign.h>
+#include <slipstep/synthetic_tests/planted_campaign.h>
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
-#include <slipstep/planting/hidden_effects.h>
-#include <slipstep/planting/start_model.h>
+#include <slipstep/synthetic_tests/hidden_effects.h>
+#include <slipstep/synthetic_tests/start_model.h>
 
 #include <slipstep/utilities/csv.h>
 

@@ -1,4 +1,4 @@
-#include <slipstep/planting/true_contact.h>
+#include <slipstep/synthetic_tests/true_contact.h>
 
 #include <slipstep/utilities/exceptions.h>
 
@@ -446,7 +446,7 @@ namespace SlipStep
         for (unsigned int n = 0; time < end; ++n)
           {
             if (n > 100000)
-              throw RunError("planting: no time step is small enough");
+              throw RunError("the hidden truth: no time step is small enough");
             const double left       = end - time;
             const bool   is_cut     = wanted_step >= left;
             double       step       = is_cut ? left : wanted_step;

@@ -1,7 +1,7 @@
 // The noise has the statistics that it states, within five standard errors.
 
-#include <slipstep/planting/hidden_effects.h>
-#include <slipstep/planting/record_noise.h>
+#include <slipstep/synthetic_tests/hidden_effects.h>
+#include <slipstep/synthetic_tests/record_noise.h>
 
 #include <gtest/gtest.h>
 

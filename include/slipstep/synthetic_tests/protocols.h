@@ -1,8 +1,8 @@
-#ifndef slipstep_planting_protocols_h
-#define slipstep_planting_protocols_h
+#ifndef slipstep_synthetic_tests_protocols_h
+#define slipstep_synthetic_tests_protocols_h
 
 #include <slipstep/measured_data/measured_test.h>
-#include <slipstep/planting/influence.h>
+#include <slipstep/synthetic_tests/influence.h>
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
-#ifndef slipstep_planting_record_noise_h
-#define slipstep_planting_record_noise_h
+#ifndef slipstep_synthetic_tests_record_noise_h
+#define slipstep_synthetic_tests_record_noise_h
 
-#include <slipstep/planting/influence.h>
+#include <slipstep/synthetic_tests/influence.h>
 
 #include <string>
 #include <vector>

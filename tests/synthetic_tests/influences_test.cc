@@ -1,8 +1,8 @@
 // Every hidden effect: nothing at amplitude zero, and otherwise a change where
 // it should show.
 
-#include <slipstep/planting/protocols.h>
-#include <slipstep/planting/start_model.h>
+#include <slipstep/synthetic_tests/protocols.h>
+#include <slipstep/synthetic_tests/start_model.h>
 
 #include <gtest/gtest.h>
 

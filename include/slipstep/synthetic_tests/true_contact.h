@@ -1,8 +1,8 @@
-#ifndef slipstep_planting_true_contact_h
-#define slipstep_planting_true_contact_h
+#ifndef slipstep_synthetic_tests_true_contact_h
+#define slipstep_synthetic_tests_true_contact_h
 
 #include <slipstep/measured_data/measured_test.h>
-#include <slipstep/planting/influence.h>
+#include <slipstep/synthetic_tests/influence.h>
 
 #include <array>
 #include <limits>

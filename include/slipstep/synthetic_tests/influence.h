@@ -1,5 +1,5 @@
-#ifndef slipstep_planting_influence_h
-#define slipstep_planting_influence_h
+#ifndef slipstep_synthetic_tests_influence_h
+#define slipstep_synthetic_tests_influence_h
 
 #include <array>
 #include <functional>

@@ -1,6 +1,6 @@
 #include <deal.II/base/utilities.h>
 
-#include <slipstep/planting/answer.h>
+#include <slipstep/synthetic_tests/answer.h>
 
 #include <slipstep/utilities/exceptions.h>
 

@@ -1,9 +1,9 @@
-#ifndef slipstep_planting_planted_campaign_h
-#define slipstep_planting_planted_campaign_h
+#ifndef slipstep_synthetic_tests_planted_campaign_h
+#define slipstep_synthetic_tests_planted_campaign_h
 
 #include <slipstep/measured_data/measured_test.h>
-#include <slipstep/planting/record_noise.h>
-#include <slipstep/planting/true_contact.h>
+#include <slipstep/synthetic_tests/record_noise.h>
+#include <slipstep/synthetic_tests/true_contact.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,5 +1,5 @@
-#include <slipstep/planting/hidden_effects.h>
-#include <slipstep/planting/protocols.h>
+#include <slipstep/synthetic_tests/hidden_effects.h>
+#include <slipstep/synthetic_tests/protocols.h>
 
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/exceptions.h>

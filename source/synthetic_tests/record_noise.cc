@@ -1,5 +1,5 @@
-#include <slipstep/planting/hidden_effects.h>
-#include <slipstep/planting/record_noise.h>
+#include <slipstep/synthetic_tests/hidden_effects.h>
+#include <slipstep/synthetic_tests/record_noise.h>
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>

@@ -1,7 +1,7 @@
 // The same physics as the catalogue's in other formulas: only to be planted,
 // never fitted, so that it shows what a slightly wrong formula does.
 
-#include <slipstep/planting/hidden_effects.h>
+#include <slipstep/synthetic_tests/hidden_effects.h>
 
 #include <algorithm>
 

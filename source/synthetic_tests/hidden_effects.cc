@@ -1,4 +1,4 @@
-#include <slipstep/planting/hidden_effects.h>
+#include <slipstep/synthetic_tests/hidden_effects.h>
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>

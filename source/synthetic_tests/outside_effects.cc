@@ -1,7 +1,7 @@
 // Physics that no effect of the catalogue has: the right verdict is that
 // something unknown is missing.
 
-#include <slipstep/planting/hidden_effects.h>
+#include <slipstep/synthetic_tests/hidden_effects.h>
 
 #include <boost/math/constants/constants.hpp>
 

@@ -1,7 +1,7 @@
 // The formulas of the catalogue, written anew. Amplitudes are turned into
 // parameters of the formulas, which are named as in a case file.
 
-#include <slipstep/planting/hidden_effects.h>
+#include <slipstep/synthetic_tests/hidden_effects.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
-#include <slipstep/planting/hidden_effects.h>
-#include <slipstep/planting/planted_campaign.h>
-#include <slipstep/planting/protocols.h>
-#include <slipstep/planting/start_model.h>
+#include <slipstep/synthetic_tests/hidden_effects.h>
+#include <slipstep/synthetic_tests/planted_campaign.h>
+#include <slipstep/synthetic_tests/protocols.h>
+#include <slipstep/synthetic_tests/start_model.h>
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>

@@ -1,6 +1,6 @@
-#include <slipstep/planting/answer.h>
-#include <slipstep/planting/plant.h>
-#include <slipstep/planting/planted_campaign.h>
+#include <slipstep/synthetic_tests/answer.h>
+#include <slipstep/synthetic_tests/plant.h>
+#include <slipstep/synthetic_tests/planted_campaign.h>
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/write_file.h>
