@@ -26,11 +26,11 @@
 #include <slipstep/solid/refine_block.h>
 #include <slipstep/solid/run_block.h>
 #include <slipstep/utilities/command_line.h>
-#include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/parameters.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <sys/prctl.h>

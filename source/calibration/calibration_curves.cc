@@ -6,7 +6,7 @@
 
 #include <slipstep/experiment/report_drawing.h>
 #include <slipstep/experiment/text_table.h>
-#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <array>

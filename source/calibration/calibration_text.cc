@@ -1,7 +1,7 @@
 #include <slipstep/calibration/calibration_text.h>
 
 #include <slipstep/experiment/report_data.h>
-#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -113,31 +113,6 @@ namespace SlipStep
 
 
 
-  std::vector<std::string> constraint_sentences(const Calibration &calibration)
-  {
-    std::map<std::string, std::string> stopped;
-    std::set<std::string>              wanted;
-    for (const FittedParameter &fitted : calibration.parameters)
-      if (!fitted.constraint.empty())
-        {
-          std::string &names = stopped[fitted.constraint];
-          names += (names.empty() ? "" : " and ") + label_of(fitted.parameter);
-          if (fitted.is_wanted_beyond)
-            wanted.insert(fitted.constraint);
-        }
-    std::vector<std::string> sentences;
-    for (const auto &[constraint, names] : stopped)
-      sentences.push_back(
-        names + " stopped at a condition of the law: " + constraint +
-        (wanted.count(constraint) > 0 ?
-           ". The tests want the other side of it: choose effects that allow "
-           "it ('slipstep effects' lists them)." :
-           ". The tests want the other side of it, or do not need the effect."));
-    return sentences;
-  }
-
-
-
   std::string close_pairs(const Calibration &calibration)
   {
     constexpr double                            close    = 0.95;
@@ -210,20 +185,6 @@ namespace SlipStep
 
 
 
-  std::string plain_text(const double value, const unsigned int n_digits)
-  {
-    return std::isfinite(value) ? rounded_text(value, n_digits) : "–";
-  }
-
-
-
-  std::string label_of(const FitParameter &parameter)
-  {
-    return parameter.name.empty() ? parameter.path : parameter.name;
-  }
-
-
-
   std::string digits_text(const FittedParameter &fitted, const double value)
   {
     const FitParameter &parameter = fitted.parameter;
@@ -279,45 +240,5 @@ namespace SlipStep
     return std::isfinite(quantity.deviation) ?
              "± " + short_text(quantity.deviation, 2) :
              "unknown";
-  }
-
-
-
-  double noise_ratio(const TestMisfit &test)
-  {
-    return test.noise > 0. ? test.rms / test.noise :
-                             std::numeric_limits<double>::quiet_NaN();
-  }
-
-
-
-  std::vector<StartComparison> compare_starts(const Calibration &calibration)
-  {
-    std::vector<StartComparison> comparisons;
-    for (const StartResult &start : calibration.starts)
-      {
-        const StartResult &best = calibration.starts.front();
-        StartComparison    comparison;
-        comparison.has_end = !start.end.empty() && !best.end.empty();
-        for (std::size_t i = 0; comparison.has_end && i < start.end.size(); ++i)
-          {
-            const FitParameter &parameter = calibration.parameters[i].parameter;
-            const double distance = std::abs(parameter.to_scaled(start.end[i]) -
-                                             parameter.to_scaled(best.end[i]));
-            if (distance > comparison.distance)
-              {
-                comparison.distance = distance;
-                comparison.farthest = i;
-              }
-          }
-        comparison.excess = start.misfit - best.misfit;
-        // Less than what moves a single parameter by a standard deviation.
-        comparison.is_equal =
-          comparison.has_end &&
-          comparison.excess <= std::max(calibration.inflation, 1.);
-        comparison.is_same = comparison.is_equal && comparison.distance < 0.01;
-        comparisons.push_back(comparison);
-      }
-    return comparisons;
   }
 } // namespace SlipStep

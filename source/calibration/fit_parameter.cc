@@ -274,4 +274,11 @@ namespace SlipStep
     name_them(result);
     return result;
   }
+
+
+
+  std::string label_of(const FitParameter &parameter)
+  {
+    return parameter.name.empty() ? parameter.path : parameter.name;
+  }
 } // namespace SlipStep

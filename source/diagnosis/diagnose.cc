@@ -12,6 +12,7 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include <slipstep/diagnosis/diagnosis_sections.h>
 #include <slipstep/diagnosis/diagnosis_text.h>
 #include <slipstep/experiment/report_data.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <array>

@@ -6,6 +6,7 @@
 #include <slipstep/experiment/report_data.h>
 #include <slipstep/experiment/report_html.h>
 #include <slipstep/utilities/figure.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <algorithm>

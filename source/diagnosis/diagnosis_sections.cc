@@ -3,6 +3,7 @@
 #include <slipstep/diagnosis/diagnosis_text.h>
 #include <slipstep/experiment/report_data.h>
 #include <slipstep/experiment/report_html.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>

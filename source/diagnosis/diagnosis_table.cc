@@ -4,6 +4,7 @@
 
 #include <slipstep/experiment/report_data.h>
 #include <slipstep/experiment/text_table.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 

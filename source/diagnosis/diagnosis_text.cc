@@ -2,6 +2,7 @@
 
 #include <slipstep/calibration/calibration_text.h>
 #include <slipstep/experiment/report_data.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -190,15 +191,6 @@ namespace SlipStep
 
 
 
-  std::string capitalised(std::string text)
-  {
-    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
-      text[0] += 'A' - 'a';
-    return text;
-  }
-
-
-
   std::string headline(const Diagnosis &diagnosis)
   {
     const bool        is_stated = diagnosis.n_replicate_pairs == 0;
@@ -278,20 +270,6 @@ namespace SlipStep
 
 
 
-  std::string list_text(const std::vector<std::string> &names,
-                        const std::string              &before_last)
-  {
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i)
-      text += (i == 0                ? "" :
-               i + 1 == names.size() ? " " + before_last + " " :
-                                       ", ") +
-              names[i];
-    return text;
-  }
-
-
-
   std::string names_text(const Diagnosis &diagnosis)
   {
     std::vector<std::string> alternatives;
@@ -315,21 +293,6 @@ namespace SlipStep
 
 
 
-  std::string percent_text(const double share)
-  {
-    const double percent = 100. * share;
-    const double size    = std::abs(percent);
-    if (!std::isfinite(percent))
-      return "–";
-    return (size >= 99.95                ? fixed_text(percent, 0) :
-            size >= 9.995                ? fixed_text(percent, 1) :
-            size >= 0.0995 || size == 0. ? fixed_text(percent, 2) :
-                                           plain_text(percent, 2)) +
-           " %";
-  }
-
-
-
   std::string chance_text(const double p, const unsigned int n_draws)
   {
     // Two thirds of the chance belong to one statistic, see test_gap().
@@ -348,13 +311,6 @@ namespace SlipStep
       if (candidate.standing != Standing::in_the_model)
         tried.push_back(candidate.name);
     return "none of the effects asked for (" + list_text(tried) + ") explains";
-  }
-
-
-
-  std::string in_quotes(const std::string &test)
-  {
-    return "'" + test + "'";
   }
 
 

@@ -3,7 +3,7 @@
 #include <slipstep/calibration/panel_grid.h>
 #include <slipstep/diagnosis/diagnosis_figures.h>
 #include <slipstep/experiment/text_table.h>
-#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 
 namespace SlipStep
 {

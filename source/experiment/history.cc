@@ -1,6 +1,7 @@
 #include <slipstep/experiment/history.h>
 
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 #include <slipstep/experiment/programme.h>
 
 #include <slipstep/measured_data/measured_test.h>
-#include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/home_folder.h>
 #include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
 #include <deal.II/base/exceptions.h>

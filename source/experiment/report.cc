@@ -5,6 +5,7 @@
 #include <slipstep/experiment/report_figures.h>
 #include <slipstep/experiment/report_html.h>
 #include <slipstep/utilities/figure.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/numbers.h>

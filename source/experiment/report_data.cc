@@ -1,5 +1,6 @@
 #include <slipstep/experiment/report_data.h>
 
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
 #include <algorithm>
@@ -324,36 +325,5 @@ namespace SlipStep
       return unsteady;
     return friction_of(steady, reference) +
            (unsteady.empty() ? "" : " " + unsteady);
-  }
-
-
-
-  std::string fixed_text(const double value, const int decimals)
-  {
-    if (!std::isfinite(value))
-      return "–";
-    char buffer[64];
-    std::snprintf(buffer, sizeof(buffer), "%.*f", decimals, value);
-    // Without the sign of a negative value that is rounded to zero.
-    const bool is_zero = std::strspn(buffer, "-0.") == std::strlen(buffer);
-    return is_zero && buffer[0] == '-' ? buffer + 1 : buffer;
-  }
-
-
-
-  std::string short_text(const double value, const int significant)
-  {
-    if (!std::isfinite(value))
-      return "–";
-    char buffer[64];
-    std::snprintf(buffer, sizeof(buffer), "%.*g", significant, value);
-    return buffer;
-  }
-
-
-
-  std::string speed_text(const double speed)
-  {
-    return short_text(speed * mm_min) + " mm/min";
   }
 } // namespace SlipStep

@@ -1,4 +1,5 @@
 #include <slipstep/experiment/report_drawing.h>
+#include <slipstep/utilities/text.h>
 
 namespace SlipStep
 {

@@ -1,6 +1,7 @@
 #include <slipstep/experiment/report_faces.h>
 
 #include <slipstep/experiment/report_drawing.h>
+#include <slipstep/utilities/text.h>
 
 #include <array>
 

@@ -4,6 +4,7 @@
 #include <slipstep/experiment/report_faces.h>
 
 #include <slipstep/utilities/figure.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <slipstep/experiment/report_drawing.h>
 #include <slipstep/experiment/report_html.h>
 #include <slipstep/experiment/study_results.h>
-#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 
 #include <cmath>
 

@@ -2,8 +2,8 @@
 
 #include <slipstep/experiment/convergence.h>
 #include <slipstep/experiment/report_data.h>
-#include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/version.h>
 #include <slipstep/utilities/write_file.h>
 

@@ -3,6 +3,7 @@
 #include <slipstep/measured_data/resample.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 
 #include <cmath>
 #include <limits>

@@ -3,6 +3,7 @@
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <slipstep/measured_data/test_rows.h>
 
-#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <slipstep/measured_data/test_set.h>
 
 #include <slipstep/measured_data/test_rows.h>
-#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <slipstep/solid/attempt_together.h>
 #include <slipstep/solid/error_indicator.h>
-#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/mpi.h>

@@ -2,8 +2,8 @@
 
 #include <slipstep/solid/attempt_together.h>
 #include <slipstep/solid/block_probes.h>
-#include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 #include <slipstep/utilities/write_file.h>
 

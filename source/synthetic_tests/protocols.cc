@@ -1,8 +1,8 @@
 #include <slipstep/synthetic_tests/hidden_effects.h>
 #include <slipstep/synthetic_tests/protocols.h>
 
-#include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 
 #include <boost/math/constants/constants.hpp>
 

@@ -1,7 +1,7 @@
 #include <slipstep/synthetic_tests/hidden_effects.h>
 #include <slipstep/synthetic_tests/start_model.h>
 
-#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 

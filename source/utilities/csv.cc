@@ -120,31 +120,6 @@ namespace SlipStep
 
 
 
-  std::string exact_text(const double value)
-  {
-    std::array<char, 32> buffer;
-    const auto           result =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return std::string(buffer.data(), result.ptr);
-  }
-
-
-
-  std::string rounded_text(const double value, const unsigned int n_digits)
-  {
-    std::array<char, 64> buffer;
-    const auto           result  = std::to_chars(buffer.data(),
-                                      buffer.data() + buffer.size(),
-                                      value,
-                                      std::chars_format::scientific,
-                                      n_digits - 1);
-    double               rounded = value;
-    std::from_chars(buffer.data(), result.ptr, rounded);
-    return exact_text(rounded == 0. ? 0. : rounded);
-  }
-
-
-
   CsvTable::CsvTable(const std::filesystem::path &file, const CsvFormat &format)
     : format(format)
   {

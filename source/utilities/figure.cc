@@ -1,7 +1,7 @@
 #include <slipstep/utilities/figure.h>
 
-#include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/process.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <cmath>

@@ -1,7 +1,6 @@
 // slipstep refine, from the command line to its files.
 
 #include <slipstep/experiment/summary.h>
-#include <slipstep/utilities/csv.h>
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 
 #include <slipstep/experiment/report.h>
 #include <slipstep/experiment/text_table.h>
+#include <slipstep/utilities/text.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #define tests_experiment_point_run_h
 
 #include <slipstep/experiment/point_driver.h>
-#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 
 #include <vector>
 

@@ -6,7 +6,7 @@
 #include <slipstep/friction/law.h>
 #include <slipstep/synthetic_tests/protocols.h>
 #include <slipstep/synthetic_tests/start_model.h>
-#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/text.h>
 
 #include <gtest/gtest.h>
 

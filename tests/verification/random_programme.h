@@ -3,7 +3,6 @@
 
 #include "../experiment/point_run.h"
 
-#include <slipstep/utilities/csv.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include "random_programme.h"
 
 #include <slipstep/experiment/stability.h>
+#include <slipstep/utilities/text.h>
 
 #include <gtest/gtest.h>
 

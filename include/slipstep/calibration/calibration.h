@@ -133,6 +133,26 @@ namespace SlipStep
     double                   cpu_time      = 0.; ///< [s]
     std::vector<std::string> warnings;
   };
+
+  /// Difference over noise, NaN without noise.
+  double noise_ratio(const TestMisfit &test);
+
+  /// Where a start of the search ended, seen from where the best one did.
+  struct StartComparison
+  {
+    double      excess   = 0.; ///< of chi^2
+    double      distance = 0.; ///< largest, of the range between the bounds
+    std::size_t farthest = 0;  ///< the parameter with this distance
+    bool        has_end  = false;
+    bool        is_same  = false; ///< the same optimum
+    bool        is_equal = false; ///< as good, in the same place or not
+  };
+
+  /// For every start, the best one first.
+  std::vector<StartComparison> compare_starts(const Calibration &calibration);
+
+  /// Which parameters stopped at which condition of the law, and what to do.
+  std::vector<std::string> constraint_sentences(const Calibration &calibration);
 } // namespace SlipStep
 
 #endif

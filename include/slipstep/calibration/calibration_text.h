@@ -10,15 +10,11 @@ namespace SlipStep
 {
   /// @name What a calibration found, in the words of screen and page.
   ///@{
-
   /// "6 parameters from 4 tests: rms difference of friction 0.0021 ..."
   std::string calibration_headline(const Calibration &calibration);
 
   /// Those parameters whose interval is open, "" if there are none.
   std::string open_intervals(const Calibration &calibration);
-
-  /// Which parameters stopped at which condition of the law, and what to do.
-  std::vector<std::string> constraint_sentences(const Calibration &calibration);
 
   /// Pairs that the tests determine only together, apart from those that a weak
   /// direction names; "" if there are none.
@@ -34,13 +30,6 @@ namespace SlipStep
   /// "95 % interval"
   std::string interval_name(const Calibration &calibration);
 
-  /// Without an exponent where the number is not longer for it; "–" if it is
-  /// none.
-  std::string plain_text(const double value, const unsigned int n_digits);
-
-  /// How the tables call a parameter.
-  std::string label_of(const FitParameter &parameter);
-
   /// A value with as many digits as its uncertainty leaves meaning, without
   /// unit. @p value in base units.
   std::string digits_text(const FittedParameter &fitted, const double value);
@@ -53,23 +42,6 @@ namespace SlipStep
   std::string deviation_text(const FittedParameter &fitted);
   std::string deviation_text(const DerivedQuantity &quantity);
   ///@}
-
-  /// Difference over noise, NaN without noise.
-  double noise_ratio(const TestMisfit &test);
-
-  /// Where a start of the search ended, seen from where the best one did.
-  struct StartComparison
-  {
-    double      excess   = 0.; ///< of chi^2
-    double      distance = 0.; ///< largest, of the range between the bounds
-    std::size_t farthest = 0;  ///< the parameter with this distance
-    bool        has_end  = false;
-    bool        is_same  = false; ///< the same optimum
-    bool        is_equal = false; ///< as good, in the same place or not
-  };
-
-  /// For every start, the best one first.
-  std::vector<StartComparison> compare_starts(const Calibration &calibration);
 } // namespace SlipStep
 
 #endif

@@ -51,6 +51,9 @@ namespace SlipStep
   /// or without meaning for a contact point, bounds that are not allowed, a
   /// start outside of them, none at all
   std::vector<FitParameter> read_fit_parameters(const Parameters &parameters);
+
+  /// How the tables call a parameter.
+  std::string label_of(const FitParameter &parameter);
 } // namespace SlipStep
 
 #endif

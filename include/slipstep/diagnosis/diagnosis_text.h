@@ -11,7 +11,6 @@ namespace SlipStep
   /// @name What a diagnosis found, in the words of screen and page. The
   /// sentence with the verdict is headline().
   ///@{
-
   /// "friction that rises with sliding speed"; the name itself of an effect
   /// that is not in the catalogue.
   std::string plain_words(const std::string &effect);
@@ -29,22 +28,9 @@ namespace SlipStep
   /// "no effect of the catalogue explains", or of those asked for.
   std::string nothing_explains(const Diagnosis &diagnosis);
 
-  /// With a capital at the beginning.
-  std::string capitalised(std::string text);
-
-  /// A test's name in quotation marks.
-  std::string in_quotes(const std::string &test);
-
-  /// "overstress and healing"
-  std::string list_text(const std::vector<std::string> &names,
-                        const std::string              &before_last = "and");
-
   /// What is named, each with its rivals if it has any: "softening, and
   /// overstress or stribeck"
   std::string names_text(const Diagnosis &diagnosis);
-
-  /// A share as "4.12 %", with the digits that are worth reading.
-  std::string percent_text(const double share);
 
   /// A chance; "≤ 0.001" where so many draws tell none that is smaller.
   std::string chance_text(const double p, const unsigned int n_draws);

@@ -82,13 +82,6 @@ namespace SlipStep
   /// A sentence or two with the numbers that matter, of completed slides only.
   std::string headline(const std::vector<ResultRow> &rows,
                        const Reference              &reference);
-
-  /// @name Numbers as text; "–" where undefined.
-  ///@{
-  std::string fixed_text(const double value, const int decimals);
-  std::string short_text(const double value, const int significant = 4);
-  std::string speed_text(const double speed); ///< [mm/s] as "10 mm/min"
-  ///@}
 } // namespace SlipStep
 
 #endif

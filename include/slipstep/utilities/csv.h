@@ -144,12 +144,6 @@ namespace SlipStep
     mutable const char *first_comma = nullptr;
     mutable const char *first_point = nullptr;
   };
-
-  /// Shortest decimal text that reads back as exactly the same number.
-  std::string exact_text(const double value);
-
-  /// Shortest decimal text with at most so many significant digits.
-  std::string rounded_text(const double value, const unsigned int n_digits);
 } // namespace SlipStep
 
 #endif
