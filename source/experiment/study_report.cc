@@ -1,9 +1,8 @@
 // The pictures and the HTML of a refinement study.
 
-#include <slipstep/experiment/report_data.h>
 #include <slipstep/experiment/report_drawing.h>
 #include <slipstep/experiment/report_html.h>
-#include <slipstep/experiment/study_results.h>
+#include <slipstep/experiment/study_report.h>
 #include <slipstep/utilities/text.h>
 
 #include <cmath>

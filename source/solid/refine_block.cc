@@ -6,7 +6,7 @@
 #include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/run_recorder.h>
-#include <slipstep/experiment/study_results.h>
+#include <slipstep/experiment/study_report.h>
 #include <slipstep/experiment/sweep.h>
 #include <slipstep/solid/case.h>
 #include <slipstep/utilities/exceptions.h>

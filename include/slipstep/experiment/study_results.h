@@ -2,9 +2,7 @@
 #define slipstep_experiment_study_results_h
 
 #include <slipstep/experiment/refinement_study.h>
-#include <slipstep/experiment/report_figures.h>
 #include <slipstep/experiment/summary.h>
-#include <slipstep/experiment/text_table.h>
 
 #include <filesystem>
 #include <optional>
@@ -79,35 +77,6 @@ namespace SlipStep
   /// kind, or else from the one that it is compared with.
   std::vector<StudyCurve> study_curves(const RefinementStudy       &study,
                                        const std::filesystem::path &output);
-
-  /// A table of what was found, one row per curve; then one table per curve,
-  /// the reasons of runs that failed, and what is doubtful about others.
-  std::string study_tables(const std::vector<StudyCurve> &curves);
-
-  /// Write refinement.csv: one row per quantity and run.
-  /// @throws RunError if the disk refuses
-  void write_study_csv(const std::filesystem::path   &file,
-                       const std::vector<StudyCurve> &curves);
-
-  /// Write refinement.json: the same for programs, with the cheapest run for
-  /// an error of 1 % in every curve.
-  /// @throws RunError if the disk refuses
-  void write_study_json(const std::filesystem::path   &file,
-                        const std::vector<StudyCurve> &curves);
-
-  /// Error against unknowns and against processor time, a picture per
-  /// quantity, with data and scripts in @p folder.
-  std::vector<Picture> draw_study(const std::filesystem::path   &folder,
-                                  const std::vector<StudyCurve> &curves,
-                                  std::vector<std::string>      &warnings);
-
-  /// What was found, one line per curve: quantity, runs, reference, error of
-  /// the finest run, order, cheapest run for 1 %.
-  std::vector<TableLine> study_summary(const std::vector<StudyCurve> &curves);
-
-  /// The part of report.html about a study.
-  std::string study_html(const std::vector<StudyCurve> &curves,
-                         const std::vector<Picture>    &pictures);
 } // namespace SlipStep
 
 #endif
