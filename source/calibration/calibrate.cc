@@ -1,25 +1,15 @@
 #include <slipstep/calibration/advice.h>
 #include <slipstep/calibration/calibrate.h>
-#include <slipstep/calibration/calibration_report.h>
-#include <slipstep/calibration/calibration_text.h>
 #include <slipstep/calibration/fit.h>
-#include <slipstep/experiment/point_driver.h>
-#include <slipstep/experiment/results_folder.h>
-#include <slipstep/experiment/run_recorder.h>
-#include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
-#include <slipstep/utilities/progress.h>
-#include <slipstep/utilities/write_file.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <iostream>
 #include <memory>
 #include <mutex>
 #include <numeric>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -494,39 +484,5 @@ namespace SlipStep
       }
     result.set("Calibration/Parameters", list, "calibration");
     return result;
-  }
-
-
-
-  void run_calibration(const Parameters &parameters, const RunOptions &options)
-  {
-    const std::string name = parameters.case_file().stem().string();
-    Calibration       calibration;
-    {
-      Progress progress(options.quiet, name);
-      calibration =
-        calibrate(parameters, [&](const std::string &text, const double share) {
-          progress.update(share, text);
-        });
-      progress.finish();
-    }
-
-    remove_earlier_results(options.output);
-    const std::filesystem::path file = options.output / "fitted.prm";
-    std::ostringstream          text;
-    relocated_case(fitted_case(parameters, calibration), options.output)
-      .print(text, Parameters::Format::prm, options.inactive_sections);
-    write_file(file, text.str());
-    write_calibration_json(options.output / "calibration.json",
-                           parameters,
-                           calibration);
-    print_warnings(
-      write_calibration_report(options.output, parameters, calibration));
-    print_warnings(calibration.warnings);
-    if (!options.quiet)
-      std::cout << calibration_table(calibration)
-                << "\nParameters: " << file.string()
-                << "\nReport: " << (options.output / "report.html").string()
-                << std::endl;
   }
 } // namespace SlipStep

@@ -1,5 +1,4 @@
 #include <slipstep/diagnosis/describe.h>
-#include <slipstep/diagnosis/diagnosis_text.h>
 
 #include <boost/crc.hpp>
 

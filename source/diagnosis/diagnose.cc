@@ -1,28 +1,18 @@
-#include <slipstep/diagnosis/describe.h>
 #include <slipstep/diagnosis/diagnose.h>
-#include <slipstep/diagnosis/diagnosis_json.h>
-#include <slipstep/diagnosis/diagnosis_report.h>
-#include <slipstep/diagnosis/diagnosis_text.h>
-#include <slipstep/diagnosis/element_check.h>
+
+#include <slipstep/diagnosis/describe.h>
+#include <slipstep/diagnosis/element_tests.h>
 #include <slipstep/diagnosis/improved_case.h>
 #include <slipstep/diagnosis/where.h>
-#include <slipstep/experiment/results_folder.h>
-#include <slipstep/experiment/run_recorder.h>
-#include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
-#include <slipstep/utilities/progress.h>
 #include <slipstep/utilities/text.h>
-#include <slipstep/utilities/write_file.h>
 
 #include <algorithm>
-#include <iostream>
 #include <numeric>
 
 namespace SlipStep
 {
-  namespace fs = std::filesystem;
-
   namespace
   {
     std::vector<NamedTest> named_tests(const Prepared &prepared)
@@ -295,74 +285,18 @@ namespace SlipStep
       result.wall_time        = end.wall_time - begin.wall_time;
       result.cpu_time         = end.cpu_time - begin.cpu_time;
     }
-
-
-
-    void write_results(Diagnostician    &diagnostician,
-                       const Parameters &parameters,
-                       const RunOptions &options,
-                       const fs::path   &improved)
-    {
-      Diagnosis &diagnosis = diagnostician.result;
-      write_file(improved,
-                 case_text(diagnostician.after,
-                           options.output,
-                           options.inactive_sections,
-                           diagnostician.found_parameters,
-                           {headline(diagnosis)}));
-      write_diagnosis_json(options.output / "diagnosis.json",
-                           parameters,
-                           diagnosis);
-      print_warnings(
-        write_diagnosis_report(options.output, parameters, diagnosis));
-    }
   } // namespace
 
 
 
-  void run_diagnosis(const Parameters    &parameters,
-                     const RunOptions    &options,
-                     const ElementRunner &element_runner)
+  DiagnosedCase diagnose(const Parameters &parameters, const Stage &stage)
   {
-    Progress progress(options.quiet, parameters.case_file().stem().string());
-    double   share = 0.;
-    Diagnostician diagnostician(with_parameters_listed(parameters),
-                                [&](const std::string &text) {
-                                  share += 0.3 * (1. - share);
-                                  progress.update(share, text);
-                                });
+    Diagnostician diagnostician(with_parameters_listed(parameters), stage);
     diagnostician.begin();
     diagnostician.run();
-    Diagnosis                     &diagnosis = diagnostician.result;
-    const std::vector<std::size_t> tests = element_tests(parameters, diagnosis);
-
-    remove_earlier_results(options.output);
-    const fs::path improved = options.output / "improved.prm";
-    diagnosis.improved_case = improved.filename().string();
-    write_results(diagnostician, parameters, options, improved);
-    print_warnings(diagnosis.warnings);
-    if (SignalGuard::caught() != 0)
-      throw RunError(SignalGuard::in_words() + "; what was found is kept");
-    if (!tests.empty())
-      {
-        progress.update(0.9, "simulating the block");
-        diagnosis.element_checks =
-          check_with_elements(diagnostician.before,
-                              diagnostician.after,
-                              diagnosis,
-                              tests,
-                              options.output / "elements",
-                              options.inactive_sections,
-                              element_runner);
-        write_results(diagnostician, parameters, options, improved);
-      }
-    progress.finish();
-    if (!options.quiet)
-      std::cout << diagnosis_table(diagnosis)
-                << (has_after(diagnosis) ? "\nImproved case: " :
-                                           "\nCalibrated case: ")
-                << improved.string()
-                << "\nReport: " << (options.output / "report.html").string()
-                << std::endl;
+    return {diagnostician.result,
+            diagnostician.before,
+            diagnostician.after,
+            diagnostician.found_parameters};
   }
 } // namespace SlipStep

@@ -1,13 +1,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/experiment/point_driver.h>
-
-#include <slipstep/experiment/run_recorder.h>
-#include <slipstep/experiment/stability.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/process.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -159,89 +153,5 @@ namespace SlipStep
         observe(row);
       }
     return control.n_rejected();
-  }
-
-
-
-  namespace
-  {
-    // Most laws slide backwards as they slide forwards.
-    bool is_like(const StabilitySummary &a, const StabilitySummary &b)
-    {
-      const auto differ = [](const double x, const double y) {
-        return x != y && !(std::abs(x - y) <= 1e-6 * std::abs(y));
-      };
-      return !differ(a.speed, b.speed) && !differ(a.pressure, b.pressure) &&
-             !differ(a.critical_stiffness, b.critical_stiffness);
-    }
-
-    std::vector<StabilitySummary> stability_of(const FrictionLaw &law,
-                                               const Programme   &programme,
-                                               const Machine     &machine)
-    {
-      // A replayed test has too many to be told.
-      constexpr std::size_t         most = 20;
-      std::vector<StabilitySummary> result;
-      const std::vector<Loading>    slides = steady_slides(programme, most + 1);
-      if (slides.size() > most)
-        return {};
-      for (const Loading &now : slides)
-        {
-          const SteadySliding sliding(law, now.velocity, now.pressure);
-          if (!sliding.exists())
-            continue;
-          const StabilityLimit   limit = sliding.limit(machine.mass());
-          const StabilitySummary summary{now.velocity.norm(),
-                                         now.pressure,
-                                         sliding.friction(),
-                                         machine.stiffness(),
-                                         limit.stiffness,
-                                         limit.frequency /
-                                           (2. * dealii::numbers::PI)};
-          if (std::none_of(result.begin(),
-                           result.end(),
-                           [&](const auto &other) {
-                             return is_like(summary, other);
-                           }))
-            result.push_back(summary);
-        }
-      return result;
-    }
-  } // namespace
-
-
-
-  Summary run_point(const Parameters &parameters, const RunOptions &options)
-  {
-    const FrictionLaw law(parameters);
-    const Programme   programme = parse_programme(parameters);
-    const Machine     machine(parameters);
-    RunRecorder       recorder(parameters, options, "point", law, programme);
-    if (!machine.is_rigid())
-      recorder.summary.stability = stability_of(law, programme, machine);
-    if (options.resume)
-      recorder.announce(
-        "A contact point writes no checkpoints: the run starts anew.");
-    try
-      {
-        const StepControl control(parameters, programme, law);
-        recorder.summary.rejected_steps = drive_point(
-          law,
-          programme,
-          control,
-          [&](const HistoryRow &row) {
-            recorder.record(row);
-            if (SignalGuard::caught() != 0)
-              throw RunError(SignalGuard::in_words());
-            ++recorder.summary.newton_iterations;
-          },
-          machine);
-        recorder.finish();
-      }
-    catch (const RunError &error)
-      {
-        recorder.finish(error.what());
-      }
-    return recorder.summary;
   }
 } // namespace SlipStep

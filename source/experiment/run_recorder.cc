@@ -8,10 +8,7 @@
 
 #include <deal.II/base/utilities.h>
 
-#include <sys/resource.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -19,22 +16,6 @@
 
 namespace SlipStep
 {
-  ResourceUsage ResourceUsage::now()
-  {
-    ResourceUsage usage;
-    usage.wall_time = std::chrono::duration<double>(
-                        std::chrono::steady_clock::now().time_since_epoch())
-                        .count();
-    rusage process;
-    getrusage(RUSAGE_SELF, &process);
-    for (const timeval &time : {process.ru_utime, process.ru_stime})
-      usage.cpu_time += time.tv_sec + 1e-6 * time.tv_usec;
-    usage.peak_memory = process.ru_maxrss * 1024. / 1e6;
-    return usage;
-  }
-
-
-
   void write_used_parameters(const Parameters            &parameters,
                              const std::filesystem::path &folder,
                              const std::set<std::string> &omitted_sections)

@@ -118,6 +118,32 @@ namespace SlipStep
 
 
 
+  Case read_single_case(const CommandLine &line)
+  {
+    const Case the_case = read_case(line.files.front(), line);
+    if (the_case.is_sweep())
+      throw InputError("slipstep " + line.command + " fits one case, but " +
+                       line.files.front().string() +
+                       " is a sweep: choose a member with --variant \"" +
+                       the_case.variants.front().label + "\"");
+    check_all(the_case);
+    check_output(the_case, line);
+    return the_case;
+  }
+
+
+
+  RunOptions options_of(const Case &the_case, const CommandLine &line)
+  {
+    RunOptions options;
+    options.quiet             = line.quiet;
+    options.output            = chosen_output(the_case, line);
+    options.inactive_sections = inactive_sections(the_case.parameters);
+    return options;
+  }
+
+
+
   void check_all(const Case &the_case)
   {
     output_folder(the_case.parameters);
@@ -136,6 +162,20 @@ namespace SlipStep
                          " (variant \"" + the_case.variants[i].label + "\")");
           throw InputError(message);
         }
+  }
+
+
+
+  std::vector<std::string> warnings_of_programmes(const Case &the_case)
+  {
+    std::set<std::string> warnings;
+    for (const Parameters &parameters : the_case.complete)
+      {
+        const Programme programme = parse_programme(parameters);
+        warnings.insert(programme.warnings().begin(),
+                        programme.warnings().end());
+      }
+    return {warnings.begin(), warnings.end()};
   }
 
 

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -236,5 +237,21 @@ namespace SlipStep
     std::cout.flush();
     std::cerr.flush();
     std::raise(caught_signal);
+  }
+
+
+
+  ResourceUsage ResourceUsage::now()
+  {
+    ResourceUsage usage;
+    usage.wall_time = std::chrono::duration<double>(
+                        std::chrono::steady_clock::now().time_since_epoch())
+                        .count();
+    rusage process;
+    getrusage(RUSAGE_SELF, &process);
+    for (const timeval &time : {process.ru_utime, process.ru_stime})
+      usage.cpu_time += time.tv_sec + 1e-6 * time.tv_usec;
+    usage.peak_memory = process.ru_maxrss * 1024. / 1e6;
+    return usage;
   }
 } // namespace SlipStep

@@ -2,7 +2,6 @@
 #define slipstep_calibration_calibrate_h
 
 #include <slipstep/calibration/calibration.h>
-#include <slipstep/experiment/run_options.h>
 
 #include <functional>
 
@@ -21,9 +20,6 @@ namespace SlipStep
   /// The case with the values found, in place of the start values.
   Parameters fitted_case(const Parameters  &parameters,
                          const Calibration &calibration);
-
-  /// `slipstep calibrate`: with all its files.
-  void run_calibration(const Parameters &parameters, const RunOptions &options);
 } // namespace SlipStep
 
 #endif

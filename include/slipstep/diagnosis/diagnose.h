@@ -2,35 +2,26 @@
 #define slipstep_diagnosis_diagnose_h
 
 #include <slipstep/diagnosis/diagnosis.h>
-#include <slipstep/experiment/run_options.h>
+#include <slipstep/diagnosis/prepare.h>
 
-#include <filesystem>
-#include <functional>
-#include <string>
 #include <vector>
 
 namespace SlipStep
 {
-  /// A case to be simulated with finite elements, and where to.
-  struct ElementJob
+  /// What was found, and the cases to go on with.
+  struct DiagnosedCase
   {
-    std::string           label;
-    std::filesystem::path case_file;
-    std::filesystem::path output;
+    Diagnosis                       diagnosis;
+    Parameters                      before;     ///< the calibrated case
+    Parameters                      after;      ///< with what was missing
+    std::vector<DiagnosedParameter> parameters; ///< of the latter
   };
 
-  /// Simulates cases with finite elements. A job that fails leaves no
-  /// history.csv.
-  using ElementRunner = std::function<void(const std::vector<ElementJob> &)>;
-
-  /// `slipstep diagnose`: finds where the case and its measured tests disagree,
-  /// names what is missing, adds it, and shows the gap shrink; with all its
-  /// files.
+  /// Find where a case and its measured tests disagree, name what is missing,
+  /// add it, and see the gap shrink; all on the contact point.
   /// @throws InputError for anything wrong with case or tests, RunError if the
   /// starting model cannot be simulated
-  void run_diagnosis(const Parameters    &parameters,
-                     const RunOptions    &options,
-                     const ElementRunner &element_runner);
+  DiagnosedCase diagnose(const Parameters &parameters, const Stage &stage);
 } // namespace SlipStep
 
 #endif

@@ -245,9 +245,6 @@ namespace SlipStep
     double                   wall_time = 0.; ///< [s]
     double                   cpu_time  = 0.; ///< [s]
   };
-
-  /// The verdict in one sentence with its numbers.
-  std::string headline(const Diagnosis &diagnosis);
 } // namespace SlipStep
 
 #endif

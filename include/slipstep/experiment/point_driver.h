@@ -3,9 +3,7 @@
 
 #include <slipstep/experiment/history.h>
 #include <slipstep/experiment/machine.h>
-#include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/step_control.h>
-#include <slipstep/experiment/summary.h>
 #include <slipstep/friction/law.h>
 
 #include <functional>
@@ -36,9 +34,6 @@ namespace SlipStep
               StepControl                                    control,
               const std::function<void(const HistoryRow &)> &observe,
               const Machine                                 &machine = {});
-
-  /// `slipstep point`: the case on one contact point, with all its files.
-  Summary run_point(const Parameters &parameters, const RunOptions &options);
 } // namespace SlipStep
 
 #endif

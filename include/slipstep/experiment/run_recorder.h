@@ -8,6 +8,7 @@
 #include <slipstep/experiment/summary.h>
 #include <slipstep/experiment/work_estimate.h>
 #include <slipstep/friction/law.h>
+#include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
 
 #include <filesystem>
@@ -18,16 +19,6 @@
 
 namespace SlipStep
 {
-  /// Wall and processor time and memory of this process so far.
-  struct ResourceUsage
-  {
-    double wall_time   = 0.; ///< [s], of the recorder
-    double cpu_time    = 0.; ///< [s]
-    double peak_memory = 0.; ///< [MB]
-
-    static ResourceUsage now();
-  };
-
   /// Write used_parameters.prm, which can be run again.
   /// @param omitted_sections not written: values for what is off are errors
   /// @throws RunError if the disk refuses

@@ -1,6 +1,7 @@
 #ifndef slipstep_solid_case_h
 #define slipstep_solid_case_h
 
+#include <slipstep/experiment/run_options.h>
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/parameters.h>
 
@@ -40,13 +41,24 @@ namespace SlipStep
   /// @throws InputError
   Case read_case(const std::filesystem::path &file, const CommandLine &line);
 
+  /// The same for a command that takes one case: checked, with a folder for
+  /// its results that may be written.
+  /// @throws InputError, also for a sweep
+  Case read_single_case(const CommandLine &line);
+
   /// check_case() for all runs of a case.
   /// @throws InputError naming the variant
   void check_all(const Case &the_case);
 
+  /// What was done to the rows of tests that programmes follow, each once.
+  std::vector<std::string> warnings_of_programmes(const Case &the_case);
+
   /// Where the results of a case go; of one variant, its own folder.
   std::filesystem::path chosen_output(const Case        &the_case,
                                       const CommandLine &line);
+
+  /// What such a command passes on.
+  RunOptions options_of(const Case &the_case, const CommandLine &line);
 
   /// check_output_folder() for all runs of a case.
   /// @throws InputError

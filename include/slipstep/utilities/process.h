@@ -81,6 +81,16 @@ namespace SlipStep
   private:
     struct sigaction old_interrupt, old_terminate, old_user;
   };
+
+  /// Wall and processor time and memory of this process so far.
+  struct ResourceUsage
+  {
+    double wall_time   = 0.; ///< [s], since some beginning
+    double cpu_time    = 0.; ///< [s]
+    double peak_memory = 0.; ///< [MB]
+
+    static ResourceUsage now();
+  };
 } // namespace SlipStep
 
 #endif

@@ -1,8 +1,8 @@
-#include <slipstep/diagnosis/element_check.h>
-#include <slipstep/diagnosis/improved_case.h>
+#include <slipstep/commands/element_check.h>
+
 #include <slipstep/measured_data/measured_test.h>
+#include <slipstep/report/case_text.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <algorithm>
@@ -12,76 +12,6 @@
 namespace SlipStep
 {
   namespace fs = std::filesystem;
-
-  namespace
-  {
-    const char *const tests_key = "Diagnosis/Element tests";
-
-    // Whether a test of this name and file is meant.
-    bool is_called(const std::string &name,
-                   const fs::path    &file,
-                   const std::string &wanted)
-    {
-      return name == wanted || file.filename() == wanted ||
-             file.stem() == wanted;
-    }
-  } // namespace
-
-
-
-  void check_element_tests(const Parameters             &parameters,
-                           const std::vector<NamedTest> &tests)
-  {
-    const std::vector<std::string> list = parameters.list(tests_key);
-    if (list.empty())
-      parameters.reject(tests_key, "name tests, or write 'worst' or 'none'");
-    for (const std::string &name : list)
-      {
-        if (list.size() == 1 && (name == "worst" || name == "none"))
-          return;
-        std::vector<std::string> known = {"worst", "none"};
-        bool                     found = false;
-        for (const NamedTest &test : tests)
-          {
-            found = found || is_called(test.first, test.second, name);
-            known.push_back(test.first);
-            known.push_back(test.second.filename().string());
-          }
-        if (!found)
-          parameters.reject(tests_key,
-                            "there is no test '" + name + "'" +
-                              did_you_mean(name, known));
-      }
-  }
-
-
-
-  std::vector<std::size_t> element_tests(const Parameters &parameters,
-                                         const Diagnosis  &diagnosis)
-  {
-    const std::vector<DiagnosedTest> &tests = diagnosis.tests;
-    const std::vector<std::string>    list  = parameters.list(tests_key);
-    std::vector<std::size_t>          result;
-    if (list == std::vector<std::string>{"none"})
-      return result;
-    if (list == std::vector<std::string>{"worst"})
-      {
-        for (std::size_t i = 0; i < tests.size(); ++i)
-          if (!tests[i].is_outlier &&
-              (result.empty() ||
-               tests[i].rms_before > tests[result[0]].rms_before))
-            result = {i};
-        return result;
-      }
-    for (std::size_t i = 0; i < tests.size(); ++i)
-      if (std::any_of(list.begin(), list.end(), [&](const std::string &name) {
-            return is_called(tests[i].name, tests[i].file, name);
-          }))
-        result.push_back(i);
-    return result;
-  }
-
-
 
   namespace
   {

@@ -1,5 +1,5 @@
-#ifndef slipstep_outcome_h
-#define slipstep_outcome_h
+#ifndef slipstep_commands_outcome_h
+#define slipstep_commands_outcome_h
 
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
-#include <slipstep/outcome.h>
+#include <slipstep/commands/outcome.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/message_lines.h>
 #include <slipstep/utilities/pattern_words.h>

@@ -1,0 +1,13 @@
+#ifndef slipstep_commands_calibrate_h
+#define slipstep_commands_calibrate_h
+
+#include <slipstep/utilities/command_line.h>
+
+namespace SlipStep
+{
+  /// The command `slipstep calibrate`.
+  /// @throws InputError, RunError
+  int calibrate_case(const CommandLine &line);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,14 @@
+#ifndef slipstep_commands_check_h
+#define slipstep_commands_check_h
+
+#include <slipstep/commands/outcome.h>
+#include <slipstep/utilities/command_line.h>
+
+namespace SlipStep
+{
+  /// The command `slipstep check`: cases, measured tests, folders of them, and
+  /// maps of `slipstep import`, each with its own message.
+  Outcome check(const CommandLine &line);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,12 @@
+#ifndef slipstep_commands_commands_h
+#define slipstep_commands_commands_h
+
+#include <slipstep/commands/outcome.h>
+
+namespace SlipStep
+{
+  /// Read the command line and do what it says.
+  Outcome start(const int argc, char **argv);
+} // namespace SlipStep
+
+#endif

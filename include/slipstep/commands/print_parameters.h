@@ -1,0 +1,14 @@
+#ifndef slipstep_commands_print_parameters_h
+#define slipstep_commands_print_parameters_h
+
+#include <slipstep/utilities/command_line.h>
+
+namespace SlipStep
+{
+  /// The command `slipstep parameters [import]`: all parameters of a case, or
+  /// of a map, with their defaults.
+  /// @throws InputError
+  int print_parameters(const CommandLine &line);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,14 @@
+#ifndef slipstep_commands_run_h
+#define slipstep_commands_run_h
+
+#include <slipstep/commands/outcome.h>
+#include <slipstep/utilities/command_line.h>
+
+namespace SlipStep
+{
+  /// The commands `slipstep run` and `slipstep point`: a case, or the members
+  /// of a sweep side by side, with their report.
+  Outcome run(const CommandLine &line);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,23 @@
+#ifndef slipstep_report_case_text_h
+#define slipstep_report_case_text_h
+
+#include <slipstep/diagnosis/diagnosis.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// The text of a case for a file in @p folder, with the intervals of the
+  /// parameters as comments behind their values.
+  /// @param head lines of comment at the beginning
+  std::string case_text(const Parameters            &the_case,
+                        const std::filesystem::path &folder,
+                        const std::set<std::string> &inactive_sections,
+                        const std::vector<DiagnosedParameter> &parameters = {},
+                        const std::vector<std::string>        &head       = {});
+} // namespace SlipStep
+
+#endif

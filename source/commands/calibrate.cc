@@ -1,0 +1,61 @@
+#include <slipstep/calibration/calibrate.h>
+#include <slipstep/calibration/calibration_report.h>
+#include <slipstep/commands/calibrate.h>
+#include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/results_folder.h>
+#include <slipstep/solid/case.h>
+#include <slipstep/utilities/process.h>
+#include <slipstep/utilities/progress.h>
+#include <slipstep/utilities/write_file.h>
+
+#include <iostream>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    void write_results(const Parameters  &parameters,
+                       const RunOptions  &options,
+                       const Calibration &calibration)
+    {
+      remove_earlier_results(options.output);
+      const std::filesystem::path file = options.output / "fitted.prm";
+      std::ostringstream          text;
+      relocated_case(fitted_case(parameters, calibration), options.output)
+        .print(text, Parameters::Format::prm, options.inactive_sections);
+      write_file(file, text.str());
+      write_calibration_json(options.output / "calibration.json",
+                             parameters,
+                             calibration);
+      print_warnings(
+        write_calibration_report(options.output, parameters, calibration));
+      print_warnings(calibration.warnings);
+      if (!options.quiet)
+        std::cout << calibration_table(calibration)
+                  << "\nParameters: " << file.string()
+                  << "\nReport: " << (options.output / "report.html").string()
+                  << std::endl;
+    }
+  } // namespace
+
+
+
+  int calibrate_case(const CommandLine &line)
+  {
+    const Case          the_case = read_single_case(line);
+    const RunOptions    options  = options_of(the_case, line);
+    const SignalGuard   guard;
+    const ResultsFolder results(options.output, line.command);
+    Progress            progress(options.quiet,
+                      the_case.parameters.case_file().stem().string());
+    const Calibration   calibration =
+      calibrate(the_case.parameters,
+                [&](const std::string &text, const double share) {
+                  progress.update(share, text);
+                });
+    progress.finish();
+    write_results(the_case.parameters, options, calibration);
+    return 0;
+  }
+} // namespace SlipStep

@@ -1,0 +1,78 @@
+#include <slipstep/calibration/campaign.h>
+#include <slipstep/commands/check.h>
+#include <slipstep/experiment/point_driver.h>
+#include <slipstep/measured_data/import_tests.h>
+#include <slipstep/measured_data/test_set.h>
+#include <slipstep/solid/case.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace SlipStep
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    void check_case_file(const fs::path &file, const CommandLine &line)
+    {
+      const Case the_case = read_case(file, line);
+      check_all(the_case);
+      if (!line.output.empty())
+        check_output(the_case, line);
+      print_warnings(warnings_of_programmes(the_case));
+      for (const Parameters &parameters : the_case.complete)
+        if (!parameters.text("Calibration/Parameters").empty())
+          print_warnings(Campaign(parameters).warnings());
+      if (!line.quiet)
+        std::cout << file.string() << ": OK"
+                  << (the_case.is_sweep() ?
+                        ", " + std::to_string(the_case.variants.size()) +
+                          " variants" :
+                        "")
+                  << std::endl;
+    }
+
+
+
+    // A measured test, or a folder of them.
+    void check_tests(const fs::path &file, const CommandLine &line)
+    {
+      std::vector<MeasuredTest> tests;
+      if (fs::is_directory(file))
+        tests = read_test_set(file);
+      else
+        tests.push_back(read_measured_test(file));
+      for (const MeasuredTest &test : tests)
+        {
+          print_warnings(test.warnings);
+          if (!line.quiet)
+            std::cout << test.file.string() << ": OK, " << describe(test)
+                      << std::endl;
+        }
+    }
+  } // namespace
+
+
+
+  Outcome check(const CommandLine &line)
+  {
+    Outcome worst;
+    for (const fs::path &file : line.files)
+      {
+        const Outcome outcome = guarded([&]() {
+          if (fs::is_directory(file) || file.extension() == ".csv")
+            check_tests(file, line);
+          else if (is_import_map(file))
+            check_import_map(file, line);
+          else
+            check_case_file(file, line);
+          return done;
+        });
+        if (!outcome.message.empty())
+          std::cerr << outcome.message << std::endl;
+        worst.exit_code = std::max(worst.exit_code, outcome.exit_code);
+      }
+    return worst;
+  }
+} // namespace SlipStep
