@@ -1,5 +1,5 @@
 #include <slipstep/calibration/calibrate.h>
-#include <slipstep/calibration/calibration_report.h>
+#include <slipstep/report/calibration_report.h>
 #include <slipstep/commands/calibrate.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/results_folder.h>

@@ -1,9 +1,9 @@
 #include <slipstep/commands/diagnose.h>
 #include <slipstep/commands/element_check.h>
 #include <slipstep/diagnosis/diagnose.h>
-#include <slipstep/diagnosis/diagnosis_json.h>
-#include <slipstep/diagnosis/diagnosis_report.h>
-#include <slipstep/diagnosis/diagnosis_text.h>
+#include <slipstep/report/diagnosis_json.h>
+#include <slipstep/report/diagnosis_report.h>
+#include <slipstep/report/diagnosis_text.h>
 #include <slipstep/diagnosis/element_tests.h>
 #include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/sweep.h>

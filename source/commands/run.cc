@@ -4,7 +4,7 @@
 #include <slipstep/commands/run_point.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/point_driver.h>
-#include <slipstep/experiment/report.h>
+#include <slipstep/report/report.h>
 #include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/experiment/sweep.h>

@@ -1,7 +1,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/experiment/point_driver.h>
-#include <slipstep/diagnosis/diagnosis_text.h>
+#include <slipstep/report/diagnosis_text.h>
 #include <slipstep/report/case_text.h>
 
 #include <sstream>

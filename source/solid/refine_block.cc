@@ -2,11 +2,11 @@
 
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/refinement_study.h>
-#include <slipstep/experiment/report.h>
+#include <slipstep/report/report.h>
 #include <slipstep/experiment/results_folder.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/run_recorder.h>
-#include <slipstep/experiment/study_report.h>
+#include <slipstep/report/study_report.h>
 #include <slipstep/experiment/sweep.h>
 #include <slipstep/solid/case.h>
 #include <slipstep/utilities/exceptions.h>

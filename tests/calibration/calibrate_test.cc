@@ -1,7 +1,7 @@
 // Planted parameters are found again, with intervals that hold what they say.
 
 #include <slipstep/calibration/advice.h>
-#include <slipstep/calibration/calibration_text.h>
+#include <slipstep/report/calibration_text.h>
 #include <slipstep/calibration/fit.h>
 #include <slipstep/calibration/uncertainty.h>
 

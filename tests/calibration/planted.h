@@ -4,7 +4,7 @@
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/calibration/campaign.h>
 #include <slipstep/measured_data/measured_test.h>
-#include <slipstep/experiment/report.h>
+#include <slipstep/report/report.h>
 
 #include <cmath>
 #include <filesystem>

@@ -1,5 +1,5 @@
 #include <slipstep/experiment/quantities.h>
-#include <slipstep/experiment/report.h>
+#include <slipstep/report/report.h>
 #include <slipstep/experiment/summary.h>
 
 #include <gtest/gtest.h>

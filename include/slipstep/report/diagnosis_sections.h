@@ -1,0 +1,62 @@
+#ifndef slipstep_report_diagnosis_sections_h
+#define slipstep_report_diagnosis_sections_h
+
+#include <slipstep/diagnosis/diagnosis.h>
+#include <slipstep/report/diagnosis_figures.h>
+
+#include <string>
+
+namespace SlipStep
+{
+  /// @name Sections of the report of a diagnosis as HTML; "" where there is
+  /// nothing to show.
+  ///@{
+
+  /// What the page adds to the style of all reports.
+  extern const char *const diagnosis_style;
+
+  std::string heading(const std::string &text);
+
+  /// Small grey text.
+  std::string note(const std::string &text);
+
+  /// Verdict, where, what and how far, for whoever reads no further.
+  std::string first_screen(const Diagnosis &diagnosis);
+
+  /// Pictures with their legend; of no pictures nothing.
+  std::string gallery_section(const Gallery &gallery);
+
+  /// Tests by phases, before and after.
+  std::string heat_map_section(const Diagnosis &diagnosis);
+
+  /// The gap of every test.
+  std::string tests_section(const Diagnosis &diagnosis);
+
+  /// Where the difference is, in numbers.
+  std::string places_section(const Diagnosis &diagnosis);
+
+  /// All effects that were tried and those that could not be.
+  std::string candidates_section(const Diagnosis &diagnosis);
+
+  /// The steps from the starting model down to the noise.
+  std::string steps_section(const Diagnosis &diagnosis);
+
+  std::string parameters_section(const Diagnosis &diagnosis);
+
+  /// @param gallery the curves
+  std::string elements_section(const Diagnosis &diagnosis,
+                               const Gallery   &gallery);
+  ///@}
+
+  /// A bar of @p value with what it was before it, and a mark at the noise.
+  /// All as shares of friction.
+  /// @param colour of the bar
+  std::string gap_bar(const std::string &label,
+                      const double       value,
+                      const double       before,
+                      const double       noise,
+                      const double       largest,
+                      const std::string &colour);
+} // namespace SlipStep
+
+#endif

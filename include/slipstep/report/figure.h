@@ -1,0 +1,71 @@
+#ifndef slipstep_report_figure_h
+#define slipstep_report_figure_h
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// A picture made by gnuplot: collects data and commands, then writes
+  /// `<name>.dat`, `<name>.gp` and `<name>.svg`, so that a user can change the
+  /// script and draw again with `gnuplot <name>.gp`.
+  class Figure
+  {
+  public:
+    /// @param folder where the files go; has to exist
+    /// @param name of the files, without blanks
+    /// @param title what the picture shows, for screen readers
+    /// @param width,height in pixels of the SVG
+    Figure(const std::filesystem::path &folder,
+           const std::string           &name,
+           const std::string           &title,
+           const unsigned int           width,
+           const unsigned int           height);
+
+    /// Append a block of data.
+    /// @param columns their names with units, for the reader of the file
+    /// @param rows one vector of as many numbers as there are columns each
+    /// @return what to plot: "'<name>.dat' index N"
+    std::string add_data(const std::string                      &title,
+                         const std::vector<std::string>         &columns,
+                         const std::vector<std::vector<double>> &rows);
+
+    /// Commands of the gnuplot script, after the terminal has been set.
+    std::ostream &script();
+
+    /// Write data and script and draw.
+    /// @return "" or, when gnuplot is missing, fails or hangs, a warning for the user
+    /// @throws RunError if the files cannot be written
+    std::string write() const;
+
+    /// The picture for inclusion in an HTML page: without XML prologue, its
+    /// ids made unique by the name; "" if it was not drawn.
+    std::string inline_svg() const;
+
+    std::filesystem::path svg_file() const;
+
+  private:
+    std::string draw() const;
+
+    const std::filesystem::path folder;
+    const std::string           name;
+    const std::string           title;
+    const unsigned int          width;
+    const unsigned int          height;
+
+    unsigned int       n_blocks = 0;
+    std::ostringstream data;
+    std::ostringstream commands;
+  };
+
+  /// Text as gnuplot string in double quotes, with the characters escaped that
+  /// would change the font or end the string.
+  std::string gnuplot_text(const std::string &text);
+
+  /// Text with the characters escaped that mean something in HTML.
+  std::string html_text(const std::string &text);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,87 @@
+#ifndef slipstep_report_report_data_h
+#define slipstep_report_report_data_h
+
+#include <slipstep/experiment/history.h>
+#include <slipstep/report/report.h>
+#include <slipstep/experiment/summary.h>
+#include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/formula.h>
+#include <slipstep/utilities/parameters.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// What a run left in its folder.
+  struct RunResults
+  {
+    std::string             label;
+    std::filesystem::path   folder;
+    Summary                 summary;
+    std::vector<HistoryRow> history;
+    /// State of every contact cell at the end; absent for a contact point.
+    std::optional<CsvTable> contact_face;
+  };
+
+  /// Load the runs; what cannot be read is left out with a warning.
+  std::vector<RunResults> load_runs(const std::vector<ReportedRun> &runs,
+                                    std::vector<std::string>       &warnings);
+
+  /// What the results are compared with: a formula for the kinetic coefficient
+  /// as a function of speed, from section "Report".
+  class Reference
+  {
+  public:
+    /// @throws InputError if formula or speeds cannot be read
+    explicit Reference(const Parameters &parameters);
+
+    /// Whether the case states a reference at all.
+    bool exists() const;
+
+    /// Kinetic coefficient at a speed [mm/s].
+    double kinetic(const double speed) const;
+
+    /// Dynamic loading ratio at a speed [mm/s]; 0 if the quasi-static
+    /// coefficient is not given.
+    double dynamic_ratio(const double speed) const;
+
+    /// Where marks are drawn [mm/s]; may be empty.
+    const std::vector<double> &speeds() const;
+
+    const std::string &name() const;
+
+  private:
+    std::string                          reference_name;
+    double                               quasi_static = 0.;
+    std::vector<double>                  speed_list;
+    std::shared_ptr<const ParsedFormula> formula;
+  };
+
+  /// One line of the table of results: a slide of a run.
+  struct ResultRow
+  {
+    std::string  label;
+    std::size_t  run = 0; ///< its index among the runs
+    SlideSummary slide;
+    /// What a slide that was not completed cannot tell is NaN: kinetic, r and
+    /// mu in `slide`, drop, difference.
+    double drop = 0.; ///< from peak to kinetic [%]
+    /// Not one at whose end the contact sticks and slips.
+    bool is_steady = true;
+    /// NaN without a reference.
+    double reference  = 0.;
+    double difference = 0.; ///< of kinetic from reference [%]
+  };
+
+  std::vector<ResultRow> result_rows(const std::vector<RunResults> &runs,
+                                     const Reference               &reference);
+
+  /// A sentence or two with the numbers that matter, of completed slides only.
+  std::string headline(const std::vector<ResultRow> &rows,
+                       const Reference              &reference);
+} // namespace SlipStep
+
+#endif

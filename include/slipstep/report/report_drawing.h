@@ -1,0 +1,56 @@
+#ifndef slipstep_report_report_drawing_h
+#define slipstep_report_report_drawing_h
+
+#include <slipstep/report/report_figures.h>
+#include <slipstep/report/figure.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace SlipStep
+{
+  /// A block of data of a picture: lines of numbers.
+  using Rows = std::vector<std::vector<double>>;
+
+  /// Interval that grows over what it is shown.
+  struct Range
+  {
+    double lower = std::numeric_limits<double>::infinity();
+    double upper = -std::numeric_limits<double>::infinity();
+
+    void add(const double value)
+    {
+      if (std::isfinite(value))
+        {
+          lower = std::min(lower, value);
+          upper = std::max(upper, value);
+        }
+    }
+
+    double width() const
+    {
+      return upper - lower;
+    }
+  };
+
+  /// Width of the pictures [pixel].
+  constexpr unsigned int picture_width = 860;
+
+  /// Axes, ticks and grid of all pictures with curves, as gnuplot commands.
+  extern const char *const axes_style;
+
+  /// The next of 1, 2, 5, 10, ...
+  double round_up(const double value);
+
+  /// What legends call a run.
+  std::string legend(const RunResults &run);
+
+  /// Draw; a picture that could not be drawn has no SVG and gives a warning.
+  Picture finish(Figure                   &figure,
+                 const std::string        &title,
+                 const std::string        &caption,
+                 std::vector<std::string> &warnings);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,87 @@
+// What the terminal shows at the end of a calibration.
+
+#include <slipstep/report/calibration_report.h>
+#include <slipstep/report/calibration_text.h>
+
+#include <slipstep/report/report_data.h>
+#include <slipstep/report/text_table.h>
+#include <slipstep/utilities/text.h>
+
+#include <algorithm>
+
+namespace SlipStep
+{
+  namespace
+  {
+    constexpr std::size_t widest = 100;
+
+    std::vector<TableLine> short_parameter_lines(const Calibration &calibration)
+    {
+      std::vector<TableLine> lines = {
+        {"parameter", "value", "unit", interval_name(calibration), "start"}};
+      for (const FittedParameter &fitted : calibration.parameters)
+        lines.push_back(
+          {label_of(fitted.parameter),
+           (fitted.is_at_bound ? "* " : "") + digits_text(fitted, fitted.value),
+           fitted.parameter.unit(),
+           interval_text(fitted),
+           plain_text(fitted.parameter.in_unit(fitted.parameter.start), 5)});
+      return lines;
+    }
+
+    std::vector<TableLine> derived_lines(const Calibration &calibration)
+    {
+      std::vector<TableLine> lines = {
+        {"derived", "value", "standard deviation"}};
+      for (const DerivedQuantity &quantity : calibration.derived)
+        lines.push_back({quantity.name,
+                         short_text(quantity.value),
+                         deviation_text(quantity)});
+      return lines;
+    }
+
+    std::vector<TableLine> short_test_lines(const Calibration &calibration)
+    {
+      std::vector<TableLine> lines = {
+        {"test", "rows", "start rms", "rms", "noise", "rms/noise"}};
+      for (const TestMisfit &test : calibration.tests)
+        lines.push_back({test.name,
+                         std::to_string(test.n_rows),
+                         short_text(test.start_rms, 3),
+                         short_text(test.rms, 3),
+                         short_text(test.noise, 3),
+                         fixed_text(noise_ratio(test), 2)});
+      return lines;
+    }
+  } // namespace
+
+
+
+  std::string calibration_table(const Calibration &calibration)
+  {
+    std::string text =
+      wrapped_text(calibration_headline(calibration), 2, widest) + "\n";
+    if (!calibration.parameters.empty())
+      text += text_table(short_parameter_lines(calibration), widest);
+    if (std::any_of(calibration.parameters.begin(),
+                    calibration.parameters.end(),
+                    [](const FittedParameter &fitted) {
+                      return fitted.is_at_bound;
+                    }))
+      text += "  * at a bound, or at a condition of the law\n";
+    if (!calibration.derived.empty())
+      text += "\n" + text_table(derived_lines(calibration), widest);
+    if (!calibration.tests.empty())
+      text += "\n" + text_table(short_test_lines(calibration), widest);
+    if (!calibration.weak.empty())
+      text += "\n  What these tests hardly determine:\n";
+    for (const WeakDirection &direction : calibration.weak)
+      {
+        std::string words = wrapped_text(direction.words, 4, widest);
+        if (words.size() > 2)
+          words[2] = '-';
+        text += words;
+      }
+    return text;
+  }
+} // namespace SlipStep

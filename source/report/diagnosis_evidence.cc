@@ -1,0 +1,238 @@
+// Pictures of what speaks for a name: differences along the covariates, and
+// profiles of the parameters.
+
+#include <slipstep/report/diagnosis_figures.h>
+#include <slipstep/report/diagnosis_text.h>
+
+#include <boost/math/distributions/normal.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace SlipStep
+{
+  namespace
+  {
+    constexpr std::size_t most_signatures = 4;
+
+    std::string with_unit(const std::string &name, const std::string &unit)
+    {
+      return name + (unit.empty() ? "  [–]" : "  [" + unit + "]");
+    }
+
+    /// The same effect has the same line in all pictures.
+    std::vector<LegendLine> signature_lines(const Diagnosis &diagnosis)
+    {
+      static const std::array<const char *, most_signatures> colours = {
+        {Colour::after, "#E69F00", "#009E73", "#CC79A7"}};
+      std::vector<LegendLine> lines;
+      for (const CovariatePanel &panel : diagnosis.panels)
+        for (const auto &[name, values] : panel.signatures)
+          {
+            const bool is_known = std::any_of(lines.begin(),
+                                              lines.end(),
+                                              [&, n = name](const auto &line) {
+                                                return line.text == n;
+                                              });
+            if (!is_known && lines.size() < most_signatures)
+              {
+                const auto &effects = diagnosis.effects;
+                const bool  is_named =
+                  std::find(effects.begin(), effects.end(), name) !=
+                  effects.end();
+                lines.push_back(
+                  {name,
+                   colours[lines.size()],
+                   is_named ? LegendLine::line : LegendLine::dashed});
+              }
+          }
+      return lines;
+    }
+
+    void draw_panel(SmallPicture                  &picture,
+                    const CovariatePanel          &panel,
+                    const std::vector<LegendLine> &lines)
+    {
+      Range x, y;
+      Rows  points;
+      for (std::size_t i = 0; i < panel.x.size(); ++i)
+        {
+          const double error =
+            i < panel.error.size() ? 200. * panel.error[i] : 0.;
+          points.push_back({panel.x[i], 100. * panel.residual[i], error});
+          x.add(panel.x[i]);
+          y.add(100. * panel.residual[i] + error);
+          y.add(100. * panel.residual[i] - error);
+        }
+      y.add(0.);
+      picture.plot_level(0., "lc rgb '#222222' lw 1");
+      for (const auto &[name, values] : panel.signatures)
+        for (const LegendLine &line : lines)
+          if (line.text == name)
+            {
+              Rows curve;
+              for (std::size_t i = 0;
+                   i < std::min(values.size(), panel.x.size());
+                   ++i)
+                {
+                  curve.push_back({panel.x[i], 100. * values[i]});
+                  y.add(100. * values[i]);
+                }
+              picture.plot(name,
+                           {panel.covariate, "change_percent"},
+                           curve,
+                           "with lines " + line.style());
+            }
+      picture.plot("left over",
+                   {panel.covariate, "residual_percent", "two_deviations"},
+                   points,
+                   "with yerrorbars pt 7 ps 0.6 lw 1.2 lc rgb '#222222'");
+      // Points shall not stand on the border.
+      const bool is_logarithmic =
+        panel.is_logarithmic && x.lower > 0. && x.upper > x.lower;
+      if (is_logarithmic)
+        {
+          const double factor = std::pow(x.upper / x.lower, 0.04);
+          x                   = {x.lower / factor, x.upper * factor};
+        }
+      else
+        x = {x.lower - 0.04 * x.width(), x.upper + 0.04 * x.width()};
+      picture.axes(with_unit(panel.covariate, panel.unit),
+                   x,
+                   "Left over  [% of friction]",
+                   y,
+                   is_logarithmic);
+    }
+
+    double threshold_of(const Diagnosis &diagnosis)
+    {
+      const double quantile =
+        boost::math::quantile(boost::math::normal(),
+                              0.5 * (1. + diagnosis.confidence));
+      return quantile * quantile;
+    }
+
+    const LegendLine
+      profile_line   = {"increase of the objective", Colour::after},
+      threshold_line = {"threshold", "#222222"},
+      end_line   = {"end of the interval", Colour::before, LegendLine::dashed},
+      value_line = {"fitted value", Colour::before, LegendLine::points};
+
+    void draw_profile(SmallPicture             &picture,
+                      const DiagnosedParameter &parameter,
+                      const double              threshold)
+    {
+      const double highest = 2.5 * threshold;
+      Range        x;
+      x.add(parameter.value);
+      Rows rows;
+      for (const auto &[value, increase] : parameter.profile)
+        if (std::isfinite(value) && std::isfinite(increase))
+          {
+            rows.push_back({value, increase});
+            if (increase <= highest)
+              x.add(value);
+          }
+      std::sort(rows.begin(), rows.end());
+      const auto upright = [&](const double value) {
+        x.add(value);
+        picture.script() << "set arrow nohead from first " << value
+                         << ", graph 0 to first " << value << ", graph 1 "
+                         << end_line.style(1.8) << '\n';
+      };
+      picture.script().precision(12);
+      if (!parameter.is_lower_open && std::isfinite(parameter.lower))
+        upright(parameter.lower);
+      if (!parameter.is_upper_open && std::isfinite(parameter.upper))
+        upright(parameter.upper);
+      const bool is_logarithmic = x.lower > 0. && x.upper > 10. * x.lower;
+      picture.plot_level(threshold, threshold_line.style(1.));
+      picture.plot("profile",
+                   {parameter.name, "increase"},
+                   rows,
+                   "with linespoints pt 7 ps 0.3 " + profile_line.style());
+      picture.plot("fitted",
+                   {parameter.name, "increase"},
+                   {{parameter.value, 0.}},
+                   "with points pt 7 ps 0.9 lc rgb '" + value_line.colour +
+                     "'");
+      picture.axes(with_unit(parameter.name, parameter.unit),
+                   x,
+                   "Increase of objective  [–]",
+                   {0., highest},
+                   is_logarithmic);
+    }
+  } // namespace
+
+
+
+  Gallery draw_covariates(const std::filesystem::path &folder,
+                          const Diagnosis             &diagnosis,
+                          std::vector<std::string>    &warnings)
+  {
+    const std::vector<LegendLine> lines = signature_lines(diagnosis);
+    Gallery                       gallery{
+      "What is left over, and what would explain it",
+      "Measured minus simulated friction before anything was added, as means "
+                            "of bins with two standard deviations; lines: what each effect would "
+                            "change there. An effect explains a difference if its line goes through "
+                            "the points everywhere.",
+      {{"left over before", "#222222", LegendLine::points}},
+      {}};
+    if (lines.empty())
+      {
+        gallery.title   = "What is left over";
+        gallery.caption = "Measured minus simulated friction, as means of bins "
+                          "with two standard deviations.";
+        gallery.legend[0].text = "left over";
+      }
+    gallery.legend.insert(gallery.legend.end(), lines.begin(), lines.end());
+    std::string warning;
+    for (std::size_t i = 0; i < diagnosis.panels.size(); ++i)
+      {
+        const CovariatePanel &panel = diagnosis.panels[i];
+        if (panel.x.empty() || panel.residual.size() != panel.x.size())
+          continue;
+        SmallPicture picture(folder,
+                             "covariate_" + std::to_string(i + 1),
+                             "Against " + panel.covariate);
+        draw_panel(picture, panel, lines);
+        picture.finish(gallery, warning);
+      }
+    if (!warning.empty())
+      warnings.push_back(warning);
+    return gallery;
+  }
+
+
+
+  Gallery draw_named_profiles(const std::filesystem::path &folder,
+                              const Diagnosis             &diagnosis,
+                              std::vector<std::string>    &warnings)
+  {
+    const double threshold = threshold_of(diagnosis);
+    Gallery      gallery{"How sharply the new parameters are determined",
+                    "Increase of the objective when one parameter is held and "
+                         "all others are fitted again. Where it exceeds " +
+                      std::to_string(threshold).substr(0, 4) +
+                      ", the tests contradict the value (" +
+                      interval_name(diagnosis) +
+                      "); a flat curve says that they do not care.",
+                    {profile_line, threshold_line, end_line, value_line},
+                    {}};
+    std::string  warning;
+    std::size_t  n = 0;
+    for (const DiagnosedParameter &parameter : named_parameters(diagnosis))
+      if (parameter.profile.size() > 1)
+        {
+          SmallPicture picture(folder,
+                               "profile_" + std::to_string(++n),
+                               label_text(parameter));
+          draw_profile(picture, parameter, threshold);
+          picture.finish(gallery, warning);
+        }
+    if (!warning.empty())
+      warnings.push_back(warning);
+    return gallery;
+  }
+} // namespace SlipStep

@@ -1,0 +1,397 @@
+#include <slipstep/report/diagnosis_report.h>
+
+#include <slipstep/report/diagnosis_sections.h>
+#include <slipstep/report/diagnosis_text.h>
+#include <slipstep/report/repeat_command.h>
+#include <slipstep/report/report_data.h>
+#include <slipstep/report/report_html.h>
+#include <slipstep/report/figure.h>
+#include <slipstep/utilities/text.h>
+#include <slipstep/utilities/write_file.h>
+
+#include <algorithm>
+
+namespace SlipStep
+{
+  namespace
+  {
+    std::string paragraph(const std::string &text, const std::string &kind = "")
+    {
+      return "<p" + (kind.empty() ? "" : " class='" + kind + "'") + ">" +
+             html_text(text) + "</p>\n";
+    }
+
+    std::string card(const std::string &title, const std::string &content)
+    {
+      return "<div class='card'><h2>" + html_text(title) + "</h2>\n" + content +
+             "</div>\n";
+    }
+
+    /// "phases peak and steady"
+    std::string plural(const std::string              &what,
+                       const std::vector<std::string> &names)
+    {
+      return what + (names.size() > 1 ? "s " : " ") + list_text(names);
+    }
+
+    std::vector<std::string> all_in_quotes(std::vector<std::string> names)
+    {
+      for (std::string &name : names)
+        name = in_quotes(name);
+      return names;
+    }
+
+    /// No line ends between a number and its sign of percent.
+    std::string kept_together(std::string text)
+    {
+      const std::string breakable = " %", unbreakable = "\u00a0%";
+      for (std::size_t at = text.find(breakable); at != std::string::npos;
+           at             = text.find(breakable, at))
+        text.replace(at, breakable.size(), unbreakable);
+      return text;
+    }
+
+    std::string where_card(const Diagnosis &diagnosis)
+    {
+      const std::string title = "Where simulation and measurement disagree";
+      if (!diagnosis.has_gap || diagnosis.where.empty())
+        return card(title,
+                    paragraph(diagnosis.has_gap ? "Everywhere alike" :
+                                                  "Nowhere beyond the noise",
+                              "big"));
+      const Localisation &where = diagnosis.where[0];
+      std::string         text =
+        "Measured friction is " + sign_text(where) + " there than simulated";
+      if (!where.phases.empty())
+        text += ", most in " + plural("phase", where.phases);
+      if (!where.tests.empty())
+        text += ", in " + list_text(all_in_quotes(where.tests));
+      return card(title,
+                  paragraph(capitalised(place_words(where)), "big") +
+                    paragraph(text + ".") +
+                    note("Explains " + fixed_text(100. * where.share, 0) +
+                         " % of the difference beyond the noise."));
+    }
+
+    std::string effect_words(const std::string &effect)
+    {
+      return plain_words(effect) + " (" + effect + ")";
+    }
+
+    std::string named_card(const Diagnosis &diagnosis)
+    {
+      std::string html;
+      for (const std::string &effect : diagnosis.effects)
+        html += paragraph(effect_words(effect), "big");
+      if (!diagnosis.ambiguous_with.empty())
+        {
+          html += paragraph("or, as these tests do not tell them apart:");
+          for (std::size_t i = 0; i < diagnosis.ambiguous_with.size(); ++i)
+            html += paragraph(
+              effect_words(diagnosis.ambiguous_with[i]) +
+              (i < diagnosis.rival_of.size() && diagnosis.effects.size() > 1 ?
+                 ", in place of " + diagnosis.rival_of[i] :
+                 ""));
+        }
+      return html + note("Explains " +
+                         fixed_text(100. * diagnosis.explained_share, 0) +
+                         " % of the difference beyond the noise.");
+    }
+
+    /// What would have been seen.
+    std::string power_words(const Diagnosis &diagnosis)
+    {
+      std::vector<const CandidateResult *> seen;
+      std::size_t                          n_blind = 0;
+      for (const CandidateResult &candidate : diagnosis.candidates)
+        if (std::isfinite(candidate.minimum_detectable))
+          seen.push_back(&candidate);
+        else if (candidate.standing == Standing::not_testable)
+          ++n_blind;
+      const std::string blind = std::to_string(n_blind) + " of " +
+                                std::to_string(seen.size() + n_blind) +
+                                " effects cannot be tested here.";
+      if (seen.empty())
+        return blind;
+      const auto ends = std::minmax_element(seen.begin(),
+                                            seen.end(),
+                                            [](const auto *a, const auto *b) {
+                                              return a->minimum_detectable <
+                                                     b->minimum_detectable;
+                                            });
+      return "An effect would have been seen if it changed friction by " +
+             percent_text((*ends.first)->minimum_detectable) + " (" +
+             (*ends.first)->name + ") to " +
+             percent_text((*ends.second)->minimum_detectable) + " (" +
+             (*ends.second)->name + ") or more." +
+             (n_blind > 0 ? " " + blind : "");
+    }
+
+    std::string what_card(const Diagnosis &diagnosis)
+    {
+      switch (diagnosis.verdict)
+        {
+          case Verdict::named:
+          case Verdict::ambiguous:
+            return card("What was missing", named_card(diagnosis));
+          case Verdict::unnamed:
+            return card("What was missing",
+                        paragraph("Something that " +
+                                    nothing_explains(diagnosis),
+                                  "big") +
+                          (diagnosis.withdrawn.empty() ?
+                             "" :
+                             paragraph("Taken back, since too much remained: " +
+                                       list_text(diagnosis.withdrawn) + ".")));
+          case Verdict::no_gap:
+            return card("What was missing",
+                        paragraph("Nothing, as far as these tests can tell",
+                                  "big") +
+                          paragraph(power_words(diagnosis)));
+          case Verdict::not_testable:
+            return card("What was missing",
+                        paragraph("These tests cannot tell", "big") +
+                          paragraph(power_words(diagnosis)));
+        }
+      return "";
+    }
+
+    std::string shrink_card(const Diagnosis &diagnosis)
+    {
+      const Shrink &shrink      = diagnosis.shrink;
+      const bool    is_after    = has_after(diagnosis);
+      const bool    is_left_out = shrink.left_out_before > 0.;
+      const double  largest     = 1.05 * std::max({shrink.fitted_before,
+                                                   shrink.fitted_after,
+                                                   shrink.left_out_before,
+                                                   shrink.left_out_after,
+                                                   shrink.noise_floor,
+                                                   1e-12});
+      const auto    bars        = [&](const double before, const double after) {
+        const double noise = shrink.noise_floor;
+        std::string  html  = gap_bar(is_after ? "before" : "now",
+                                   before,
+                                   0.,
+                                   noise,
+                                   largest,
+                                   is_after ? Colour::before : Colour::after);
+        if (is_after)
+          html +=
+            gap_bar("after", after, before, noise, largest, Colour::after);
+        return html;
+      };
+      std::string html =
+        paragraph(percent_text(shrink.fitted_before) +
+                    (is_after ? " → " + percent_text(shrink.fitted_after) :
+                                "") +
+                    " of friction",
+                  "big") +
+        bars(shrink.fitted_before, shrink.fitted_after);
+      if (is_left_out)
+        html += note("Under conditions left out of the fit:") +
+                bars(shrink.left_out_before, shrink.left_out_after);
+      html += note("Dashed: noise alone, " + percent_text(shrink.noise_floor) +
+                   (is_after ? ". Beyond the noise: " +
+                                 percent_text(shrink.systematic_before) +
+                                 " → " + percent_text(shrink.systematic_after) :
+                               "") +
+                   ".");
+      return card(is_after ? "How far the gap shrank" : "How large the gap is",
+                  html);
+    }
+
+    std::string badge(const Diagnosis &diagnosis)
+    {
+      // Told by the words and the mark, not by the colour alone.
+      const std::string mark = diagnosis.verdict == Verdict::named     ? "●" :
+                               diagnosis.verdict == Verdict::ambiguous ? "◐" :
+                               diagnosis.verdict == Verdict::unnamed   ? "?" :
+                               diagnosis.verdict == Verdict::no_gap    ? "=" :
+                                                                         "○";
+      std::string       text = short_verdict(diagnosis);
+      if (!diagnosis.effects.empty())
+        text += ": " + names_text(diagnosis);
+      if (!reservation(diagnosis).empty())
+        text += ", " + reservation(diagnosis);
+      return "<p class='badge " + name_of(diagnosis.verdict) + "'>" + mark +
+             " " + html_text(text) + "</p>\n";
+    }
+
+    std::string next_test_section(const NextTest &next)
+    {
+      if (next.words.empty())
+        return "";
+      std::string html =
+        heading("The next test") + paragraph(next.words, "big");
+      if (!next.programme.empty())
+        html += "<p>As a case has it: <code>" + html_text(next.programme) +
+                "</code></p>\n";
+      std::string text;
+      if (!next.separates.empty())
+        text =
+          (next.separates.size() > 1 ? "It separates " : "It would show ") +
+          list_text(next.separates);
+      if (!text.empty() && next.distance > 0.)
+        text += ": what they predict differs by " +
+                short_text(next.distance, 2) + " standard deviations";
+      return html + (text.empty() ? "" : paragraph(text + "."));
+    }
+
+    std::string correction_section(const Diagnosis &diagnosis)
+    {
+      if (diagnosis.verdict != Verdict::unnamed ||
+          diagnosis.correction_covariate.empty())
+        return "";
+      return heading("A correction, cause unknown") +
+             paragraph("A smooth factor on friction that depends on " +
+                       diagnosis.correction_covariate + " takes away " +
+                       fixed_text(100. * diagnosis.correction_share, 0) +
+                       " % of the difference beyond the noise. It describes "
+                       "the difference and does not explain it; outside of the "
+                       "range that was tested it keeps the value of the "
+                       "border.") +
+             "<p><code>" + html_text(diagnosis.correction_formula) +
+             "</code></p>\n";
+    }
+
+    std::string noise_table(const Diagnosis &diagnosis)
+    {
+      if (diagnosis.noise.empty())
+        return "";
+      std::vector<TableLine> lines = {
+        {"noise", "value (95 % interval)", "from"}};
+      for (const NoiseComponent &component : diagnosis.noise)
+        lines.push_back(
+          {component.name, noise_text(component), component.source});
+      return html_table(lines, "places");
+    }
+
+    std::string bullets(const std::string              &title,
+                        const std::vector<std::string> &texts)
+    {
+      if (texts.empty())
+        return "";
+      std::string html = "<p><b>" + html_text(title) + "</b></p>\n<ul>\n";
+      for (const std::string &text : texts)
+        html += "<li>" + html_text(text) + "</li>\n";
+      return html + "</ul>\n";
+    }
+
+    std::string counted(const std::size_t n, const std::string &what)
+    {
+      return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+    }
+
+    std::string honesty_section(const Diagnosis &diagnosis)
+    {
+      std::vector<std::string> outliers;
+      for (const Outlier &outlier : diagnosis.outliers)
+        outliers.push_back(outlier.test + ": " + outlier.words);
+      const auto chance = [&](const double p) {
+        return chance_text(p, diagnosis.n_draws);
+      };
+      const std::size_t n_in_model =
+        diagnosis.candidates.size() - diagnosis.n_candidates;
+      const std::vector<TableLine> lines = {
+        {"what the verdict rests on", ""},
+        {"tests", std::to_string(diagnosis.tests.size())},
+        {"conditions", std::to_string(diagnosis.n_conditions)},
+        {"pairs of replicates", std::to_string(diagnosis.n_replicate_pairs)},
+        {"numbers compared, averages of rows",
+         std::to_string(diagnosis.n_samples)},
+        {"effects considered",
+         std::to_string(diagnosis.n_candidates) +
+           (n_in_model > 0 ?
+              " (" + std::to_string(n_in_model) + " more are in the model)" :
+              "")},
+        {"fits of the whole campaign", std::to_string(diagnosis.n_refits)},
+        {"samples of noise drawn", std::to_string(diagnosis.n_draws)},
+        {"chance of a false alarm accepted", percent_text(diagnosis.level)},
+        {"chance of this gap by noise alone", chance(diagnosis.gap_p)},
+        {"… as a smooth difference", chance(diagnosis.p_smooth)},
+        {"… as waves within tests", chance(diagnosis.p_waves)},
+        {"… between conditions", chance(diagnosis.p_conditions)},
+        {"… as what replicates share", chance(diagnosis.p_replicates)},
+        {"… as smooth difference and waves at once",
+         chance(diagnosis.p_together)},
+        {"… as waves along the track", chance(diagnosis.p_track)},
+        {"chance of what remains", chance(diagnosis.remainder_p)},
+        {"seed", std::to_string(diagnosis.seed)},
+        {"hash of the data",
+         diagnosis.data_hash.empty() ? "–" : diagnosis.data_hash},
+        {"wall time, CPU time, without the block",
+         fixed_text(diagnosis.wall_time, 1) + " s, " +
+           fixed_text(diagnosis.cpu_time, 1) + " s"}};
+      std::string html =
+        "<div class='honest'>\n" + heading("How far this can be trusted");
+      if (diagnosis.n_replicate_pairs == 0)
+        html += problem_box("No two tests share a condition: how large the "
+                            "noise is has been stated, not measured. Repeat a "
+                            "test or two before you believe the verdict.");
+      html +=
+        bullets("What would overturn this verdict", diagnosis.would_overturn) +
+        bullets(counted(outliers.size(), "test") +
+                  " out of line with the others",
+                outliers) +
+        bullets("Warnings", diagnosis.warnings) + html_table(lines, "numbers");
+      return html + noise_table(diagnosis) + "</div>\n";
+    }
+
+    std::string repeat_section(const Parameters &parameters)
+    {
+      return heading("Repeat it") + "<pre>" +
+             html_text(
+               program_call("diagnose", parameters.case_file().string()) +
+               given_settings(parameters)) +
+             "\n</pre>\n";
+    }
+
+    std::string title_of(const Parameters &parameters)
+    {
+      const std::string title = parameters.text("Report/Title");
+      return (title.empty() ? parameters.case_file().stem().string() : title) +
+             ": diagnosis";
+    }
+  } // namespace
+
+
+
+  std::string first_screen(const Diagnosis &diagnosis)
+  {
+    return badge(diagnosis) + "<div class='cards'>\n" + where_card(diagnosis) +
+           what_card(diagnosis) + shrink_card(diagnosis) + "</div>\n";
+  }
+
+
+
+  std::vector<std::string>
+  write_diagnosis_report(const std::filesystem::path &folder,
+                         const Parameters            &parameters,
+                         const Diagnosis             &diagnosis)
+  {
+    const std::filesystem::path pictures = folder / "report";
+    std::filesystem::create_directories(pictures);
+    std::vector<std::string> warnings;
+    const Gallery            tests = draw_tests(pictures, diagnosis, warnings);
+    const Gallery covariates = draw_covariates(pictures, diagnosis, warnings);
+    const Gallery profiles = draw_named_profiles(pictures, diagnosis, warnings);
+    const Gallery blocks   = draw_element_checks(pictures, diagnosis, warnings);
+
+    std::string content = diagnosis_style + first_screen(diagnosis);
+    for (const std::string &warning : warnings)
+      content += problem_box(warning);
+    content += gallery_section(tests) + heat_map_section(diagnosis) +
+               tests_section(diagnosis) + places_section(diagnosis) +
+               gallery_section(covariates) + candidates_section(diagnosis) +
+               steps_section(diagnosis) + gallery_section(profiles) +
+               parameters_section(diagnosis) +
+               elements_section(diagnosis, blocks) +
+               next_test_section(diagnosis.next_test) +
+               correction_section(diagnosis) + honesty_section(diagnosis);
+    write_file(folder / "report.html",
+               html_page(title_of(parameters),
+                         kept_together(headline(diagnosis)),
+                         kept_together(content) + repeat_section(parameters)));
+    return warnings;
+  }
+} // namespace SlipStep

@@ -1,0 +1,488 @@
+#include <slipstep/report/diagnosis_sections.h>
+
+#include <slipstep/report/diagnosis_text.h>
+#include <slipstep/report/report_data.h>
+#include <slipstep/report/report_html.h>
+#include <slipstep/utilities/text.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// "left: 12.5%"
+    std::string css(const std::string &property, const double share)
+    {
+      return property + ":" + fixed_text(100. * std::clamp(share, 0., 1.), 1) +
+             "%";
+    }
+
+    std::string legend_html(const std::vector<LegendLine> &legend)
+    {
+      std::string html = "<p class='legend'>";
+      for (const LegendLine &line : legend)
+        {
+          const std::string kind = line.kind == LegendLine::area   ? "area" :
+                                   line.kind == LegendLine::points ? "dot" :
+                                   line.kind == LegendLine::dashed ? "dashed" :
+                                                                     "line";
+          html += "<span><i class='" + kind + "' style='color:" + line.colour +
+                  "'></i>" + html_text(line.text) + "</span> ";
+        }
+      return html + "</p>\n";
+    }
+
+    std::string figures_html(const Gallery &gallery)
+    {
+      std::string html =
+        legend_html(gallery.legend) + "<div class='gallery'>\n";
+      for (const Picture &picture : gallery.pictures)
+        html += "<figure><figcaption>" + html_text(picture.title) +
+                "</figcaption>\n" + picture.svg + "</figure>\n";
+      return html + "</div>\n";
+    }
+
+    /// Of the objective, without decimals that mean nothing.
+    std::string gain_text(const double gain)
+    {
+      return fixed_text(gain, std::abs(gain) < 100. ? 1 : 0);
+    }
+
+    std::string cell(const std::string &html, const std::string &kind = "")
+    {
+      return "<td" + (kind.empty() ? "" : " class='" + kind + "'") + ">" +
+             html + "</td>";
+    }
+
+    std::string candidate_line(const CandidateResult &candidate,
+                               const unsigned int     n_draws)
+    {
+      const bool        is_tried = candidate.is_testable;
+      const std::string style =
+        candidate.standing == Standing::named ? "named" :
+        candidate.standing == Standing::rival ? "rival" :
+        candidate.standing == Standing::not_testable ||
+            candidate.standing == Standing::in_the_model ?
+                                                "grey" :
+                                                "";
+      std::string remark = html_text(candidate.why);
+      if (!candidate.cheapest_test.empty())
+        remark += (remark.empty() ? "" : "; ") +
+                  std::string("would show in: ") +
+                  html_text(candidate.cheapest_test);
+      return "<tr class='" + style + "'>" +
+             cell("<b>" + html_text(candidate.name) +
+                  "</b><br><span class='origin'>" +
+                  html_text(plain_words(candidate.name)) + "</span>") +
+             cell("<span class='status'>" +
+                  html_text(name_of(candidate.standing)) + "</span>") +
+             cell(is_tried ? html_text(chance_text(candidate.p, n_draws)) : "–",
+                  "number") +
+             cell(gain_text(candidate.gain), "number") +
+             cell(gain_text(candidate.left_out_gain), "number") +
+             cell(percent_text(candidate.minimum_detectable), "number") +
+             cell(remark.empty() ?
+                    html_text("shows as: " + candidate.signature) :
+                    remark,
+                  "remark") +
+             "</tr>\n";
+    }
+
+    void add_lines(std::vector<TableLine>                &lines,
+                   const std::vector<DiagnosedParameter> &parameters)
+    {
+      for (const DiagnosedParameter &parameter : parameters)
+        lines.push_back({label_text(parameter),
+                         parameter.unit.empty() ? "–" : parameter.unit,
+                         std::isfinite(parameter.before) ?
+                           value_text(parameter, parameter.before) :
+                         parameter.effect.empty() ? "–" :
+                                                    "new",
+                         value_text(parameter, parameter.value) +
+                           (parameter.is_at_bound ? " (at bound)" : ""),
+                         interval_text(parameter)});
+    }
+
+    /// The numbers of all blocks that were simulated.
+    std::string element_table(const std::vector<ElementCheck> &checks)
+    {
+      std::vector<TableLine> lines = {{"test",
+                                       "block before",
+                                       "block after",
+                                       "point before",
+                                       "point after",
+                                       "block − point, after"}};
+      for (const ElementCheck &check : checks)
+        if (!check.displacement.empty())
+          lines.push_back({check.test,
+                           percent_text(check.block_gap_before),
+                           percent_text(check.block_gap_after),
+                           percent_text(check.point_gap_before),
+                           percent_text(check.point_gap_after),
+                           percent_text(check.difference)});
+      return lines.size() > 1 ? html_table(lines) : "";
+    }
+  } // namespace
+
+
+
+  const char *const diagnosis_style = R"(<style>
+.badge { display: inline-block; color: #fff; font-weight: 600;
+  padding: .3em .8em; border-radius: .3em; margin: 0 0 .6em; }
+.badge.named { background: #005a8f; } .badge.ambiguous { background: #7a5200; }
+.badge.unnamed { background: #a34700; } .badge.no_gap { background: #00664b; }
+.badge.not_testable { background: #555; }
+.cards { display: grid; gap: .8em; margin: 0 0 1em;
+  grid-template-columns: repeat(auto-fit, minmax(250px, 1fr)); }
+.card { border: 1px solid #ccc; border-radius: .3em; padding: .6em .8em; }
+.card h2 { font-size: .85em; color: #555; margin: 0 0 .4em; border: 0; }
+.card p { margin: .3em 0; } .big { font-size: 1.15em; font-weight: 600; }
+.gallery { display: grid; gap: .6em 1em;
+  grid-template-columns: repeat(auto-fill, minmax(min(100%, 320px), 1fr)); }
+.gallery figure { margin: 0; max-width: 470px; min-width: 0; }
+.gallery figcaption { color: #222; font-weight: 600; text-align: center;
+  overflow-wrap: anywhere; }
+.legend { font-size: .85em; margin: .4em 0; }
+.legend span { display: inline-block; margin-right: 1.2em; }
+.legend i { display: inline-block; vertical-align: middle; width: 2em;
+  margin-right: .5em; border-top: 3px solid; }
+.legend i.dashed { border-top-style: dashed; }
+.legend i.area { border-top-width: .9em; }
+.legend i.dot { width: .6em; height: .6em; border: 0; border-radius: 50%;
+  background: currentColor; }
+.bar { display: grid; grid-template-columns: minmax(0, 13em) 1fr 4.5em;
+  gap: .6em; align-items: center; margin: .35em 0; font-size: .85em; }
+.card .bar { grid-template-columns: 5em 1fr 4.3em; }
+.bar .number, td.number { text-align: right;
+  font-variant-numeric: tabular-nums; white-space: nowrap; }
+.track { position: relative; height: 1.3em; background: #f2f2f2; }
+.track i { position: absolute; top: 0; bottom: 0; left: 0; }
+.track i.was { background: #dcdcdc; }
+.track i.cut::after { content: '»'; position: absolute; right: .2em;
+  color: #fff; font-style: normal; line-height: 1.3; }
+.track i.floor { border-left: 2px dashed #222; }
+.maps { display: flex; flex-wrap: wrap; gap: 0 2em; }
+.maps > div { min-width: 0; max-width: 100%; }
+.heat { font-size: .8em; } .heat caption { font-weight: 600; }
+.heat thead th { vertical-align: bottom; padding: .2em; text-align: center; }
+.heat thead span { writing-mode: vertical-rl; transform: rotate(180deg);
+  font-weight: 400; }
+.heat tbody th { max-width: 9em; overflow: hidden; text-overflow: ellipsis;
+  white-space: nowrap; font-weight: 400; border-bottom: 0; }
+.heat td { text-align: center; padding: .25em .4em; min-width: 2.2em;
+  border: 1px solid #fff; }
+.gradient { display: inline-block; width: 7em; height: .9em;
+  vertical-align: middle; border: 1px solid #ccc; }
+.places td:first-child { white-space: nowrap; }
+.tests th:last-child, .tests td:last-child { text-align: left;
+  white-space: nowrap; }
+.candidates th.number { text-align: right; } .candidates .remark {
+  min-width: 12em; }
+.candidates td:first-child { min-width: 11em; }
+.candidates .named .status { background: #005a8f; color: #fff; }
+.candidates .rival .status { background: #7a5200; color: #fff; }
+.candidates .status { padding: .1em .4em; border-radius: .2em;
+  white-space: nowrap; }
+.candidates .grey td, .candidates .grey .origin { color: #757575; }
+.candidates .grey td { background: #f6f6f6; }
+.honest { border: 1px solid #ccc; border-radius: .3em; padding: 0 1em;
+  margin: 2em 0; } .honest h2 { margin-top: 1em; }
+code { overflow-wrap: anywhere; background: #f4f4f4; padding: .1em .3em; }
+figure svg { max-width: 100%; }
+@media (max-width: 600px) { body { margin: 1em auto; }
+  .bar { grid-template-columns: 1fr 4.5em; }
+  .bar .label { grid-column: 1 / 3; margin-bottom: -.5em; }
+  .card .bar .label { grid-column: auto; margin: 0; }
+  .heat td { min-width: 1.7em; padding: .25em .1em; }
+  .heat tbody th { max-width: 7em; } }
+@media print { * { print-color-adjust: exact;
+    -webkit-print-color-adjust: exact; }
+  .cards { grid-template-columns: 1fr 1fr 1fr; }
+  .gallery { grid-template-columns: 1fr 1fr; }
+  .legend { break-after: avoid; }
+  .bar, .card, .maps > div { break-inside: avoid; } }
+</style>
+)";
+
+
+
+  std::string heading(const std::string &text)
+  {
+    return "<h2>" + html_text(text) + "</h2>\n";
+  }
+
+
+
+  std::string note(const std::string &text)
+  {
+    return text.empty() ? "" :
+                          "<p class='origin'>" + html_text(text) + "</p>\n";
+  }
+
+
+
+  std::string gap_bar(const std::string &label,
+                      const double       value,
+                      const double       before,
+                      const double       noise,
+                      const double       largest,
+                      const std::string &colour)
+  {
+    std::string html = "<div class='bar'><span class='label'>" +
+                       html_text(label) + "</span><span class='track'>";
+    const auto width = [&](const double end) {
+      return css("width", std::min(1., end / largest));
+    };
+    if (before > value)
+      html += "<i class='was' style='" + width(before) + "'></i>";
+    html += "<i" + std::string(value > largest ? " class='cut'" : "") +
+            " style='" + width(value) + ";background:" + colour + "'></i>";
+    if (noise > 0.)
+      html +=
+        "<i class='floor' style='" + css("left", noise / largest) + "'></i>";
+    return html + "</span><span class='number'>" + percent_text(value) +
+           "</span></div>\n";
+  }
+
+
+
+  std::string gallery_section(const Gallery &gallery)
+  {
+    if (gallery.pictures.empty())
+      return "";
+    return heading(gallery.title) + figures_html(gallery) +
+           note(gallery.caption);
+  }
+
+
+
+  std::string tests_section(const Diagnosis &diagnosis)
+  {
+    if (diagnosis.tests.empty())
+      return "";
+    const bool             is_after    = has_after(diagnosis);
+    const bool             is_left_out = std::any_of(diagnosis.tests.begin(),
+                                         diagnosis.tests.end(),
+                                         [](const DiagnosedTest &test) {
+                                           return test.left_out_before > 0.;
+                                         });
+    std::vector<TableLine> lines = {{"test", is_after ? "rms before" : "rms"}};
+    TableLine             &head  = lines[0];
+    if (is_after)
+      head.push_back("after");
+    if (is_left_out)
+      head.push_back(is_after ? "left out, before" : "left out");
+    if (is_left_out && is_after)
+      head.push_back("left out, after");
+    head.push_back("noise");
+    head.push_back("condition");
+    for (const DiagnosedTest &test : diagnosis.tests)
+      {
+        TableLine line = {test.name + (test.is_outlier ? " (outlier)" : ""),
+                          percent_text(test.rms_before)};
+        if (is_after)
+          line.push_back(percent_text(test.rms_after));
+        if (is_left_out)
+          line.push_back(percent_text(test.left_out_before));
+        if (is_left_out && is_after)
+          line.push_back(percent_text(test.left_out_after));
+        line.push_back(
+          percent_text(test.level > 0. ? test.noise / test.level : 0.));
+        line.push_back(test.condition);
+        lines.push_back(line);
+      }
+    return heading("Every test in numbers") +
+           html_table(lines, "numbers tests") +
+           note("Root mean square of measured minus simulated, in % of the "
+                "friction of the test; left out: as predicted from the tests "
+                "under all other conditions.");
+  }
+
+
+
+  namespace
+  {
+    // What covariates of the history mean, for those that are told.
+    std::string history_words(const Diagnosis &diagnosis)
+    {
+      bool has_change = false, has_unloading = false;
+      for (const Localisation &where : diagnosis.where)
+        {
+          has_change = has_change || where.covariate == "change of speed" ||
+                       where.covariate == "change of pressure";
+          has_unloading = has_unloading || where.covariate == "unloading";
+        }
+      return std::string(
+               has_change ?
+                 " Change of pressure or speed: the logarithm of what it is "
+                 "over what it was some slip before." :
+                 "") +
+             (has_unloading ? " Unloading: how far the pressure has fallen "
+                              "below the largest so far, as a share." :
+                              "");
+    }
+  } // namespace
+
+
+
+  std::string places_section(const Diagnosis &diagnosis)
+  {
+    if (diagnosis.where.empty())
+      return "";
+    std::vector<TableLine> lines = {
+      {"along", "measured friction is", "explains alone", "phases", "tests"}};
+    for (const Localisation &where : diagnosis.where)
+      lines.push_back({range_text(where),
+                       sign_text(where),
+                       fixed_text(100. * where.share, 0) + " %",
+                       list_text(where.phases),
+                       list_text(where.tests)});
+    return heading("Where simulation and measurement disagree") +
+           html_table(lines, "places") +
+           note(
+             std::string(
+               "Explains alone: how much of the difference beyond the noise a "
+               "smooth correction along this quantity would take away; the "
+               "shares overlap. The range, if there is one, is where it is felt "
+               "most.") +
+             history_words(diagnosis));
+  }
+
+
+
+  std::string candidates_section(const Diagnosis &diagnosis)
+  {
+    if (diagnosis.candidates.empty())
+      return "";
+    std::string html =
+      heading("All effects that were considered") +
+      "<div class='scroll'><table class='candidates'>\n<thead><tr>"
+      "<th>effect</th><th>status</th><th class='number'>chance p</th>"
+      "<th class='number'>gain</th><th class='number'>left-out gain</th>"
+      "<th class='number'>smallest detectable</th><th>remark</th></tr></thead>"
+      "\n<tbody>\n";
+    for (const CandidateResult &candidate : diagnosis.candidates)
+      html += candidate_line(candidate, diagnosis.n_draws);
+    return html + "</tbody></table></div>\n" +
+           note("p: chance that noise alone would make any of these effects "
+                "look as needed as this one. Gain: what adding it alone takes "
+                "off the objective (squares of difference over noise); left "
+                "out: the same on conditions that were not fitted; – where it "
+                "was not worth a fit. Smallest detectable: the change of "
+                "friction that would have been seen.");
+  }
+
+
+
+  std::string steps_section(const Diagnosis &diagnosis)
+  {
+    if (diagnosis.steps.empty())
+      return "";
+    const double noise   = diagnosis.shrink.noise_floor;
+    double       largest = noise, calibrated = noise;
+    for (const GapStep &step : diagnosis.steps)
+      if (std::isfinite(step.rms))
+        {
+          largest = std::max(largest, step.rms);
+          if (&step != &diagnosis.steps.front())
+            calibrated = std::max(calibrated, step.rms);
+        }
+    if (!(largest > 0.))
+      return "";
+    // A start that is far off would make dots of everything else.
+    const bool is_cut = largest > 4. * calibrated;
+    if (is_cut)
+      largest = 1.5 * calibrated;
+    std::string html =
+      heading("From the starting model down to the noise") +
+      "<p class='legend'><span><i class='dashed' style='color:#222'></i>noise "
+      "alone, " +
+      percent_text(noise) + " of friction</span></p>\n";
+    double before = 0.;
+    for (const GapStep &step : diagnosis.steps)
+      {
+        html += gap_bar(step.label,
+                        step.rms,
+                        before,
+                        noise,
+                        1.02 * largest,
+                        &step == &diagnosis.steps.back() &&
+                            diagnosis.steps.size() > 1 ?
+                          Colour::after :
+                          Colour::before);
+        before = step.rms;
+      }
+    return html + note("Root mean square of measured minus simulated, in % of "
+                       "friction. Grey: what the step took away." +
+                       std::string(is_cut ? " A bar with » goes on." : ""));
+  }
+
+
+
+  std::string parameters_section(const Diagnosis &diagnosis)
+  {
+    std::vector<TableLine> lines = {
+      {"parameter", "unit", "before", "after", interval_name(diagnosis)}};
+    add_lines(lines, diagnosis.start_parameters);
+    add_lines(lines, named_parameters(diagnosis));
+    if (lines.size() == 1)
+      return "";
+    if (!has_after(diagnosis))
+      lines[0][3] = "fitted";
+    return heading("Parameters") + html_table(lines, "numbers unbroken") +
+           note(std::string("≥, ≤, open: the tests do not limit the value on "
+                            "the other side.") +
+                (diagnosis.improved_case.empty() ?
+                   "" :
+                   " The case with these values: " + diagnosis.improved_case +
+                     "."));
+  }
+
+
+
+  namespace
+  {
+    std::string block_words(const Diagnosis &diagnosis)
+    {
+      const bool is_far =
+        std::any_of(diagnosis.element_checks.begin(),
+                    diagnosis.element_checks.end(),
+                    [&](const ElementCheck &check) {
+                      return check.difference > diagnosis.shrink.noise_floor;
+                    });
+      return is_far ? " Here they differ by more than the noise: the block "
+                      "bends, and friction at its foot tilts it, so that its "
+                      "pressure is uneven; the parameters were fitted without "
+                      "that." :
+                      "";
+    }
+  } // namespace
+
+
+
+  std::string elements_section(const Diagnosis &diagnosis,
+                               const Gallery   &gallery)
+  {
+    if (diagnosis.element_checks.empty())
+      return "";
+    std::string html = heading("The block with finite elements");
+    for (const ElementCheck &check : diagnosis.element_checks)
+      if (!check.remark.empty())
+        html += "<p>" + html_text(check.test) + ": " + html_text(check.remark) +
+                "</p>\n";
+    if (!gallery.pictures.empty())
+      html += figures_html(gallery);
+    const std::string table = element_table(diagnosis.element_checks);
+    return html + table +
+           (table.empty() ? "" :
+                            note("Root mean square of the difference to what "
+                                 "was measured, in % of friction; the last "
+                                 "column is the difference of block and "
+                                 "contact point. The search runs on the "
+                                 "contact point; this is the proof on the "
+                                 "block." +
+                                 block_words(diagnosis)));
+  }
+} // namespace SlipStep

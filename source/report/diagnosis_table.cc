@@ -1,0 +1,155 @@
+// What the terminal shows at the end of a diagnosis.
+
+#include <slipstep/report/diagnosis_text.h>
+
+#include <slipstep/report/report_data.h>
+#include <slipstep/report/text_table.h>
+#include <slipstep/utilities/text.h>
+
+#include <algorithm>
+
+namespace SlipStep
+{
+  namespace
+  {
+    constexpr std::size_t widest = 100, n_places = 3;
+
+    std::string summary(const Diagnosis &diagnosis)
+    {
+      const Shrink          &shrink = diagnosis.shrink;
+      std::vector<TableLine> lines  = {
+         {"gap", "before", has_after(diagnosis) ? "after" : "", "noise"}};
+      const auto add = [&](const std::string &name,
+                           const double       before,
+                           const double       after,
+                           const std::string &noise) {
+        lines.push_back({name,
+                         percent_text(before),
+                         has_after(diagnosis) ? percent_text(after) : "",
+                         noise});
+      };
+      add("all tests",
+          shrink.fitted_before,
+          shrink.fitted_after,
+          percent_text(shrink.noise_floor));
+      if (shrink.left_out_before > 0.)
+        add("conditions left out of the fit",
+            shrink.left_out_before,
+            shrink.left_out_after,
+            percent_text(shrink.noise_floor));
+      add("beyond the noise",
+          shrink.systematic_before,
+          shrink.systematic_after,
+          "");
+      const std::string under = reservation(diagnosis);
+      return "  verdict: " + name_of(diagnosis.verdict) +
+             (diagnosis.effects.empty() ? "" : " – " + names_text(diagnosis)) +
+             (under.empty() ? "" : ", " + under) +
+             "\n  chance of this gap by noise alone: " +
+             chance_text(diagnosis.gap_p, diagnosis.n_draws) + "\n\n" +
+             text_table(lines, widest);
+    }
+
+    std::string places(const Diagnosis &diagnosis)
+    {
+      std::vector<TableLine> lines = {
+        {"where", "measured is", "explains", "most in"}};
+      for (const Localisation &where : diagnosis.where)
+        if (lines.size() <= n_places)
+          lines.push_back({range_text(where),
+                           sign_text(where),
+                           fixed_text(100. * where.share, 0) + " %",
+                           where.phases.empty() ? "" : where.phases[0]});
+      return lines.size() > 1 ? "\n" + text_table(lines, widest) : "";
+    }
+
+    std::string candidates(const Diagnosis &diagnosis)
+    {
+      std::vector<TableLine> lines = {
+        {"candidate", "p", "gain", "left-out gain", "smallest seen", "status"}};
+      for (const CandidateResult &candidate : diagnosis.candidates)
+        lines.push_back({candidate.name,
+                         candidate.is_testable ?
+                           chance_text(candidate.p, diagnosis.n_draws) :
+                           "–",
+                         fixed_text(candidate.gain, 1),
+                         fixed_text(candidate.left_out_gain, 1),
+                         percent_text(candidate.minimum_detectable),
+                         name_of(candidate.standing)});
+      return lines.size() > 1 ? "\n" + text_table(lines, widest) : "";
+    }
+
+    std::string parameters(const Diagnosis &diagnosis)
+    {
+      std::vector<TableLine> lines = {
+        {"parameter added", "value", "unit", interval_name(diagnosis)}};
+      for (const DiagnosedParameter &parameter : named_parameters(diagnosis))
+        lines.push_back({label_text(parameter),
+                         (parameter.is_at_bound ? "* " : "") +
+                           value_text(parameter, parameter.value),
+                         parameter.unit,
+                         interval_text(parameter)});
+      if (lines.size() == 1)
+        return "";
+      const auto all = named_parameters(diagnosis);
+      return "\n" + text_table(lines, widest) +
+             (std::any_of(all.begin(),
+                          all.end(),
+                          [](const DiagnosedParameter &parameter) {
+                            return parameter.is_at_bound;
+                          }) ?
+                "  * at a bound\n" :
+                "");
+    }
+
+    std::string blocks(const Diagnosis &diagnosis)
+    {
+      if (diagnosis.element_checks.empty())
+        return "";
+      std::string            remarks;
+      std::vector<TableLine> lines = {{"with finite elements",
+                                       "block before",
+                                       "after",
+                                       "point before",
+                                       "after",
+                                       "block - point"}};
+      for (const ElementCheck &check : diagnosis.element_checks)
+        if (check.block_after.empty())
+          remarks += wrapped_text(check.test + ": " + check.remark, 2, widest);
+        else
+          lines.push_back({check.test,
+                           percent_text(check.block_gap_before),
+                           percent_text(check.block_gap_after),
+                           percent_text(check.point_gap_before),
+                           percent_text(check.point_gap_after),
+                           percent_text(check.difference)});
+      return "\n" + (lines.size() > 1 ? text_table(lines, widest) : "") +
+             remarks;
+    }
+
+    std::string next_test(const Diagnosis &diagnosis)
+    {
+      const NextTest &next = diagnosis.next_test;
+      if (next.words.empty())
+        return "";
+      return "\n" +
+             wrapped_text("next test: " + next.words +
+                            (next.separates.empty() ?
+                               "" :
+                               " (tells about " + list_text(next.separates) +
+                                 ")"),
+                          2,
+                          widest) +
+             (next.programme.empty() ? "" : "    " + next.programme + "\n");
+    }
+  } // namespace
+
+
+
+  std::string diagnosis_table(const Diagnosis &diagnosis)
+  {
+    return wrapped_text(headline(diagnosis), 2, widest) + "\n" +
+           summary(diagnosis) + places(diagnosis) + candidates(diagnosis) +
+           parameters(diagnosis) + blocks(diagnosis) + next_test(diagnosis);
+  }
+} // namespace SlipStep

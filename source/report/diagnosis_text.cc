@@ -1,0 +1,452 @@
+#include <slipstep/report/diagnosis_text.h>
+
+#include <slipstep/report/calibration_text.h>
+#include <slipstep/report/report_data.h>
+#include <slipstep/utilities/text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace SlipStep
+{
+  namespace
+  {
+    bool contains(const std::vector<std::string> &names,
+                  const std::string              &name)
+    {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    }
+
+    /// The rivals that stand in the place of an effect; rivals of which that
+    /// is not said stand in the place of the first.
+    std::vector<std::string> rivals_of(const Diagnosis  &diagnosis,
+                                       const std::size_t effect)
+    {
+      std::vector<std::string> rivals;
+      for (std::size_t i = 0; i < diagnosis.ambiguous_with.size(); ++i)
+        {
+          const std::string place =
+            i < diagnosis.rival_of.size() ? diagnosis.rival_of[i] : "";
+          const bool is_known = contains(diagnosis.effects, place);
+          if (is_known ? place == diagnosis.effects[effect] : effect == 0)
+            rivals.push_back(diagnosis.ambiguous_with[i]);
+        }
+      return rivals;
+    }
+
+    /// In brackets behind one name or two.
+    std::string all_plain_words(const Diagnosis &diagnosis)
+    {
+      std::vector<std::string> names = diagnosis.effects;
+      names.insert(names.end(),
+                   diagnosis.ambiguous_with.begin(),
+                   diagnosis.ambiguous_with.end());
+      // More would bury the numbers.
+      if (names.size() > 2)
+        return "";
+      std::string text;
+      for (const std::string &name : names)
+        text += (text.empty() ? "" : "; ") +
+                (names.size() > 1 ? name + ": " : std::string()) +
+                plain_words(name);
+      return " (" + text + ")";
+    }
+
+    /// "the gap falls from 4.12 % to 1.05 % of friction ..."
+    std::string shrink_words(const Shrink &shrink)
+    {
+      std::string text =
+        "the gap to the measurements falls from " +
+        percent_text(shrink.fitted_before) + " to " +
+        percent_text(shrink.fitted_after) +
+        " of friction (noise alone: " + percent_text(shrink.noise_floor) +
+        (shrink.systematic_before > 0. ?
+           "; beyond it " + percent_text(shrink.systematic_before) + " → " +
+             percent_text(shrink.systematic_after) :
+           "") +
+        ")";
+      if (shrink.left_out_before > 0.)
+        text += ", under conditions left out of the fit from " +
+                percent_text(shrink.left_out_before) + " to " +
+                percent_text(shrink.left_out_after);
+      return text;
+    }
+
+    /// What is there before anything is added.
+    std::string gap_words(const Shrink &shrink)
+    {
+      const std::string text = "simulation and measurements differ by " +
+                               percent_text(shrink.fitted_before) +
+                               " of friction, ";
+      return shrink.noise_floor < shrink.fitted_before ?
+               text + "of which noise alone makes " +
+                 percent_text(shrink.noise_floor) :
+               text + "no more than noise would (" +
+                 percent_text(shrink.noise_floor) + ")";
+    }
+
+    /// " (p = 0.2)"
+    std::string gap_chance(const Diagnosis &diagnosis)
+    {
+      const std::string text = chance_text(diagnosis.gap_p, diagnosis.n_draws);
+      return std::string(" (p ") + (text.rfind("≤", 0) == 0 ? "" : "= ") +
+             text + ")";
+    }
+
+    std::string named_words(const Diagnosis &diagnosis)
+    {
+      return list_text(diagnosis.effects) +
+             (diagnosis.effects.size() > 1 ? " are" : " is") + " missing" +
+             all_plain_words(diagnosis) + ": with " +
+             (diagnosis.effects.size() > 1 ? "them " : "it ") +
+             shrink_words(diagnosis.shrink);
+    }
+
+    std::string ambiguous_words(const Diagnosis &diagnosis)
+    {
+      std::string text = "these tests do not tell what is missing, " +
+                         names_text(diagnosis) + all_plain_words(diagnosis) +
+                         ": with " + list_text(diagnosis.effects) + " " +
+                         shrink_words(diagnosis.shrink);
+      if (!diagnosis.next_test.words.empty())
+        text += "; " + diagnosis.next_test.words + " would tell";
+      return text;
+    }
+
+    std::string unnamed_words(const Diagnosis &diagnosis)
+    {
+      std::string text = "something is missing that " +
+                         nothing_explains(diagnosis) + ": " +
+                         gap_words(diagnosis.shrink) + gap_chance(diagnosis);
+      if (!diagnosis.where.empty())
+        text += ", most " + place_words(diagnosis.where[0]);
+      if (!diagnosis.correction_covariate.empty())
+        text += "; a correction by " + diagnosis.correction_covariate +
+                ", cause unknown, brings it to " +
+                percent_text(diagnosis.shrink.fitted_after);
+      return text;
+    }
+
+    std::string verdict_words(const Diagnosis &diagnosis)
+    {
+      const std::string chance = gap_chance(diagnosis);
+      switch (diagnosis.verdict)
+        {
+          case Verdict::named:
+            return named_words(diagnosis);
+          case Verdict::ambiguous:
+            return ambiguous_words(diagnosis);
+          case Verdict::unnamed:
+            return unnamed_words(diagnosis);
+          case Verdict::no_gap:
+            return "nothing is missing as far as these tests can tell: " +
+                   gap_words(diagnosis.shrink) + chance;
+          case Verdict::not_testable:
+            return "these tests cannot tell whether anything is missing: " +
+                   gap_words(diagnosis.shrink) + chance +
+                   ", and no effect of the catalogue would have been seen";
+        }
+      return "";
+    }
+
+    std::string outlier_words(const std::vector<Outlier> &outliers)
+    {
+      if (outliers.empty())
+        return "";
+      std::vector<std::string> names;
+      for (const Outlier &outlier : outliers)
+        if (!contains(names, in_quotes(outlier.test)))
+          names.push_back(in_quotes(outlier.test));
+      if (names.size() > 3)
+        {
+          const std::size_t n_more = names.size() - 2;
+          names.resize(2);
+          names.push_back(std::to_string(n_more) + " more");
+        }
+      return "; look at " + list_text(names) + " first, which " +
+             (names.size() > 1 ? "do" : "does") +
+             " not behave like the other tests";
+    }
+
+    /// Digits by the width of the interval.
+    FittedParameter as_fitted(const DiagnosedParameter &parameter)
+    {
+      FittedParameter fitted;
+      fitted.value         = parameter.value;
+      fitted.lower         = parameter.lower;
+      fitted.upper         = parameter.upper;
+      fitted.is_lower_open = parameter.is_lower_open;
+      fitted.is_upper_open = parameter.is_upper_open;
+      fitted.is_at_bound   = parameter.is_at_bound;
+      const double above   = parameter.upper - parameter.value;
+      const double below   = parameter.value - parameter.lower;
+      fitted.deviation =
+        0.5 * (parameter.is_lower_open ? above :
+               parameter.is_upper_open ? below :
+                                         0.5 * (above + below));
+      return fitted;
+    }
+  } // namespace
+
+
+
+  std::string headline(const Diagnosis &diagnosis)
+  {
+    const bool        is_stated = diagnosis.n_replicate_pairs == 0;
+    const std::string words     = verdict_words(diagnosis);
+    return (is_stated ?
+              "If the stated noise is right (there are no replicates), " +
+                words :
+              capitalised(words)) +
+           (has_after(diagnosis) && !diagnosis.effects.empty() &&
+                !is_all_explained(diagnosis) ?
+              "; not all of it is explained" :
+              "") +
+           outlier_words(diagnosis.outliers) + ".";
+  }
+
+
+
+  std::string plain_words(const std::string &effect)
+  {
+    static const std::map<std::string, std::string> words = {
+      {"overstress", "friction that rises with sliding speed"},
+      {"softening", "friction that falls after the first slip and stays low"},
+      {"healing", "contacts that strengthen at rest: a peak after every hold"},
+      {"pressure", "a friction coefficient that changes with pressure"},
+      {"shear_cap", "a limit of the shear stress at high pressure"},
+      {"adhesion", "surfaces that stick even without pressure"},
+      {"heating", "friction that falls as fast sliding heats the contact"},
+      {"run_in", "surfaces that run in: a slow drift with the distance slid"},
+      {"anisotropy", "friction that depends on the direction in the plane"},
+      {"direction", "friction that differs between forward and back strokes"},
+      {"stribeck", "higher friction at slow speeds, as with a lubricant"},
+      {"viscous", "a drag in proportion to speed, as of a fluid film"},
+      {"compliance", "another elastic stiffness of contact or machine"},
+      {"subloading", "slip that begins little by little before full friction"},
+      {"expression", "a correction by a formula, cause unknown"}};
+    const auto found = words.find(effect);
+    return found == words.end() ? effect : found->second;
+  }
+
+
+
+  bool is_all_explained(const Diagnosis &diagnosis)
+  {
+    return diagnosis.remainder_p > diagnosis.level;
+  }
+
+
+
+  std::string short_verdict(const Diagnosis &diagnosis)
+  {
+    switch (diagnosis.verdict)
+      {
+        case Verdict::named:
+          return is_all_explained(diagnosis) ? "missing effect named" :
+                                               "part of what is missing named";
+        case Verdict::ambiguous:
+          return "several explanations";
+        case Verdict::unnamed:
+          return "something unknown is missing";
+        case Verdict::no_gap:
+          return "nothing found to be missing";
+        case Verdict::not_testable:
+          return "these tests cannot tell";
+      }
+    return "";
+  }
+
+
+
+  std::string reservation(const Diagnosis &diagnosis)
+  {
+    return diagnosis.n_replicate_pairs == 0 ? "if the stated noise is right" :
+           diagnosis.n_conditions == 1 && diagnosis.has_gap ?
+                                              "under the one condition tested" :
+                                              "";
+  }
+
+
+
+  std::string names_text(const Diagnosis &diagnosis)
+  {
+    std::vector<std::string> alternatives;
+    for (std::size_t i = 0; i < diagnosis.effects.size(); ++i)
+      {
+        std::vector<std::string> names = rivals_of(diagnosis, i);
+        names.insert(names.begin(), diagnosis.effects[i]);
+        alternatives.push_back(list_text(names, "or"));
+      }
+    // "a, b, and c or d", but "a and b".
+    std::string text;
+    for (std::size_t i = 0; i < alternatives.size(); ++i)
+      text += (i == 0                      ? "" :
+               i + 1 < alternatives.size() ? ", " :
+               diagnosis.ambiguous_with.empty() || alternatives.size() < 2 ?
+                                             " and " :
+                                             ", and ") +
+              alternatives[i];
+    return text;
+  }
+
+
+
+  std::string chance_text(const double p, const unsigned int n_draws)
+  {
+    // Two thirds of the chance belong to one statistic, see test_gap().
+    const bool is_floor = n_draws > 0 && p < 1.51 / (n_draws + 1.);
+    return (is_floor ? "≤ " : "") + short_text(p, 2);
+  }
+
+
+
+  std::string nothing_explains(const Diagnosis &diagnosis)
+  {
+    if (!diagnosis.is_restricted)
+      return "no effect of the catalogue explains";
+    std::vector<std::string> tried;
+    for (const CandidateResult &candidate : diagnosis.candidates)
+      if (candidate.standing != Standing::in_the_model)
+        tried.push_back(candidate.name);
+    return "none of the effects asked for (" + list_text(tried) + ") explains";
+  }
+
+
+
+  namespace
+  {
+    std::string wave_text(const Localisation &where)
+    {
+      return plain_text(where.wavelength, 3) + " " + where.unit;
+    }
+
+
+
+    /// "0.5 … 1.7 mm/s"
+    std::string ends_text(const Localisation &where)
+    {
+      const std::string from = plain_text(where.from, 3);
+      const std::string to   = plain_text(where.to, 3);
+      return (from == to ? from : from + " … " + to) +
+             (where.unit.empty() ? "" : " " + where.unit);
+    }
+  } // namespace
+
+
+
+  std::string range_text(const Localisation &where)
+  {
+    if (where.wavelength > 0.)
+      return where.covariate + ", in waves of " + wave_text(where);
+    return where.from == 0. && where.to == 0. ?
+             where.covariate :
+             where.covariate + " " + ends_text(where);
+  }
+
+
+
+  std::string place_words(const Localisation &where)
+  {
+    static const std::map<std::string, std::string> words = {
+      {"speed", "at speeds of"},
+      {"pressure", "under pressures of"},
+      {"path", "after a path of"},
+      {"slip since start", "after a start, at a slip of"},
+      {"rest", "after rests of"},
+      {"heat", "after recent frictional work of"},
+      {"angle", "at angles of"},
+      {"rate of pressure", "while the pressure changes by"},
+      {"order of the tests", "in the order of tests at"}};
+    if (where.wavelength > 0.)
+      return "along the track, in waves of " + wave_text(where);
+    if (where.covariate == "direction")
+      return where.from > 0.5 ? "where motion goes back" :
+                                "where motion goes forward";
+    if (where.covariate == "flank")
+      return "on the flanks where slip begins";
+    if (where.covariate == "unloading")
+      return "where the pressure has been higher before";
+    if (where.covariate == "change of pressure")
+      return "for some slip after a change of pressure";
+    if (where.covariate == "change of speed")
+      return "for some slip after a change of speed";
+    const auto found = words.find(where.covariate);
+    return found == words.end() || (where.from == 0. && where.to == 0.) ?
+             "by " + range_text(where) :
+             found->second + " " + ends_text(where);
+  }
+
+
+
+  std::string sign_text(const Localisation &where)
+  {
+    return where.sign > 0 ? "higher" : where.sign < 0 ? "lower" : "different";
+  }
+
+
+
+  std::string value_text(const DiagnosedParameter &parameter,
+                         const double              value)
+  {
+    return std::isfinite(value) ? digits_text(as_fitted(parameter), value) :
+                                  "–";
+  }
+
+
+
+  std::string label_text(const DiagnosedParameter &parameter)
+  {
+    const std::string all = "Friction/";
+    return parameter.path.compare(0, all.size(), all) == 0 ?
+             parameter.path.substr(all.size()) :
+             parameter.path;
+  }
+
+
+
+  std::string interval_text(const DiagnosedParameter &parameter)
+  {
+    return interval_text(as_fitted(parameter));
+  }
+
+
+
+  std::string interval_name(const Diagnosis &diagnosis)
+  {
+    return short_text(100. * diagnosis.confidence) + " % interval";
+  }
+
+
+
+  std::string noise_text(const NoiseComponent &component)
+  {
+    std::string text = short_text(component.value, 2);
+    if (component.upper > component.lower)
+      text += " (" + short_text(component.lower, 2) + " … " +
+              short_text(component.upper, 2) + ")";
+    return text + (component.unit.empty() ? "" : " " + component.unit);
+  }
+
+
+
+  std::vector<DiagnosedParameter> named_parameters(const Diagnosis &diagnosis)
+  {
+    std::vector<DiagnosedParameter> result;
+    for (const CandidateResult &candidate : diagnosis.candidates)
+      if (contains(diagnosis.effects, candidate.name))
+        result.insert(result.end(),
+                      candidate.parameters.begin(),
+                      candidate.parameters.end());
+    return result;
+  }
+
+
+
+  bool has_after(const Diagnosis &diagnosis)
+  {
+    return !diagnosis.effects.empty() ||
+           !diagnosis.correction_covariate.empty();
+  }
+} // namespace SlipStep

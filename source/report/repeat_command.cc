@@ -1,0 +1,43 @@
+#include <slipstep/report/repeat_command.h>
+
+#include <cstdlib>
+
+namespace SlipStep
+{
+  namespace
+  {
+    std::string quoted(const std::string &text)
+    {
+      return text.find_first_of(" '\"$&;()<>|*?`\\") == std::string::npos ?
+               text :
+               "\"" + text + "\"";
+    }
+  } // namespace
+
+
+
+  std::string program_call(const std::string &command,
+                           const std::string &file,
+                           const unsigned int n_ranks)
+  {
+    // ./run tells how it was called.
+    const char *const script = std::getenv("SLIPSTEP_CALLED_AS");
+    return (n_ranks > 1 ?
+              "mpirun -np " + std::to_string(n_ranks) + " slipstep " :
+            script != nullptr ? quoted(script) + " " :
+                                "slipstep ") +
+           command + " " + quoted(file);
+  }
+
+
+
+  std::string given_settings(const Parameters &parameters)
+  {
+    std::string text;
+    for (const std::string &path : parameters.paths())
+      if (parameters.is_set(path) &&
+          parameters.origin(path).compare(0, 5, "--set") == 0)
+        text += " --set \"" + path + "=" + parameters.text(path) + "\"";
+    return text;
+  }
+} // namespace SlipStep

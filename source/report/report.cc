@@ -1,0 +1,504 @@
+#include <slipstep/report/report.h>
+
+#include <slipstep/report/repeat_command.h>
+#include <slipstep/report/report_data.h>
+#include <slipstep/report/report_figures.h>
+#include <slipstep/report/report_html.h>
+#include <slipstep/report/figure.h>
+#include <slipstep/utilities/text.h>
+#include <slipstep/utilities/write_file.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/patterns.h>
+
+#include <boost/algorithm/string/predicate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace SlipStep
+{
+  void declare_report_parameters(Parameters &parameters)
+  {
+    using namespace dealii::Patterns;
+    parameters.declare("Report/Title",
+                       "",
+                       Anything(),
+                       "Title of report.html; the name of the case if empty.");
+    parameters.declare(
+      "Report/Reference kinetic coefficient",
+      "",
+      Anything(),
+      "Kinetic friction coefficient to compare with: a formula of the sliding "
+      "speed V in mm/min, e.g. 0.00420*log(V) + 0.100 (log is the natural "
+      "logarithm). Empty: no comparison.");
+    parameters.declare("Report/Reference name",
+                       "reference",
+                       Anything(),
+                       "What tables and legends call the reference, e.g. "
+                       "\"eq. 4 of the source paper\".");
+    parameters.declare(
+      "Report/Reference quasi-static coefficient",
+      "0",
+      Quantity(Dimension::number, 0.),
+      "Divides the reference coefficient to give its dynamic loading ratio r "
+      "(>= 0; 0: the reference is not shown in the picture of r over speed).");
+    parameters.declare("Report/Reference speeds",
+                       "",
+                       Anything(),
+                       "Sliding speeds at which the reference is marked, in "
+                       "mm/min unless a unit is given, separated by commas. "
+                       "Empty: the speeds of the runs.");
+  }
+
+
+
+  void check_report_parameters(const Parameters &parameters)
+  {
+    const Reference reference(parameters);
+    (void)reference;
+  }
+
+
+
+  namespace
+  {
+    /// Cycles make many slides: the terminal shows the first and the last.
+    std::vector<TableLine> shortened(std::vector<TableLine> lines)
+    {
+      constexpr std::size_t most = 60, kept = 20;
+      if (lines.size() <= most)
+        return lines;
+      const auto first = lines.begin() + 1 + kept, last = lines.end() - kept;
+      TableLine  gap(lines[0].size());
+      gap[0] = "(" + std::to_string(last - first) + " more)";
+      *first = gap;
+      lines.erase(first + 1, last);
+      return lines;
+    }
+
+    bool is_reverse(const SlideSummary &slide)
+    {
+      return std::cos(slide.angle) < -1e-9;
+    }
+
+    /// Whether a slide is not along the first axis, where a sign would do.
+    bool angles_matter(const std::vector<ResultRow> &rows)
+    {
+      return std::any_of(rows.begin(), rows.end(), [](const ResultRow &row) {
+        return std::abs(std::sin(row.slide.angle)) > 1e-6;
+      });
+    }
+
+    /// Whether the slides are under different pressures.
+    bool pressures_matter(const std::vector<ResultRow> &rows)
+    {
+      return std::any_of(rows.begin(), rows.end(), [&](const ResultRow &row) {
+        return std::abs(row.slide.pressure - rows[0].slide.pressure) >
+               1e-3 * rows[0].slide.pressure;
+      });
+    }
+
+    /// Whether labels say more than the column of speeds does.
+    bool labels_matter(const std::vector<ResultRow> &rows)
+    {
+      return std::any_of(rows.begin(), rows.end(), [&](const ResultRow &row) {
+        return !row.label.empty() && row.label != speed_text(row.slide.speed);
+      });
+    }
+
+    /// The table of results; the report shows more columns than the terminal.
+    std::vector<TableLine> result_lines(const std::vector<ResultRow> &rows,
+                                        const Reference              &reference,
+                                        const bool                    in_full)
+    {
+      const bool with_labels    = labels_matter(rows);
+      const bool with_angles    = angles_matter(rows);
+      const bool with_pressures = pressures_matter(rows);
+      TableLine  head;
+      if (with_labels)
+        head.push_back("run");
+      head.push_back("speed [mm/min]");
+      if (with_angles)
+        head.push_back("angle [deg]");
+      if (with_pressures)
+        head.push_back("pressure [MPa]");
+      head.insert(head.end(), {"peak", "kinetic"});
+      if (reference.exists())
+        head.insert(head.end(), {reference.name(), "difference [%]"});
+      if (in_full)
+        head.insert(head.end(),
+                    {"drop [%]", "peak after [mm]", "length [mm]", "r", "μ"});
+
+      std::vector<TableLine> lines = {head};
+      for (const ResultRow &row : rows)
+        {
+          const SlideSummary &slide = row.slide;
+          TableLine           line;
+          if (with_labels)
+            line.push_back(row.label);
+          line.push_back((is_reverse(slide) && !with_angles ? "-" : "") +
+                         short_text(60. * slide.speed));
+          if (with_angles)
+            line.push_back(
+              short_text(slide.angle * 180. / dealii::numbers::PI));
+          if (with_pressures)
+            line.push_back(short_text(slide.pressure));
+          line.insert(line.end(),
+                      {fixed_text(slide.peak, 4),
+                       fixed_text(slide.kinetic, 4)});
+          if (reference.exists())
+            line.insert(line.end(),
+                        {fixed_text(row.reference, 4),
+                         (row.difference > 0. ? "+" : "") +
+                           fixed_text(row.difference, 2)});
+          if (in_full)
+            line.insert(line.end(),
+                        {fixed_text(row.drop, 2),
+                         short_text(slide.peak_displacement, 3),
+                         short_text(slide.length),
+                         fixed_text(slide.dynamic_ratio, 4),
+                         fixed_text(slide.coefficient, 4)});
+          lines.push_back(line);
+        }
+      return lines;
+    }
+
+    std::string run_name(const RunResults &run)
+    {
+      return !run.label.empty()             ? run.label :
+             !run.summary.case_name.empty() ? run.summary.case_name :
+                                              run.folder.filename().string();
+    }
+
+    std::vector<TableLine> cost_lines(const std::vector<RunResults> &runs)
+    {
+      // A single point has neither mesh nor systems to solve.
+      const bool             has_mesh = runs[0].summary.command != "point";
+      std::vector<TableLine> lines    = {{"run"}};
+      if (has_mesh)
+        lines[0].insert(lines[0].end(), {"cells", "unknowns", "ranks"});
+      const bool is_adaptive =
+        std::any_of(runs.begin(), runs.end(), [](const RunResults &run) {
+          return run.summary.mesh_error.tolerance > 0.;
+        });
+      if (is_adaptive)
+        lines[0].insert(lines[0].end(),
+                        {"estimated error of the mesh [%]", "at worst [%]"});
+      lines[0].insert(lines[0].end(), {"steps", "rejected"});
+      if (has_mesh)
+        lines[0].insert(lines[0].end(),
+                        {"Newton per step", "linear per Newton"});
+      lines[0].insert(lines[0].end(),
+                      {"wall time [s]", "CPU time [s]", "memory [MB]"});
+      const auto ratio = [](const double a, const double b) {
+        return b > 0. ? fixed_text(a / b, 2) : std::string("–");
+      };
+      for (const RunResults &run : runs)
+        {
+          const Summary &s    = run.summary;
+          TableLine      line = {run_name(run)};
+          if (has_mesh)
+            line.insert(line.end(),
+                        {std::to_string(s.cells),
+                         std::to_string(s.dofs),
+                         std::to_string(s.ranks)});
+          if (is_adaptive)
+            for (const double error : {s.mesh_error.last, s.mesh_error.largest})
+              line.push_back(s.mesh_error.tolerance > 0. ?
+                               short_text(100. * error, 2) :
+                               "–");
+          line.insert(line.end(),
+                      {std::to_string(s.steps),
+                       std::to_string(s.rejected_steps)});
+          if (has_mesh)
+            line.insert(line.end(),
+                        {ratio(s.newton_iterations, s.steps),
+                         ratio(s.linear_iterations, s.newton_iterations)});
+          line.insert(line.end(),
+                      {fixed_text(s.wall_time, 1),
+                       fixed_text(s.cpu_time, 1),
+                       fixed_text(s.peak_memory, 0)});
+          lines.push_back(line);
+        }
+      return lines;
+    }
+
+    std::vector<TableLine> energy_lines(const std::vector<RunResults> &runs)
+    {
+      // A point stands for 1 mm² of contact, a block in 2-D for 1 mm of its
+      // thickness.
+      const Summary         &first = runs[0].summary;
+      const std::string      unit  = first.command == "point" ? " [N mm/mm²]" :
+                                     first.dimension == 2     ? " [N mm/mm]" :
+                                                                " [N mm]";
+      std::vector<TableLine> lines = {{"run",
+                                       "work put in" + unit,
+                                       "stored" + unit,
+                                       "dissipated" + unit,
+                                       "unaccounted [% of the work]"}};
+      for (const RunResults &run : runs)
+        lines.push_back({run_name(run),
+                         short_text(run.summary.work, 6),
+                         short_text(run.summary.stored, 6),
+                         short_text(run.summary.dissipated, 6),
+                         short_text(100. * run.summary.balance_error, 2)});
+      return lines;
+    }
+
+    /// Whether the machine lets the contact slide steadily; empty without a
+    /// spring.
+    std::vector<TableLine> stability_lines(const std::vector<RunResults> &runs)
+    {
+      std::vector<TableLine> lines = {{"run",
+                                       "speed [mm/min]",
+                                       "pressure [MPa]",
+                                       "k [MPa/mm]",
+                                       "critical k [MPa/mm]",
+                                       "at [Hz]",
+                                       "steady sliding"}};
+      for (const RunResults &run : runs)
+        for (const StabilitySummary &s : run.summary.stability)
+          lines.push_back(
+            {run_name(run),
+             short_text(60. * s.speed),
+             short_text(s.pressure),
+             short_text(s.stiffness),
+             std::isinf(s.critical_stiffness) ?
+               "∞" :
+               short_text(s.critical_stiffness),
+             s.critical_frequency > 0. ? short_text(s.critical_frequency) : "–",
+             s.is_stable() ? "stable" : "unstable: stick-slip"});
+      return lines.size() > 1 ? lines : std::vector<TableLine>();
+    }
+
+    std::string stability(const std::vector<RunResults> &runs)
+    {
+      const std::vector<TableLine> lines = stability_lines(runs);
+      if (lines.empty())
+        return "";
+      return "<h2>Stability of steady sliding</h2>\n" + html_table(lines) +
+             "<p class='origin'>Below the critical stiffness k of the machine a "
+             "small disturbance of steady sliding grows, swinging with the "
+             "frequency given.</p>\n";
+    }
+
+    /// The quantities of interest of all runs, if the case names any.
+    std::string quantities(const std::vector<RunResults> &runs)
+    {
+      if (runs[0].summary.quantities.empty())
+        return "";
+      std::vector<TableLine> lines = {{"run"}};
+      for (const QuantityValue &quantity : runs[0].summary.quantities)
+        lines[0].push_back(quantity.name + (quantity.unit.empty() ?
+                                              "" :
+                                              " [" + quantity.unit + "]"));
+      for (const RunResults &run : runs)
+        {
+          lines.push_back({run_name(run)});
+          for (const QuantityValue &quantity : run.summary.quantities)
+            lines.back().push_back(short_text(quantity.value, 6));
+        }
+      return "<h2>Quantities of interest</h2>\n" + html_table(lines);
+    }
+
+    std::vector<TableLine> effect_lines(const Parameters &parameters,
+                                        const RunResults &run)
+    {
+      std::vector<TableLine> lines = {{"effect", "parameter", "value"}};
+      for (const std::string &effect : run.summary.effects)
+        {
+          const std::string section = "Friction/" + effect + "/";
+          const auto        paths   = parameters.paths(section);
+          for (const std::string &path : paths)
+            lines.push_back({path == paths.front() ? effect : "",
+                             path.substr(section.size()),
+                             parameters.text(path)});
+          if (paths.empty())
+            lines.push_back({effect, "", ""});
+        }
+      return lines;
+    }
+
+    /// What the user set, and in what the variants differ.
+    std::vector<TableLine> condition_lines(const Parameters &parameters,
+                                           const std::vector<RunResults> &runs)
+    {
+      std::vector<TableLine> lines = {{"key", "value"}};
+      for (const std::string &path : parameters.paths())
+        {
+          const bool shown_above =
+            std::any_of(runs[0].summary.effects.begin(),
+                        runs[0].summary.effects.end(),
+                        [&path](const std::string &effect) {
+                          return boost::algorithm::starts_with(path,
+                                                               "Friction/" +
+                                                                 effect + "/");
+                        });
+          if (parameters.is_set(path) && !shown_above &&
+              !boost::algorithm::starts_with(path, "Report/"))
+            lines.push_back({path, parameters.text(path)});
+        }
+      for (const Variant &variant : parameters.variants())
+        for (const Variant::Override &change : variant.overrides)
+          lines.push_back(
+            {"in " + variant.label + ": " + change.path, change.value});
+      return lines;
+    }
+  } // namespace
+
+
+
+  std::string result_table(const Parameters               &parameters,
+                           const std::vector<ReportedRun> &runs)
+  {
+    const Reference          reference(parameters);
+    std::vector<std::string> problems;
+    const auto               results = load_runs(runs, problems);
+    const auto               rows    = result_rows(results, reference);
+
+    std::string text;
+    if (!rows.empty())
+      text += text_table(shortened(result_lines(rows, reference, false)));
+    const auto stability = stability_lines(results);
+    if (!stability.empty())
+      text += "\n" + text_table(stability);
+    for (const RunResults &run : results)
+      if (run.summary.status == "failed")
+        text += "  " + run_name(run) + ": failed: " + run.summary.reason + "\n";
+    for (const RunResults &run : results)
+      if (!run.summary.missing_energy().empty())
+        text += "  " + run_name(run) +
+                ": warning: " + run.summary.missing_energy() + "\n";
+    for (const RunResults &run : results)
+      if (!run.summary.missed_tolerance().empty())
+        text += "  " + run_name(run) +
+                ": warning: " + run.summary.missed_tolerance() + "\n";
+    for (const std::string &problem : problems)
+      text += "  " + problem + "\n";
+    return text;
+  }
+
+
+
+  namespace
+  {
+    std::string problem_boxes(const std::vector<RunResults>  &runs,
+                              const std::vector<std::string> &warnings)
+    {
+      std::string html;
+      for (const RunResults &run : runs)
+        {
+          if (run.summary.status == "failed")
+            html += problem_box("Run " + run_name(run) +
+                                " failed: " + run.summary.reason +
+                                ". What follows shows it up to there.");
+          for (const std::string &warning : run.summary.warnings)
+            html += problem_box("Run " + run_name(run) + ": " + warning);
+        }
+      for (const std::string &warning : warnings)
+        html += problem_box(warning);
+      return html;
+    }
+
+    /// All pictures; those of further runs are folded away.
+    std::string figures(const std::vector<Picture> &pictures)
+    {
+      std::string shown, folded;
+      for (const Picture &picture : pictures)
+        if (!picture.svg.empty())
+          (picture.is_secondary ? folded : shown) += figure_element(picture);
+      if (!folded.empty())
+        shown += "<details><summary>The contact face of the other runs"
+                 "</summary>\n" +
+                 folded + "</details>\n";
+      return shown;
+    }
+
+    /// How to get these results again.
+    std::string repetition(const Parameters              &parameters,
+                           const std::vector<RunResults> &runs)
+    {
+      std::string html = "<p>The whole case, as its file is now:</p>\n<pre>" +
+                         html_text(program_call(runs[0].summary.command,
+                                                parameters.case_file().string(),
+                                                runs[0].summary.ranks) +
+                                   given_settings(parameters)) +
+                         "\n</pre>\n";
+      std::string single;
+      for (const RunResults &run : runs)
+        if (std::filesystem::exists(run.folder / "used_parameters.prm"))
+          single += program_call(run.summary.command,
+                                 (run.folder / "used_parameters.prm").string(),
+                                 run.summary.ranks) +
+                    "\n";
+      if (!single.empty())
+        html += "<p>One run, with every value it used:</p>\n<pre>" +
+                html_text(single) + "</pre>\n";
+      return html;
+    }
+
+    std::string case_title(const Parameters              &parameters,
+                           const std::vector<RunResults> &runs)
+    {
+      const std::string title = parameters.text("Report/Title");
+      if (!title.empty())
+        return title;
+      return runs.empty() ? "slipstep" : runs[0].summary.case_name;
+    }
+
+    std::string page(const Parameters               &parameters,
+                     const Reference                &reference,
+                     const std::vector<RunResults>  &runs,
+                     const std::vector<Picture>     &pictures,
+                     const std::string              &study,
+                     const std::vector<std::string> &warnings)
+    {
+      const auto         rows = result_rows(runs, reference);
+      std::ostringstream html;
+      html << problem_boxes(runs, warnings) << study;
+      if (!rows.empty())
+        html
+          << html_table(result_lines(rows, reference, true))
+          << "<p class='origin'>kinetic, r, μ: at the end of the slide, means "
+             "over the contact face; drop: from peak to kinetic.</p>\n";
+      html << figures(pictures) << stability(runs);
+      if (!runs.empty())
+        {
+          html << "<h2>Energy</h2>\n"
+               << html_table(energy_lines(runs)) << quantities(runs)
+               << "<h2>Cost</h2>\n"
+               << html_table(cost_lines(runs)) << "<h2>Friction law</h2>\n"
+               << html_table(effect_lines(parameters, runs[0]), "values")
+               << "<h2>Conditions</h2>\n"
+               << html_table(condition_lines(parameters, runs), "values")
+               << "<h2>Repeat it</h2>\n"
+               << repetition(parameters, runs);
+        }
+      return html_page(case_title(parameters, runs),
+                       headline(rows, reference),
+                       html.str());
+    }
+  } // namespace
+
+
+
+  std::vector<std::string> write_report(const std::filesystem::path &folder,
+                                        const Parameters            &parameters,
+                                        const std::vector<ReportedRun> &runs,
+                                        const std::string              &study)
+  {
+    const Reference             reference(parameters);
+    std::vector<std::string>    warnings;
+    const auto                  results        = load_runs(runs, warnings);
+    const std::filesystem::path picture_folder = folder / "report";
+    std::filesystem::create_directories(picture_folder);
+    const auto pictures =
+      draw_pictures(picture_folder, results, reference, warnings);
+
+    write_file(folder / "report.html",
+               page(parameters, reference, results, pictures, study, warnings));
+    return warnings;
+  }
+} // namespace SlipStep

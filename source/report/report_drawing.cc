@@ -1,0 +1,46 @@
+#include <slipstep/report/report_drawing.h>
+#include <slipstep/utilities/text.h>
+
+namespace SlipStep
+{
+  // `extern` in the header keeps it visible: constants are local by default.
+  const char *const axes_style =
+    "set border 3 lw 1 lc rgb '#444444'\n"
+    "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
+    "set grid lc rgb '#dddddd' lw 0.7 dt solid\n"
+    "set key outside right top Left reverse samplen 2.5 spacing 1.25\n";
+
+
+
+  std::string legend(const RunResults &run)
+  {
+    if (!run.label.empty())
+      return run.label;
+    return run.summary.slides.empty() ? run.summary.command :
+                                        speed_text(run.summary.slides[0].speed);
+  }
+
+
+
+  double round_up(const double value)
+  {
+    const double decade = std::pow(10., std::floor(std::log10(value)));
+    for (const double factor : {1., 2., 5.})
+      if (factor * decade >= value * (1. - 1e-9))
+        return factor * decade;
+    return 10. * decade;
+  }
+
+
+
+  Picture finish(Figure                   &figure,
+                 const std::string        &title,
+                 const std::string        &caption,
+                 std::vector<std::string> &warnings)
+  {
+    const std::string warning = figure.write();
+    if (!warning.empty())
+      warnings.push_back(warning);
+    return {title, caption, figure.inline_svg()};
+  }
+} // namespace SlipStep

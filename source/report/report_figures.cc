@@ -1,0 +1,459 @@
+#include <slipstep/report/report_figures.h>
+
+#include <slipstep/report/report_drawing.h>
+#include <slipstep/report/report_faces.h>
+
+#include <slipstep/report/figure.h>
+#include <slipstep/utilities/text.h>
+#include <slipstep/utilities/units.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// Colours of Okabe and Ito, distinct for colour-blind readers; dashes keep
+    /// the curves apart in print. (Their yellow is lost on white.)
+    std::string line_style(const std::size_t i)
+    {
+      static const std::array<const char *, 7> colours = {"#0072B2",
+                                                          "#D55E00",
+                                                          "#009E73",
+                                                          "#CC79A7",
+                                                          "#E69F00",
+                                                          "#56B4E9",
+                                                          "#000000"};
+      static const std::array<const char *, 4> dashes  = {"solid",
+                                                          "(12,4)",
+                                                          "(4,3)",
+                                                          "(12,4,3,4)"};
+      return std::string("lc rgb '") + colours[i % colours.size()] + "' dt " +
+             dashes[i % dashes.size()];
+    }
+
+    std::string without_dash(const std::string &style)
+    {
+      return style.substr(0, style.find(" dt "));
+    }
+
+    /// Drop points that a reader could not tell from the one before.
+    Rows thinned(const Rows &points)
+    {
+      Range x, y;
+      for (const auto &point : points)
+        {
+          x.add(point[0]);
+          y.add(point[1]);
+        }
+      const double dx = std::max(x.width(), 1e-300);
+      const double dy = std::max(y.width(), 1e-300);
+
+      Rows        kept;
+      std::size_t last = 0;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          const double distance =
+            std::hypot((points[i][0] - points[last][0]) / dx,
+                       (points[i][1] - points[last][1]) / dy);
+          if (i > 0 && i + 1 < points.size() && distance < 1e-3)
+            continue;
+          // Keeps corners: the curve may have rested before it jumped.
+          if (i > last + 1 && distance > 3e-3)
+            kept.push_back(points[i - 1]);
+          kept.push_back(points[i]);
+          last = i;
+        }
+      return kept;
+    }
+
+    /// Displacement and friction along the axis of the first slide, so that a
+    /// reverse slide shows as the way back.
+    Rows curve(const RunResults &run)
+    {
+      double c = 1., s = 0.;
+      if (!run.summary.slides.empty())
+        {
+          c = std::cos(run.summary.slides[0].angle);
+          s = std::sin(run.summary.slides[0].angle);
+          if (c < -1e-9)
+            {
+              c = -c;
+              s = -s;
+            }
+        }
+      Rows points;
+      for (const HistoryRow &row : run.history)
+        points.push_back({c * row.displacement + s * row.displacement_y,
+                          c * row.friction + s * row.friction_y});
+      return points;
+    }
+
+    /// Whether a slide is neither along the first one nor back.
+    bool changes_direction(const RunResults &run)
+    {
+      const auto &slides = run.summary.slides;
+      return std::any_of(
+        slides.begin(), slides.end(), [&](const SlideSummary &slide) {
+          return std::abs(std::sin(slide.angle - slides[0].angle)) > 1e-6;
+        });
+    }
+
+    /// The curve of the first slide alone, from where it starts.
+    Rows first_slide(const RunResults &run)
+    {
+      Rows points;
+      if (run.summary.slides.empty() || run.history.empty())
+        return points;
+      const SlideSummary &slide = run.summary.slides[0];
+      const double        c     = std::cos(slide.angle);
+      const double        s     = std::sin(slide.angle);
+      const double        start =
+        c * run.history[0].displacement + s * run.history[0].displacement_y;
+      for (const HistoryRow &row : run.history)
+        {
+          const double x =
+            c * row.displacement + s * row.displacement_y - start;
+          if (!points.empty() && x < points.back()[0])
+            break;
+          points.push_back({x, c * row.friction + s * row.friction_y});
+        }
+      return points;
+    }
+
+    /// Order in which a legend beside the curves lists them as they lie.
+    std::vector<std::size_t>
+    from_top_to_bottom(const std::vector<RunResults> &runs)
+    {
+      std::vector<std::size_t> order(runs.size());
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        order[i] = i;
+      std::stable_sort(order.begin(),
+                       order.end(),
+                       [&runs](const std::size_t a, const std::size_t b) {
+                         return runs[a].summary.final_friction >
+                                runs[b].summary.final_friction;
+                       });
+      return order;
+    }
+
+    /// Room for the legend, the same in all pictures. (Left to itself, gnuplot
+    /// takes more than browsers need.)
+    std::string legend_margin(const std::vector<RunResults> &runs,
+                              const Reference               &reference)
+    {
+      std::size_t longest = reference.exists() ? reference.name().size() : 0;
+      for (const RunResults &run : runs)
+        longest = std::max(longest, legend(run).size());
+      const double edge =
+        1. - std::min(80. + 8. * longest, 0.4 * picture_width) / picture_width;
+      return "set rmargin at screen " + short_text(edge) +
+             "\nset key at screen " + short_text(edge + 0.02) +
+             ", graph 1 left top\n";
+    }
+
+    /// Which run slides at this speed; runs.size() if none does.
+    std::size_t run_of_speed(const std::vector<RunResults> &runs,
+                             const double                   speed)
+    {
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        for (const SlideSummary &slide : runs[i].summary.slides)
+          if (std::abs(slide.speed - speed) < 1e-6 * speed)
+            return i;
+      return runs.size();
+    }
+
+    /// Speeds at which the reference is marked: the stated ones, or else those
+    /// of the runs.
+    std::vector<double> marked_speeds(const std::vector<RunResults> &runs,
+                                      const Reference               &reference)
+    {
+      if (!reference.exists() || !reference.speeds().empty())
+        return reference.exists() ? reference.speeds() : std::vector<double>();
+      std::vector<double> speeds;
+      for (const RunResults &run : runs)
+        for (const SlideSummary &slide : run.summary.slides)
+          speeds.push_back(slide.speed);
+      std::sort(speeds.begin(), speeds.end());
+      speeds.erase(std::unique(speeds.begin(),
+                               speeds.end(),
+                               [](const double a, const double b) {
+                                 return b - a < 1e-6 * a;
+                               }),
+                   speeds.end());
+      return speeds;
+    }
+
+    /// Short strokes right of the curves where the reference expects them.
+    std::string reference_marks(Figure                        &figure,
+                                const std::vector<RunResults> &runs,
+                                const Reference               &reference,
+                                const double                   from,
+                                const double                   to)
+    {
+      std::string plots;
+      for (const double speed : marked_speeds(runs, reference))
+        {
+          const double      level = reference.kinetic(speed);
+          const std::string data =
+            figure.add_data(reference.name() + " at " + speed_text(speed),
+                            {"displacement_mm", "friction"},
+                            {{from, level}, {to, level}});
+          const std::size_t run   = run_of_speed(runs, speed);
+          const std::string style = run < runs.size() ?
+                                      without_dash(line_style(run)) :
+                                      "lc rgb '#777777'";
+          plots += ", \\\n  " + data + " with lines lw 4 " + style + " notitle";
+        }
+      if (!plots.empty())
+        plots += ", \\\n  NaN with lines lw 4 lc rgb '#777777' title " +
+                 gnuplot_text(reference.name());
+      return plots;
+    }
+
+
+
+    Picture friction_picture(const std::filesystem::path   &folder,
+                             const std::vector<RunResults> &runs,
+                             const Reference               &reference,
+                             std::vector<std::string>      &warnings)
+    {
+      Figure      figure(folder,
+                    "friction",
+                    "Friction against displacement",
+                    picture_width,
+                    430);
+      Range       x, y;
+      std::string plots;
+      for (const std::size_t i : from_top_to_bottom(runs))
+        {
+          const Rows points = curve(runs[i]);
+          for (const auto &point : points)
+            {
+              x.add(point[0]);
+              y.add(point[1]);
+            }
+          const std::string data =
+            figure.add_data(legend(runs[i]),
+                            {"displacement_mm", "friction"},
+                            thinned(points));
+          plots += (plots.empty() ? "plot " : ", \\\n  ") + data +
+                   " with lines lw 2 " + line_style(i) + " title " +
+                   gnuplot_text(legend(runs[i]));
+        }
+      if (!(x.width() > 0.))
+        x = {0., 1.};
+      plots += reference_marks(figure,
+                               runs,
+                               reference,
+                               x.upper + 0.015 * x.width(),
+                               x.upper + 0.06 * x.width());
+      figure.script() << axes_style << legend_margin(runs, reference)
+                      << "set xlabel 'Displacement of the drive  [mm]'\n"
+                         "set ylabel 'Friction  (tangential / normal load)'\n"
+                      // The first rise shall not hide on the axis.
+                      << "set xrange [" << x.lower - 0.01 * x.width() << ":"
+                      << x.upper + 0.06 * x.width() << "]\n";
+      if (y.lower >= -1e-3)
+        figure.script() << "set yrange [0:*]\n";
+      else
+        figure.script() << "set xzeroaxis lc rgb '#444444' lw 1 dt solid\n";
+      figure.script() << plots << "\n";
+      std::string caption;
+      if (std::any_of(runs.begin(), runs.end(), changes_direction))
+        caption = "Both along the direction of the first slide. ";
+      if (reference.exists())
+        caption += "Strokes at the right end: kinetic level after " +
+                   reference.name() + ", in the colour of the run.";
+      return finish(figure, "Friction against displacement", caption, warnings);
+    }
+
+
+
+    /// Displacement that shows the static peak well; 0 if the whole curve does.
+    double zoom_length(const std::vector<RunResults> &runs)
+    {
+      double peak = 0., length = 0.;
+      for (const RunResults &run : runs)
+        if (!run.summary.slides.empty())
+          {
+            const SlideSummary &slide = run.summary.slides[0];
+            length                    = std::max(length, slide.length);
+            // A curve that only rises has its peak at the end.
+            if (slide.peak_displacement < 0.5 * slide.length)
+              peak = std::max(peak, slide.peak_displacement);
+          }
+      const double zoom = peak > 0. ? round_up(5. * peak) : 0.;
+      return zoom < 0.4 * length ? zoom : 0.;
+    }
+
+    void add_zoom_picture(const std::filesystem::path   &folder,
+                          const std::vector<RunResults> &runs,
+                          const Reference               &reference,
+                          std::vector<Picture>          &pictures,
+                          std::vector<std::string>      &warnings)
+    {
+      const double zoom = zoom_length(runs);
+      if (zoom == 0.)
+        return;
+      Figure      figure(folder,
+                    "friction_start",
+                    "Friction at the start of the slide",
+                    picture_width,
+                    380);
+      std::string plots, peaks;
+      for (const std::size_t i : from_top_to_bottom(runs))
+        {
+          Rows points = first_slide(runs[i]);
+          // One point beyond the border lets the curve run off the picture.
+          const auto beyond =
+            std::find_if(points.begin(),
+                         points.end(),
+                         [zoom](const auto &point) { return point[0] > zoom; });
+          if (beyond != points.end())
+            points.erase(beyond + 1, points.end());
+          const std::string data =
+            figure.add_data(legend(runs[i]),
+                            {"displacement_mm", "friction"},
+                            thinned(points));
+          plots += (plots.empty() ? "plot " : ", \\\n  ") + data +
+                   " with lines lw 2 " + line_style(i) + " title " +
+                   gnuplot_text(legend(runs[i]));
+          if (runs[i].summary.slides.empty() ||
+              runs[i].summary.slides[0].peak_displacement > zoom)
+            continue;
+          const SlideSummary &slide = runs[i].summary.slides[0];
+          peaks += ", \\\n  " +
+                   figure.add_data("peak of " + legend(runs[i]),
+                                   {"displacement_mm", "friction"},
+                                   {{slide.peak_displacement, slide.peak}}) +
+                   " with points pt 7 ps 0.7 " + without_dash(line_style(i)) +
+                   " notitle";
+        }
+      figure.script() << axes_style << legend_margin(runs, reference)
+                      << "set xlabel 'Displacement since the start of the "
+                         "slide  [mm]'\n"
+                         "set ylabel 'Friction  (tangential / normal load)'\n"
+                         "set xrange [0:"
+                      << zoom << "]\nset yrange [0:*]\n"
+                      << plots << peaks << "\n";
+      pictures.push_back(finish(figure,
+                                "The static peak",
+                                "The first " + short_text(zoom) +
+                                  " mm of the slide; dots mark the peaks.",
+                                warnings));
+    }
+
+
+
+    void add_speed_picture(const std::filesystem::path   &folder,
+                           const std::vector<RunResults> &runs,
+                           const Reference               &reference,
+                           std::vector<Picture>          &pictures,
+                           std::vector<std::string>      &warnings)
+    {
+      Rows  simulated;
+      Range speeds;
+      for (const RunResults &run : runs)
+        for (const SlideSummary &slide : run.summary.slides)
+          {
+            if (!slide.is_complete || run.summary.is_unstable(slide))
+              continue;
+            simulated.push_back({slide.speed * mm_min, slide.dynamic_ratio});
+            speeds.add(slide.speed * mm_min);
+          }
+      if (simulated.empty() || speeds.upper < 1.001 * speeds.lower)
+        return;
+
+      Rows marks, line;
+      if (reference.dynamic_ratio(speeds.lower / mm_min) > 0.)
+        {
+          for (const double speed : marked_speeds(runs, reference))
+            {
+              marks.push_back({speed * mm_min, reference.dynamic_ratio(speed)});
+              speeds.add(speed * mm_min);
+            }
+          for (int i = 0; i <= 60; ++i)
+            {
+              const double speed =
+                speeds.lower * std::pow(speeds.upper / speeds.lower, i / 60.);
+              line.push_back({speed, reference.dynamic_ratio(speed / mm_min)});
+            }
+        }
+
+      Figure figure(folder,
+                    "ratio_over_speed",
+                    "Dynamic loading ratio against speed",
+                    picture_width,
+                    380);
+      figure.script() << axes_style << legend_margin(runs, reference)
+                      << "set logscale x\nset format x '%g'\n"
+                         "set xlabel 'Sliding speed  [mm/min]'\n"
+                         "set ylabel 'Dynamic loading ratio  r  [–]'\n"
+                         "set offsets 0, 0, graph 0.08, graph 0.08\n"
+                      << "set xrange [" << speeds.lower / 1.6 << ":"
+                      << speeds.upper * 1.6 << "]\nplot ";
+      if (!marks.empty())
+        {
+          const std::string on_line =
+            figure.add_data(reference.name(), {"speed_mm/min", "r"}, line);
+          const std::string on_marks =
+            figure.add_data(reference.name() + ", marks",
+                            {"speed_mm/min", "r"},
+                            marks);
+          figure.script()
+            << on_line << " with lines lw 1.2 lc rgb '#D55E00' notitle, \\\n  "
+            << on_marks << " with points pt 6 ps 1.3 lw 1.8 lc rgb '#D55E00' "
+            << "title " << gnuplot_text(reference.name()) << ", \\\n  ";
+        }
+      const std::string data =
+        figure.add_data("simulated", {"speed_mm/min", "r"}, simulated);
+      figure.script() << data
+                      << " with points pt 7 ps 0.8 lc rgb '#0072B2' title "
+                      << "'simulated'\n";
+      pictures.push_back(finish(figure,
+                                "Rate dependence",
+                                marks.empty() ?
+                                  "r at the end of each slide." :
+                                  "r at the end of each slide; the reference "
+                                  "coefficient is divided by its quasi-static "
+                                  "value.",
+                                warnings));
+    }
+  } // namespace
+
+
+
+  std::vector<Picture> draw_pictures(const std::filesystem::path   &folder,
+                                     const std::vector<RunResults> &runs,
+                                     const Reference               &reference,
+                                     std::vector<std::string>      &warnings)
+  {
+    std::vector<Picture> pictures;
+    if (std::all_of(runs.begin(), runs.end(), [](const RunResults &run) {
+          return curve(run).empty();
+        }))
+      return pictures;
+    pictures.push_back(friction_picture(folder, runs, reference, warnings));
+    add_zoom_picture(folder, runs, reference, pictures, warnings);
+    add_speed_picture(folder, runs, reference, pictures, warnings);
+
+    // A cell costs some 300 bytes: the page shall stay quick to open.
+    const std::size_t most_cells = 10000;
+    std::size_t       n_cells    = 0;
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      {
+        const std::size_t size =
+          runs[i].contact_face ? runs[i].contact_face->size() : 0;
+        if (size == 0 || (n_cells > 0 && n_cells + size > most_cells))
+          continue;
+        pictures.push_back(face_picture(folder, runs[i], i + 1, warnings));
+        pictures.back().is_secondary = n_cells > 0;
+        n_cells += size;
+      }
+    return pictures;
+  }
+} // namespace SlipStep

@@ -1,0 +1,99 @@
+#include <slipstep/report/report_html.h>
+
+#include <slipstep/report/figure.h>
+#include <slipstep/utilities/version.h>
+
+namespace SlipStep
+{
+  namespace
+  {
+    const char *const style = R"(
+:root { color-scheme: light; }
+body { font: 16px/1.5 "DejaVu Sans", Verdana, sans-serif; color: #222;
+  background: #fff; max-width: 900px; margin: 2em auto; padding: 0 1em; }
+h1 { font-size: 1.6em; margin: 0 0 .2em; }
+h2 { font-size: 1.2em; margin: 2em 0 .5em; border-bottom: 1px solid #ccc;
+  padding-bottom: .15em; }
+.headline { font-size: 1.1em; margin: .4em 0 1.2em; }
+.origin { color: #666; font-size: .85em; }
+.problem { border-left: 4px solid #D55E00; background: #fdf3ec;
+  padding: .5em .8em; margin: .8em 0; }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; font-size: .85em; margin: .5em 0 1em;
+  font-variant-numeric: tabular-nums; }
+th { text-align: left; vertical-align: bottom; border-bottom: 2px solid #888;
+  font-weight: 600; }
+th, td { padding: .25em .8em .25em 0; }
+td { border-bottom: 1px solid #e4e4e4; vertical-align: top; }
+.numbers th, .numbers td { text-align: right; }
+.numbers th:first-child, .numbers td:first-child { text-align: left;
+  white-space: nowrap; }
+.unbroken td { white-space: nowrap; }
+.matrix tbody th { border-bottom: 1px solid #e4e4e4; }
+.matrix tbody td { padding-left: .8em; }
+.values td:last-child { font-family: "DejaVu Sans Mono", monospace; }
+figure { margin: 0 0 1.5em; break-inside: avoid; }
+figcaption { color: #555; font-size: .85em; }
+svg { width: 100%; height: auto; display: block; }
+.map svg path, .map svg polygon { shape-rendering: crispEdges; }
+summary { cursor: pointer; color: #0072B2; margin: 1em 0; }
+pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
+  font-size: .85em; }
+@media print { body { margin: 0; max-width: none; font-size: 11pt; }
+  .scroll { overflow: visible; } h2 { break-after: avoid; }
+  tr { break-inside: avoid; } pre { white-space: pre-wrap; } }
+)";
+  } // namespace
+
+
+
+  std::string html_page(const std::string &title,
+                        const std::string &headline,
+                        const std::string &content)
+  {
+    return "<!DOCTYPE html>\n<html lang='en'>\n<head>\n"
+           "<meta charset='utf-8'>\n<meta name='viewport' "
+           "content='width=device-width, initial-scale=1'>\n<title>" +
+           html_text(title) + "</title>\n<style>" + style +
+           "</style>\n</head>\n<body>\n<h1>" + html_text(title) +
+           "</h1>\n<p class='headline'>" + html_text(headline) + "</p>\n" +
+           content + "<p class='origin'>slipstep " + html_text(version()) +
+           " (" + html_text(git_hash()) +
+           "). Data and gnuplot scripts of the pictures: folder report/ "
+           "beside this file.</p>\n</body>\n</html>\n";
+  }
+
+
+
+  std::string problem_box(const std::string &text)
+  {
+    return "<p class='problem'>" + html_text(text) + "</p>\n";
+  }
+
+
+
+  std::string html_table(const std::vector<TableLine> &lines,
+                         const std::string            &kind)
+  {
+    std::string html = "<div class='scroll'><table class='" + kind + "'>\n";
+    for (std::size_t n = 0; n < lines.size(); ++n)
+      {
+        const std::string cell = n == 0 ? "th" : "td";
+        html += n == 0 ? "<thead><tr>" : "<tr>";
+        for (const std::string &text : lines[n])
+          html += "<" + cell + ">" + html_text(text) + "</" + cell + ">";
+        html += n == 0 ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
+      }
+    return html + "</tbody></table></div>\n";
+  }
+
+
+
+  std::string figure_element(const Picture &picture)
+  {
+    return "<h2>" + html_text(picture.title) + "</h2>\n<figure" +
+           (picture.is_map ? " class='map'" : "") + ">\n" + picture.svg +
+           "<figcaption>" + html_text(picture.caption) +
+           "</figcaption></figure>\n";
+  }
+} // namespace SlipStep

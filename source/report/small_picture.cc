@@ -1,0 +1,130 @@
+// The frame that all pictures of a diagnosis have in common.
+
+#include <slipstep/report/panel_grid.h>
+#include <slipstep/report/diagnosis_figures.h>
+#include <slipstep/report/text_table.h>
+#include <slipstep/utilities/text.h>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // On a telephone a picture is as wide as this, with letters as large as
+    // those of the text.
+    constexpr unsigned int small_width = 430, small_height = 290;
+
+    void widen(Range &range)
+    {
+      if (!std::isfinite(range.width()))
+        range = {0., 1.};
+      if (!(range.width() > 0.))
+        {
+          const double margin = std::max(0.05 * std::abs(range.upper), 1e-6);
+          range               = {range.lower - margin, range.upper + margin};
+        }
+    }
+
+    std::string range_text(const Range &range)
+    {
+      return "[" + exact_text(range.lower) + ":" + exact_text(range.upper) +
+             "]\n";
+    }
+  } // namespace
+
+
+
+  namespace Colour
+  {
+    const char *const measured = "#555555";
+    const char *const before   = "#D55E00";
+    const char *const after    = "#0072B2";
+    const char *const band     = "#cde3f2";
+  } // namespace Colour
+
+
+
+  std::string LegendLine::style(const double width) const
+  {
+    return "lc rgb '" + colour + "' lw " + exact_text(width) +
+           (kind == dashed ? " dt (6,3)" : "");
+  }
+
+
+
+  SmallPicture::SmallPicture(const std::filesystem::path &folder,
+                             const std::string           &name,
+                             const std::string           &title)
+    : title(title)
+    , figure(folder, name, title, small_width, small_height)
+  {
+    figure.script() << axes_style
+                    << "unset key\nset lmargin at screen 0.19\nset rmargin at "
+                       "screen 0.97\nset tmargin at screen 0.96\nset bmargin "
+                       "at screen 0.19\n";
+  }
+
+
+
+  void SmallPicture::axes(const std::string &x_label,
+                          Range              x,
+                          const std::string &y_label,
+                          Range              y,
+                          const bool         is_x_logarithmic)
+  {
+    widen(x);
+    if (x.lower > 0. && x.lower < 0.05 * x.upper && !is_x_logarithmic)
+      x.lower = 0.;
+    widen(y);
+    const double margin = 0.05 * y.width();
+    // Whatever begins at zero shall stand on the axis.
+    if (y.lower != 0.)
+      y.lower -= margin;
+    y.upper += margin;
+    figure.script() << "set xlabel " << gnuplot_text(cut_text(x_label, 46))
+                    << " offset 0,0.6\nset ylabel " << gnuplot_text(y_label)
+                    << " offset 0.4\nset xrange " << range_text(x)
+                    << "set yrange " << range_text(y)
+                    << (is_x_logarithmic ? "set logscale x\n" : "")
+                    << few_tics('x', x.lower, x.upper, is_x_logarithmic)
+                    << "set ytics " << round_up(y.width() / 8.) << '\n';
+  }
+
+
+
+  void SmallPicture::plot(const std::string              &title,
+                          const std::vector<std::string> &columns,
+                          const Rows                     &rows,
+                          const std::string              &style)
+  {
+    plots += (plots.empty() ? "plot " : ", ") +
+             figure.add_data(title, columns, rows) + ' ' + style;
+  }
+
+
+
+  void SmallPicture::plot_level(const double level, const std::string &style)
+  {
+    plots += (plots.empty() ? "plot " : ", ") + exact_text(level) +
+             " with lines " + style;
+  }
+
+
+
+  std::ostream &SmallPicture::script()
+  {
+    return figure.script();
+  }
+
+
+
+  void SmallPicture::finish(Gallery &gallery, std::string &warning)
+  {
+    figure.script() << plots << '\n';
+    std::vector<std::string> warnings;
+    const Picture picture = SlipStep::finish(figure, title, "", warnings);
+    if (!picture.svg.empty())
+      gallery.pictures.push_back(picture);
+    if (warning.empty() && !warnings.empty())
+      warning = warnings[0];
+  }
+} // namespace SlipStep

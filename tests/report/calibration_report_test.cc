@@ -1,0 +1,345 @@
+#include <slipstep/report/calibration_report.h>
+#include <slipstep/report/calibration_text.h>
+#include <slipstep/report/panel_grid.h>
+#include <slipstep/report/report.h>
+#include <slipstep/report/text_table.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "tests/report/synthetic_calibration.h"
+#include "tests/temporary_folder.h"
+
+using namespace SlipStep;
+
+namespace
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  std::string content(const std::filesystem::path &file)
+  {
+    std::ifstream     in(file);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+
+  bool contains(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+
+  bool has_program(const std::string &call)
+  {
+    return std::system((call + " > /dev/null 2>&1").c_str()) == 0;
+  }
+
+  /// Every tag that is opened is closed, in order. (Tags without content are
+  /// closed in SVG and are a known few in HTML.)
+  std::string unbalanced_tag(const std::string &page)
+  {
+    const std::vector<std::string> empty = {"meta", "br", "wbr", "!DOCTYPE"};
+    std::vector<std::string>       open;
+    for (std::size_t at = page.find('<'); at != std::string::npos;
+         at             = page.find('<', at + 1))
+      {
+                    if (page.compare(at, 4, "<!--") == 0 ||
+            page.compare(at, 9, "<![CDATA[") == 0)
+          continue;
+        const std::size_t end    = page.find('>', at);
+                    const bool        closes = page[at + 1] == '/';
+                    const std::size_t begin  = at + (closes ? 2 : 1);
+                    const std::string name =
+                      page.substr(begin, page.find_first_of(" \t\n/>", begin) - begin);
+                    if (closes)
+          {
+                        if (open.empty() || open.back() != name)
+              return "</" + name + ">";
+            open.pop_back();
+          }
+        else if (page[end - 1] != '/' &&
+                 std::find(empty.begin(), empty.end(), name) == empty.end())
+          open.push_back(name);
+      }
+    return open.empty() ? "" : "<" + open.back() + ">";
+  }
+
+  /// The page of a calibration; it is well-formed and has no number that is
+  /// none.
+  std::string page_of(const Calibration        &calibration,
+                      std::vector<std::string> *warnings = nullptr)
+  {
+    Parameters parameters;
+    declare_report_parameters(parameters);
+    const auto said =
+      write_calibration_report(test_folder(), parameters, calibration);
+    if (warnings != nullptr)
+      *warnings = said;
+    const std::string page = content(test_folder() / "report.html");
+    EXPECT_EQ(unbalanced_tag(page), "");
+    for (const std::string word : {">nan", "nan<", " nan", ">inf", " inf<"})
+      EXPECT_FALSE(contains(page, word)) << word;
+    for (const auto &entry :
+         std::filesystem::directory_iterator(test_folder() / "report"))
+      if (entry.path().extension() == ".gp")
+        {
+          EXPECT_FALSE(contains(content(entry.path()), "nan")) << entry.path();
+          EXPECT_FALSE(contains(content(entry.path()), "inf")) << entry.path();
+        }
+    return page;
+  }
+} // namespace
+
+
+
+TEST(CalibrationReport, ThePageIsCompleteInItself)
+{
+  std::vector<std::string> warnings;
+  const std::string page = page_of(SyntheticCalibration::make(), &warnings);
+  EXPECT_TRUE(contains(page,
+                       "3 parameters from 4 tests: rms difference of friction "
+                       "0.0025, 0.98 times the noise; it was 0.02 with the "
+                       "start values. 1 parameter has an open interval."));
+  EXPECT_TRUE(contains(page, "the noise of 'fast' was estimated"));
+  EXPECT_TRUE(contains(page, "cannot be told apart"));
+  EXPECT_TRUE(contains(page, "Reference speed × 4.39, Rate ÷ 1.051"));
+  EXPECT_TRUE(contains(page, "Reference speed (no upper end)"));
+  EXPECT_TRUE(contains(page, "≥ 0.00135"));
+  EXPECT_TRUE(contains(page, "0.693 … 0.954"));
+  EXPECT_TRUE(contains(page, "×/÷ 1.083"));
+  EXPECT_TRUE(contains(page, "± 0.001"));
+  EXPECT_TRUE(contains(page, "slow &lt;a&gt; &amp; &quot;b&quot;"));
+  EXPECT_TRUE(contains(page, "2 of 5 searches ended in the best optimum; 1 "));
+  EXPECT_TRUE(contains(page, "slipstep calibrate"));
+  EXPECT_FALSE(contains(page, "belong together"));
+  // What matters most comes first.
+  EXPECT_LT(page.find("do not determine"), page.find("Static friction"));
+  // Nothing is fetched from elsewhere.
+  EXPECT_FALSE(contains(page, "src="));
+  EXPECT_FALSE(contains(page, "<link"));
+
+  for (const std::string name :
+       {"curves", "curves_start", "residuals", "profiles"})
+    for (const std::string end : {".dat", ".gp"})
+      EXPECT_TRUE(
+        std::filesystem::exists(test_folder() / "report" / (name + end)))
+        << name + end;
+  if (!has_program("gnuplot --version"))
+    GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_TRUE(warnings.empty()) << warnings[0];
+  for (const std::string name :
+       {"curves", "curves_start", "residuals", "profiles"})
+    EXPECT_TRUE(contains(page, "id=\"" + name + "-")) << name;
+}
+
+
+
+TEST(CalibrationReport, WhereNothingIsWeakItSaysSo)
+{
+  Calibration calibration = SyntheticCalibration::make();
+  calibration.weak.clear();
+  calibration.parameters.pop_back();
+  calibration.starts.clear();
+  calibration.correlation = {{1., -0.998}, {-0.998, 1.}};
+  const std::string page  = page_of(calibration);
+  EXPECT_TRUE(contains(page, "Rate and Static friction (-0.9980)"));
+  EXPECT_TRUE(contains(page, "Every parameter has an interval"));
+  EXPECT_FALSE(contains(page, "searches"));
+}
+
+
+
+TEST(CalibrationReport, ValuesHaveTheDigitsThatTheTestsGiveThem)
+{
+  const auto text = [](const double value, const double deviation) {
+    const FittedParameter fitted = SyntheticCalibration::parameter(
+      "a", Dimension::number, false, value, deviation);
+    return digits_text(fitted, fitted.value);
+  };
+  EXPECT_EQ(text(0.0899612, 0.00053), "0.08996");
+  EXPECT_EQ(text(11481.2, 1030.), "11500");
+  EXPECT_EQ(text(11481.2, 10.3), "11481");
+  EXPECT_EQ(text(3.14159265e-6, 1e-9), "3.1416e-06");
+  EXPECT_EQ(text(0.4, infinity), "0.4");
+}
+
+
+
+TEST(CalibrationReport, OpenEndsAreShownAsOpen)
+{
+  FittedParameter fitted = SyntheticCalibration::open_parameter();
+  EXPECT_EQ(interval_text(fitted), "≥ 0.00135");
+  fitted.is_lower_open = true;
+  EXPECT_EQ(interval_text(fitted), "open");
+  fitted.is_upper_open = false;
+  EXPECT_EQ(interval_text(fitted), "≤ 0.3");
+  fitted.deviation = infinity;
+  EXPECT_EQ(deviation_text(fitted), "unknown");
+  fitted.deviation = 20.;
+  EXPECT_EQ(deviation_text(fitted), "×/÷ > 1000");
+}
+
+
+
+// Nothing known, nothing to compare with, next to no data.
+TEST(CalibrationReport, DegenerateResultsDoNotBreakThePage)
+{
+  Calibration calibration;
+  page_of(calibration);
+  calibration_table(calibration);
+
+  FittedParameter unknown = SyntheticCalibration::parameter(
+    "Friction/softening/Rate", Dimension::per_length, false, 0., infinity);
+  unknown.parameter.upper = 1.;
+  unknown.lower           = 0.;
+  unknown.upper           = 1.;
+  unknown.is_lower_open = unknown.is_upper_open = unknown.is_at_bound = true;
+  unknown.profile         = {{0., 0.}, {0.5, 0.}, {1., 0.}};
+  calibration.parameters  = {unknown};
+  calibration.correlation = {{0.}};
+  calibration.tests       = {SyntheticCalibration::test("short", "", 2),
+                             SyntheticCalibration::test("one", "", 1),
+                             SyntheticCalibration::test("none", "", 0),
+                             SyntheticCalibration::test("flat", "", 50)};
+  TestMisfit &flat        = calibration.tests.back();
+  flat.noise              = 0.;
+  flat.measured_work      = 0.;
+  flat.measured.assign(50, 0.1);
+  flat.simulated.assign(50, 0.1);
+  flat.displacement.assign(50, 3.);
+  calibration.starts = {{{0.5}, {}, infinity, 0, "cannot be simulated"}};
+  std::vector<std::string> warnings;
+  const std::string        page = page_of(calibration, &warnings);
+  EXPECT_TRUE(contains(page, "at bound"));
+  EXPECT_TRUE(contains(page, ">open<"));
+  EXPECT_TRUE(contains(page, ">unknown<"));
+  if (has_program("gnuplot --version"))
+    {
+      EXPECT_TRUE(warnings.empty()) << warnings[0];
+    }
+
+  // Profiles that reach nowhere and a single one.
+  calibration.parameters[0].profile = {{0.5, 0.}, {0.5, infinity}};
+  page_of(calibration);
+  calibration.parameters[0].profile.clear();
+  page_of(calibration);
+}
+
+
+
+TEST(CalibrationReport, OfManyConditionsTheWorstAreShown)
+{
+  Calibration calibration = SyntheticCalibration::make();
+  calibration.tests.clear();
+  for (int i = 0; i < 20; ++i)
+    {
+      calibration.tests.push_back(
+        SyntheticCalibration::test("test " + std::to_string(i), "", 100));
+      calibration.tests.back().rms = 0.001 * (i + 1);
+    }
+  const std::string page = page_of(calibration);
+  EXPECT_TRUE(contains(page, "8 of 20 conditions are left out"));
+  const std::string data = content(test_folder() / "report" / "curves.dat");
+  EXPECT_TRUE(contains(data, "# test 19, measured"));
+  EXPECT_TRUE(contains(data, "# test 8, measured"));
+  EXPECT_FALSE(contains(data, "# test 7, measured"));
+}
+
+
+
+TEST(CalibrationReport, LongTestsAreThinnedWithoutLosingTheirExtremes)
+{
+  Calibration calibration = SyntheticCalibration::make();
+  calibration.tests       = {SyntheticCalibration::test("long", "", 200000)};
+  TestMisfit &test        = calibration.tests[0];
+  // Displacement is measured, too.
+  for (std::size_t i = 0; i < test.displacement.size(); ++i)
+    test.displacement[i] += 1e-3 * std::sin(1e3 * i);
+  test.measured[123457] = 0.5;
+  test.measured[77777]  = -0.5;
+  const auto begin      = std::chrono::steady_clock::now();
+  page_of(calibration);
+  calibration_table(calibration);
+  const std::chrono::duration<double> time =
+    std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(time.count(), 10.);
+
+  std::istringstream data(content(test_folder() / "report" / "curves.dat"));
+  std::size_t        n_rows = 0;
+  double             lowest = 0., highest = 0.;
+  for (std::string line; std::getline(data, line) && !line.empty();)
+    if (line[0] != '#')
+      {
+        ++n_rows;
+        const double friction = std::stod(line.substr(line.find(' ')));
+        lowest                = std::min(lowest, friction);
+        highest               = std::max(highest, friction);
+      }
+  EXPECT_GT(n_rows, 500u);
+  EXPECT_LE(n_rows, 2000u);
+  EXPECT_EQ(lowest, -0.5);
+  EXPECT_EQ(highest, 0.5);
+}
+
+
+
+TEST(CalibrationReport, WhatComesBackIsShownOverTime)
+{
+  Calibration calibration = SyntheticCalibration::make();
+  page_of(calibration);
+  const std::string script = content(test_folder() / "report" / "curves.gp");
+  // Of three conditions the last one comes back.
+  EXPECT_LT(script.rfind("Displacement"), script.find("Time"));
+  // A motion that only goes back does not.
+  calibration.tests = {SyntheticCalibration::test("back", "", 100)};
+  for (double &displacement : calibration.tests[0].displacement)
+    displacement = -displacement;
+  page_of(calibration);
+  EXPECT_FALSE(
+    contains(content(test_folder() / "report" / "curves.gp"), "Time"));
+}
+
+
+
+TEST(CalibrationTable, ItFitsTheTerminalAndIsAligned)
+{
+  Calibration calibration               = SyntheticCalibration::make();
+  calibration.tests[0].name             = std::string(120, 'x') + " µm, end";
+  calibration.parameters[1].is_at_bound = true;
+  const std::string  table              = calibration_table(calibration);
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_LE(text_width(line), 100u) << line;
+  EXPECT_TRUE(
+    contains(table,
+             "  parameter            value   unit     95 % interval   "
+             "start\n"))
+    << table;
+  EXPECT_TRUE(
+    contains(table,
+             "  Rate                 0.800   1/mm     0.693 … 0.954   "
+             "  0.4\n"))
+    << table;
+  EXPECT_TRUE(contains(table, "* 0.1300")) << table;
+  EXPECT_TRUE(contains(table, "\n  drop       0.03              ± 0.002\n"))
+    << table;
+  EXPECT_TRUE(contains(table, "µm, end   ")) << table;
+  EXPECT_TRUE(contains(table, "\n  - Reference speed and Rate cannot be told"))
+    << table;
+}
+
+
+
+TEST(CalibrationReport, TextsOfALogarithmicAxisAreShort)
+{
+  EXPECT_EQ(few_tics('x', 1e-5, 0.1, true),
+            "set xtics (\"1e-05\" 1e-05, \"0.0001\" 0.0001, \"0.001\" 0.001, "
+            "\"0.01\" 0.01, \"0.1\" 0.1)\n");
+}

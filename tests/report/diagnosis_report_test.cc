@@ -1,0 +1,387 @@
+#include <slipstep/report/diagnosis_report.h>
+#include <slipstep/report/diagnosis_text.h>
+
+#include <slipstep/report/report.h>
+#include <slipstep/report/text_table.h>
+#include <slipstep/utilities/text.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "tests/report/synthetic_diagnosis.h"
+#include "tests/temporary_folder.h"
+
+using namespace SlipStep;
+
+namespace
+{
+  std::string content(const std::filesystem::path &file)
+  {
+    std::ifstream     in(file);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+
+  bool contains(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+
+  bool has_gnuplot()
+  {
+    return std::system("gnuplot --version > /dev/null 2>&1") == 0;
+  }
+
+  std::size_t count(const std::string &text, const std::string &part)
+  {
+    std::size_t n = 0;
+    for (auto at = text.find(part); at != std::string::npos;
+         at      = text.find(part, at + 1))
+      ++n;
+    return n;
+  }
+
+  /// The page; it has no number that is none, and tags that are closed.
+  std::string page_of(const Diagnosis          &diagnosis,
+                      std::vector<std::string> *warnings = nullptr)
+  {
+    Parameters parameters;
+    declare_report_parameters(parameters);
+    const auto said =
+      write_diagnosis_report(test_folder(), parameters, diagnosis);
+    if (warnings != nullptr)
+      *warnings = said;
+    const std::string page = content(test_folder() / "report.html");
+    for (const std::string word : {">nan", "nan<", " nan", ">inf", " inf<"})
+      EXPECT_FALSE(contains(page, word)) << word;
+    for (const std::string tag : {"div", "table", "tr", "figure", "ul", "svg"})
+      EXPECT_EQ(count(page, "<" + tag + " ") + count(page, "<" + tag + ">"),
+                count(page, "</" + tag + ">"))
+        << tag;
+    return page;
+  }
+
+  /// What is seen without scrolling: up to the first section.
+  std::string first_screen_of(const Diagnosis &diagnosis)
+  {
+    const std::string page  = page_of(diagnosis);
+    const std::size_t begin = page.find("<body>");
+    const std::size_t cards = page.rfind("<div class='card'>");
+    return page.substr(begin, page.find("\n<h2>", cards) - begin);
+  }
+
+  const std::string percent = "\u00a0%";
+} // namespace
+
+
+
+TEST(DiagnosisHeadline, ItNamesWhatIsMissingWithTheNumbers)
+{
+  Diagnosis diagnosis = SyntheticDiagnosis::named();
+  EXPECT_EQ(headline(diagnosis),
+            "Overstress is missing (friction that rises with sliding speed): "
+            "with it the gap to the measurements falls from 4.91 % to 1.04 % "
+            "of friction (noise alone: 1.01 %; beyond it 4.80 % → 0.25 %), "
+            "under conditions left out of the fit from 5.13 % to 1.09 %.");
+  diagnosis.effects.push_back("healing");
+  EXPECT_TRUE(contains(headline(diagnosis),
+                       "Overstress and healing are missing (overstress: "));
+}
+
+
+
+TEST(DiagnosisHeadline, WithoutReplicatesItIsToned)
+{
+  for (Diagnosis diagnosis : {SyntheticDiagnosis::named(),
+                              SyntheticDiagnosis::ambiguous(),
+                              SyntheticDiagnosis::unnamed(),
+                              SyntheticDiagnosis::no_gap(),
+                              SyntheticDiagnosis::not_testable()})
+    {
+      diagnosis.n_replicate_pairs = 0;
+      EXPECT_EQ(headline(diagnosis).find("If the stated noise is right"), 0u);
+      diagnosis.n_replicate_pairs = 1;
+      EXPECT_FALSE(contains(headline(diagnosis), "stated noise"));
+      EXPECT_EQ(headline(diagnosis).back(), '.');
+    }
+}
+
+
+
+TEST(DiagnosisHeadline, RivalsStandBesideWhatTheyReplace)
+{
+  Diagnosis diagnosis = SyntheticDiagnosis::ambiguous();
+  EXPECT_TRUE(contains(headline(diagnosis),
+                       "These tests do not tell what is missing, overstress "
+                       "or stribeck"));
+  EXPECT_TRUE(
+    contains(headline(diagnosis), "; sliding at 0.01 mm/min would tell."));
+  diagnosis.effects = {"healing", "overstress"};
+  EXPECT_EQ(names_text(diagnosis), "healing, and overstress or stribeck");
+  diagnosis.rival_of.clear();
+  EXPECT_EQ(names_text(diagnosis), "healing or stribeck, and overstress");
+}
+
+
+
+TEST(DiagnosisHeadline, WhatHasNoNameHasItsPlace)
+{
+  Diagnosis         diagnosis = SyntheticDiagnosis::unnamed();
+  const std::string text      = headline(diagnosis);
+  EXPECT_TRUE(contains(text, "no effect of the catalogue explains"));
+  EXPECT_TRUE(contains(text, "most at speeds of 0.5 … 1.7 mm/s"));
+  EXPECT_TRUE(contains(text, "cause unknown, brings it to 2.71 %"));
+  diagnosis.correction_covariate = "";
+  diagnosis.where.clear();
+  EXPECT_FALSE(contains(headline(diagnosis), "cause unknown"));
+}
+
+
+
+TEST(DiagnosisHeadline, NothingFoundIsToldApartFromNothingVisible)
+{
+  EXPECT_TRUE(contains(headline(SyntheticDiagnosis::no_gap()),
+                       "Nothing is missing as far as these tests can tell: "
+                       "simulation and measurements differ by 1.04 %"));
+  EXPECT_TRUE(contains(headline(SyntheticDiagnosis::not_testable()),
+                       "these tests cannot tell whether anything is missing"));
+}
+
+
+
+TEST(DiagnosisHeadline, OutliersAreMentioned)
+{
+  Diagnosis diagnosis = SyntheticDiagnosis::no_gap();
+  EXPECT_FALSE(contains(headline(diagnosis), "look at"));
+  diagnosis.outliers = {{"fast", ""}};
+  EXPECT_TRUE(contains(headline(diagnosis),
+                       "; look at 'fast' first, which does not behave like"));
+  diagnosis.outliers = {{"a", ""}, {"b", ""}, {"c", ""}, {"d", ""}};
+  EXPECT_TRUE(
+    contains(headline(diagnosis), "look at 'a', 'b' and 2 more first"));
+}
+
+
+
+TEST(DiagnosisText, NumbersHaveTheDigitsWorthReading)
+{
+  EXPECT_EQ(percent_text(0.31234), "31.2 %");
+  EXPECT_EQ(percent_text(0.012345), "1.23 %");
+  EXPECT_EQ(percent_text(0.0001234), "0.012 %");
+  EXPECT_EQ(percent_text(0.), "0.00 %");
+  EXPECT_EQ(percent_text(12.), "1200 %");
+  EXPECT_EQ(percent_text(std::numeric_limits<double>::infinity()), "–");
+  EXPECT_EQ(chance_text(0.001, 999), "≤ 0.001");
+  EXPECT_EQ(chance_text(0.0015, 999), "≤ 0.0015");
+  EXPECT_EQ(chance_text(0.0015, 4999), "0.0015");
+  EXPECT_EQ(chance_text(0.0234, 999), "0.023");
+  EXPECT_EQ(chance_text(1., 999), "1");
+}
+
+
+
+TEST(DiagnosisText, EveryVerdictAndEveryEffectHasPlainWords)
+{
+  for (const std::string effect : {"overstress",
+                                   "softening",
+                                   "healing",
+                                   "pressure",
+                                   "shear_cap",
+                                   "adhesion",
+                                   "heating",
+                                   "run_in",
+                                   "anisotropy",
+                                   "direction",
+                                   "stribeck",
+                                   "viscous",
+                                   "compliance",
+                                   "subloading",
+                                   "expression"})
+    EXPECT_NE(plain_words(effect), effect);
+  EXPECT_EQ(plain_words("my own"), "my own");
+}
+
+
+
+TEST(DiagnosisTable, ItFitsTheTerminalAndHasAllThatMatters)
+{
+  for (const Diagnosis &diagnosis : {SyntheticDiagnosis::named(),
+                                     SyntheticDiagnosis::ambiguous(),
+                                     SyntheticDiagnosis::unnamed(),
+                                     SyntheticDiagnosis::no_gap(),
+                                     SyntheticDiagnosis::not_testable(),
+                                     Diagnosis()})
+    {
+      const std::string  table = diagnosis_table(diagnosis);
+      std::istringstream lines(table);
+      for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(text_width(line), 100u) << line;
+      EXPECT_TRUE(contains(table, "verdict: " + name_of(diagnosis.verdict)));
+      for (const CandidateResult &candidate : diagnosis.candidates)
+        EXPECT_TRUE(contains(table, "\n  " + candidate.name)) << table;
+    }
+  const std::string table = diagnosis_table(SyntheticDiagnosis::named());
+  EXPECT_TRUE(contains(table, "overstress/Viscosity   0.01230")) << table;
+  EXPECT_TRUE(contains(table, "0.01122 … 0.01362")) << table;
+  EXPECT_TRUE(contains(table, "speed 0.5 … 1.7 mm/s")) << table;
+  EXPECT_FALSE(contains(table, "flank")) << table;
+  EXPECT_TRUE(contains(table, "next test: sliding at 0.01 mm/min")) << table;
+}
+
+
+
+TEST(DiagnosisReport, TheFirstScreenTellsWhatWasWrongMissingAndGained)
+{
+  const std::string named = first_screen_of(SyntheticDiagnosis::named());
+  for (const std::string &part :
+       {std::string("missing effect named: overstress"),
+        std::string("At speeds of 0.5 … 1.7 mm/s"),
+        std::string("Measured friction is higher there than simulated"),
+        std::string("friction that rises with sliding speed (overstress)"),
+        "4.91" + percent + " → 1.04" + percent + " of friction",
+        "5.13" + percent,
+        "noise alone, 1.01" + percent})
+    EXPECT_TRUE(contains(named, part)) << part;
+
+  const std::string ambiguous =
+    first_screen_of(SyntheticDiagnosis::ambiguous());
+  EXPECT_TRUE(contains(ambiguous, "several explanations: overstress or "));
+  EXPECT_TRUE(contains(ambiguous, "as with a lubricant (stribeck)"));
+
+  const std::string unnamed = first_screen_of(SyntheticDiagnosis::unnamed());
+  EXPECT_TRUE(contains(unnamed, "something unknown is missing"));
+  EXPECT_TRUE(contains(unnamed, "too much remained: overstress"));
+
+  const std::string no_gap = first_screen_of(SyntheticDiagnosis::no_gap());
+  EXPECT_TRUE(contains(no_gap, "Nothing, as far as these tests can tell"));
+  EXPECT_TRUE(contains(no_gap, "changed friction by 0.35"));
+  EXPECT_TRUE(contains(no_gap, "2 of 10 effects cannot be tested here"));
+  EXPECT_FALSE(contains(no_gap, "→"));
+
+  const std::string blind = first_screen_of(SyntheticDiagnosis::not_testable());
+  EXPECT_TRUE(contains(blind, "These tests cannot tell"));
+  EXPECT_TRUE(contains(blind, "10 of 10 effects cannot be tested here"));
+}
+
+
+
+TEST(DiagnosisReport, ThePageIsCompleteInItself)
+{
+  std::vector<std::string> warnings;
+  const Diagnosis          diagnosis = SyntheticDiagnosis::named();
+  const std::string        page      = page_of(diagnosis, &warnings);
+  for (const std::string word : {"src=", "<link", "@import", "<script"})
+    EXPECT_FALSE(contains(page, word)) << word;
+  // Names of XML are no addresses.
+  EXPECT_EQ(count(page, "http"), count(page, "=\"http://www.w3.org/"));
+  for (const CandidateResult &candidate : diagnosis.candidates)
+    EXPECT_TRUE(contains(page, "<b>" + candidate.name + "</b>"))
+      << candidate.name;
+  EXPECT_EQ(count(page, "<tr class='grey'>"), 3u);
+  EXPECT_TRUE(contains(page, "would show in: a slide at 45 deg"));
+  EXPECT_TRUE(contains(page, "slow &lt;a&gt; &amp; &quot;b&quot;"));
+  EXPECT_FALSE(contains(page, "slow <a>"));
+  EXPECT_TRUE(contains(page,
+                       "<code>press 5.8 MPa in 1 s; slide 0.01 mm/min for 2 "
+                       "mm</code>"));
+  EXPECT_TRUE(contains(page, "What would overturn this verdict"));
+  EXPECT_TRUE(contains(page, "≥ 35.8"));
+  EXPECT_TRUE(contains(page, "0.0083 (0.0081 … 0.0086) of friction"));
+  EXPECT_TRUE(contains(page, "slipstep diagnose"));
+  if (!has_gnuplot())
+    GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_TRUE(warnings.empty()) << warnings[0];
+  for (const std::string name :
+       {"test_1", "test_6", "covariate_3", "profile_2", "block_1"})
+    EXPECT_TRUE(contains(page, "id=\"" + name + "-")) << name;
+}
+
+
+
+TEST(DiagnosisReport, WhatThereIsNotIsLeftOut)
+{
+  const std::string no_gap = page_of(SyntheticDiagnosis::no_gap());
+  for (const std::string part : {"The next test",
+                                 "finite elements",
+                                 "cause unknown",
+                                 "new parameters",
+                                 ">after<",
+                                 "Warnings"})
+    EXPECT_FALSE(contains(no_gap, part)) << part;
+  const std::string unnamed = page_of(SyntheticDiagnosis::unnamed());
+  EXPECT_TRUE(contains(unnamed, "A correction, cause unknown"));
+  EXPECT_TRUE(contains(unnamed, "max(log(v/0.01), 0)"));
+  EXPECT_TRUE(contains(unnamed, "no cells stated"));
+  const std::string blind = page_of(SyntheticDiagnosis::not_testable());
+  EXPECT_TRUE(contains(blind, "has been stated, not measured"));
+  EXPECT_TRUE(contains(blind, "1 test out of line with the others"));
+  EXPECT_TRUE(contains(blind, "fast (outlier)"));
+}
+
+
+
+// Nothing known, next to no data.
+TEST(DiagnosisReport, DegenerateResultsDoNotBreakThePage)
+{
+  page_of(Diagnosis());
+  Diagnosis diagnosis = SyntheticDiagnosis::named();
+  for (DiagnosedTest &test : diagnosis.tests)
+    {
+      test.after.clear();
+      test.phase.clear();
+      test.level = test.noise = 0.;
+    }
+  diagnosis.tests[1].measured.clear();
+  diagnosis.tests[2].displacement.assign(diagnosis.tests[2].time.size(), 0.);
+  diagnosis.panels[0].signatures[0].second.clear();
+  diagnosis.panels[1].x.assign(9, 4.);
+  diagnosis.panels[2].error.clear();
+  DiagnosedParameter &parameter = diagnosis.candidates[0].parameters[0];
+  parameter.profile             = {{0.5, 0.},
+                                   {0.5, std::numeric_limits<double>::infinity()}};
+  parameter.lower = parameter.upper = parameter.value = 0.5;
+  diagnosis.shrink                                    = Shrink();
+  std::vector<std::string> warnings;
+  page_of(diagnosis, &warnings);
+  if (has_gnuplot())
+    {
+      EXPECT_TRUE(warnings.empty()) << warnings[0];
+    }
+}
+
+
+
+TEST(DiagnosisReport, TestsWithTwoAxesShowBoth)
+{
+  Diagnosis      diagnosis = SyntheticDiagnosis::named();
+  DiagnosedTest &test      = diagnosis.tests[2];
+  test.measured_y          = test.measured;
+  test.before_y            = test.before;
+  test.after_y             = test.after;
+  page_of(diagnosis);
+  EXPECT_TRUE(
+    contains(content(test_folder() / "report" / "test_3.gp"), "second axis"));
+}
+
+
+
+TEST(DiagnosisReport, WithoutGnuplotTheNumbersStillCome)
+{
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nonexistent", 1);
+  std::vector<std::string> warnings;
+  const std::string page = page_of(SyntheticDiagnosis::named(), &warnings);
+  setenv("PATH", path.c_str(), 1);
+  // One for each kind of picture.
+  ASSERT_EQ(warnings.size(), 4u);
+  EXPECT_TRUE(contains(warnings[0], "gnuplot is not installed"));
+  EXPECT_FALSE(contains(page, "<svg"));
+  EXPECT_TRUE(contains(page, "4.91" + percent + " → 1.04" + percent));
+  EXPECT_TRUE(contains(page, "Tests and phases"));
+  EXPECT_TRUE(contains(page, "6.20" + percent));
+}

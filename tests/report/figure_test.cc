@@ -1,0 +1,136 @@
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/report/figure.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/temporary_folder.h"
+
+using namespace SlipStep;
+
+namespace
+{
+  /// A folder whose name would trip up a careless call of the shell.
+  std::filesystem::path scratch_folder()
+  {
+    const auto folder = test_folder() / "it's a figure";
+    std::filesystem::create_directories(folder);
+    return folder;
+  }
+
+  std::string content(const std::filesystem::path &file)
+  {
+    std::ifstream     in(file);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+
+  std::size_t count(const std::string &text, const std::string &part)
+  {
+    std::size_t n = 0;
+    for (auto at = text.find(part); at != std::string::npos;
+         at      = text.find(part, at + 1))
+      ++n;
+    return n;
+  }
+
+  bool gnuplot_is_missing()
+  {
+    return std::system("gnuplot --version > /dev/null 2>&1") != 0;
+  }
+} // namespace
+
+
+
+TEST(Figure, DataAndScriptCanBeDrawnAgain)
+{
+  Figure            figure(scratch_folder(), "curve", "A curve", 300, 200);
+  const std::string first  = figure.add_data("a", {"x", "y"}, {{0, 1}, {2, 3}});
+  const std::string second = figure.add_data("b", {"x"}, {{0.1}});
+  EXPECT_EQ(first, "'curve.dat' index 0");
+  EXPECT_EQ(second, "'curve.dat' index 1");
+  figure.script() << "plot " << first << " with lines\n";
+  figure.write();
+  EXPECT_EQ(content(scratch_folder() / "curve.dat"),
+            "# a\n# x y\n0 1\n2 3\n\n\n# b\n# x\n0.1\n");
+  const std::string script = content(scratch_folder() / "curve.gp");
+  EXPECT_NE(script.find("set output 'curve.svg'"), std::string::npos);
+  EXPECT_NE(script.find("plot 'curve.dat' index 0 with lines"),
+            std::string::npos);
+}
+
+
+
+TEST(Figure, PicturesOnOnePageShareNoIds)
+{
+  if (gnuplot_is_missing())
+    GTEST_SKIP() << "gnuplot is not installed";
+  std::string page;
+  for (const std::string name : {"one", "two"})
+    {
+      Figure figure(scratch_folder(), name, "x < y", 300, 200);
+      figure.script() << "plot sin(x) with points title "
+                      << gnuplot_text("a_b {c} \"d\" `e` \\f") << "\n";
+      EXPECT_EQ(figure.write(), "");
+      const std::string svg = figure.inline_svg();
+      EXPECT_EQ(svg.find("<svg"), 0u);
+      EXPECT_EQ(count(svg, "</svg>"), 1u);
+      EXPECT_NE(svg.find("<title>x &lt; y</title>"), std::string::npos);
+      EXPECT_NE(svg.find("a_b {c} \"d\" 'e' \\f<"), std::string::npos);
+      EXPECT_GT(count(svg, "id="), 0u);
+      EXPECT_EQ(count(svg, "id="),
+                count(svg, "id='" + name + "-") +
+                  count(svg, "id=\"" + name + "-"));
+      EXPECT_EQ(count(svg, "href="),
+                count(svg, "href='#" + name + "-") +
+                  count(svg, "href=\"#" + name + "-"));
+    }
+}
+
+
+
+TEST(Figure, AnErrorInTheScriptIsAWarning)
+{
+  if (gnuplot_is_missing())
+    GTEST_SKIP() << "gnuplot is not installed";
+  Figure figure(scratch_folder(), "broken", "Broken", 300, 200);
+  figure.script() << "plot 'no such file' with lines\n";
+  const std::string warning = figure.write();
+  EXPECT_NE(warning.find("Broken"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("broken.gp"), std::string::npos) << warning;
+  EXPECT_EQ(figure.inline_svg(), "");
+}
+
+
+
+TEST(Figure, AMissingGnuplotIsAWarning)
+{
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nonexistent", 1);
+  Figure figure(scratch_folder(), "absent", "Absent", 300, 200);
+  figure.script() << "plot sin(x)\n";
+  const std::string warning = figure.write();
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(warning.find("gnuplot-nox"), std::string::npos) << warning;
+  EXPECT_TRUE(std::filesystem::exists(scratch_folder() / "absent.gp"));
+  EXPECT_FALSE(std::filesystem::exists(figure.svg_file()));
+}
+
+
+
+TEST(Figure, AFolderThatDoesNotExistIsAnError)
+{
+  EXPECT_THROW(Figure("/no/such/folder", "x", "x", 1, 1).write(), RunError);
+}
+
+
+
+TEST(Figure, HtmlTextIsEscaped)
+{
+  EXPECT_EQ(html_text("<E> & \"h\""), "&lt;E&gt; &amp; &quot;h&quot;");
+}
