@@ -2,8 +2,8 @@
 #include <slipstep/report/calibration_report.h>
 #include <slipstep/commands/calibrate.h>
 #include <slipstep/experiment/point_driver.h>
-#include <slipstep/experiment/results_folder.h>
-#include <slipstep/solid/case.h>
+#include <slipstep/commands/results_folder.h>
+#include <slipstep/commands/case.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
 #include <slipstep/utilities/write_file.h>

@@ -1,9 +1,9 @@
 #include <slipstep/calibration/campaign.h>
 #include <slipstep/commands/check.h>
 #include <slipstep/experiment/point_driver.h>
-#include <slipstep/measured_data/import_tests.h>
+#include <slipstep/commands/import_tests.h>
 #include <slipstep/measured_data/test_set.h>
-#include <slipstep/solid/case.h>
+#include <slipstep/commands/case.h>
 
 #include <algorithm>
 #include <iostream>

@@ -7,9 +7,9 @@
 #include <slipstep/commands/print_parameters.h>
 #include <slipstep/commands/run.h>
 #include <slipstep/friction/law.h>
-#include <slipstep/measured_data/import_tests.h>
-#include <slipstep/solid/refine_block.h>
-#include <slipstep/synthetic_tests/plant.h>
+#include <slipstep/commands/import_tests.h>
+#include <slipstep/commands/refine_block.h>
+#include <slipstep/commands/plant.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
 

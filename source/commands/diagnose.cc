@@ -5,10 +5,10 @@
 #include <slipstep/report/diagnosis_report.h>
 #include <slipstep/report/diagnosis_text.h>
 #include <slipstep/diagnosis/element_tests.h>
-#include <slipstep/experiment/results_folder.h>
-#include <slipstep/experiment/sweep.h>
+#include <slipstep/commands/results_folder.h>
+#include <slipstep/commands/sweep.h>
 #include <slipstep/report/case_text.h>
-#include <slipstep/solid/case.h>
+#include <slipstep/commands/case.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>

@@ -1,6 +1,6 @@
 #include <slipstep/commands/print_parameters.h>
 #include <slipstep/measured_data/import_map.h>
-#include <slipstep/solid/case.h>
+#include <slipstep/commands/case.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <iostream>

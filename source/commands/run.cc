@@ -5,13 +5,13 @@
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/report/report.h>
-#include <slipstep/experiment/results_folder.h>
+#include <slipstep/commands/results_folder.h>
 #include <slipstep/experiment/run_recorder.h>
-#include <slipstep/experiment/sweep.h>
+#include <slipstep/commands/sweep.h>
 #include <slipstep/solid/attempt_together.h>
 #include <slipstep/solid/block_parameters.h>
-#include <slipstep/solid/case.h>
-#include <slipstep/solid/run_block.h>
+#include <slipstep/commands/case.h>
+#include <slipstep/commands/run_block.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>

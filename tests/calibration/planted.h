@@ -4,7 +4,6 @@
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/calibration/campaign.h>
 #include <slipstep/measured_data/measured_test.h>
-#include <slipstep/report/report.h>
 
 #include <cmath>
 #include <filesystem>
@@ -22,7 +21,6 @@ namespace SlipStep
     {
       Parameters parameters = point_parameters({});
       declare_calibration_parameters(parameters);
-      declare_report_parameters(parameters);
       set_all(settings, parameters);
       return parameters;
     }

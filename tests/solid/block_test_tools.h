@@ -2,7 +2,7 @@
 #define tests_solid_block_test_tools_h
 
 #include <slipstep/solid/block.h>
-#include <slipstep/solid/case.h>
+#include <slipstep/commands/case.h>
 
 #include <functional>
 #include <string>

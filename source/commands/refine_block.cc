@@ -1,14 +1,14 @@
-#include <slipstep/solid/refine_block.h>
+#include <slipstep/commands/refine_block.h>
 
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/refinement_study.h>
 #include <slipstep/report/report.h>
-#include <slipstep/experiment/results_folder.h>
+#include <slipstep/commands/results_folder.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/report/study_report.h>
-#include <slipstep/experiment/sweep.h>
-#include <slipstep/solid/case.h>
+#include <slipstep/commands/sweep.h>
+#include <slipstep/commands/case.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 

@@ -1,5 +1,5 @@
-#ifndef slipstep_solid_refine_block_h
-#define slipstep_solid_refine_block_h
+#ifndef slipstep_commands_refine_block_h
+#define slipstep_commands_refine_block_h
 
 #include <slipstep/utilities/command_line.h>
 

@@ -1,5 +1,5 @@
-#ifndef slipstep_experiment_sweep_h
-#define slipstep_experiment_sweep_h
+#ifndef slipstep_commands_sweep_h
+#define slipstep_commands_sweep_h
 
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/parameters.h>

@@ -1,4 +1,4 @@
-#include <slipstep/solid/run_block.h>
+#include <slipstep/commands/run_block.h>
 
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/run_recorder.h>
@@ -6,7 +6,7 @@
 #include <slipstep/solid/block.h>
 #include <slipstep/solid/block_probes.h>
 #include <slipstep/solid/point_lines.h>
-#include <slipstep/solid/run_checkpoints.h>
+#include <slipstep/commands/run_checkpoints.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,4 +1,4 @@
-#include <slipstep/solid/case.h>
+#include <slipstep/commands/case.h>
 
 #include <slipstep/calibration/fit_parameter.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
@@ -7,7 +7,7 @@
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/refinement_study.h>
 #include <slipstep/report/report.h>
-#include <slipstep/experiment/results_folder.h>
+#include <slipstep/commands/results_folder.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/step_control.h>
 #include <slipstep/friction/law.h>

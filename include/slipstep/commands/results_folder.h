@@ -1,5 +1,5 @@
-#ifndef slipstep_experiment_results_folder_h
-#define slipstep_experiment_results_folder_h
+#ifndef slipstep_commands_results_folder_h
+#define slipstep_commands_results_folder_h
 
 #include <chrono>
 #include <filesystem>

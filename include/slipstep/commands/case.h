@@ -1,5 +1,5 @@
-#ifndef slipstep_solid_case_h
-#define slipstep_solid_case_h
+#ifndef slipstep_commands_case_h
+#define slipstep_commands_case_h
 
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/utilities/command_line.h>

@@ -1,5 +1,5 @@
-#ifndef slipstep_solid_run_checkpoints_h
-#define slipstep_solid_run_checkpoints_h
+#ifndef slipstep_commands_run_checkpoints_h
+#define slipstep_commands_run_checkpoints_h
 
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/run_recorder.h>

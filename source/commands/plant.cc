@@ -1,5 +1,5 @@
 #include <slipstep/synthetic_tests/answer.h>
-#include <slipstep/synthetic_tests/plant.h>
+#include <slipstep/commands/plant.h>
 #include <slipstep/synthetic_tests/planted_campaign.h>
 
 #include <slipstep/utilities/exceptions.h>

@@ -1,4 +1,4 @@
-#include <slipstep/experiment/sweep.h>
+#include <slipstep/commands/sweep.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include <slipstep/experiment/checkpoint.h>
-#include <slipstep/experiment/results_folder.h>
+#include <slipstep/commands/results_folder.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
-#ifndef slipstep_synthetic_tests_plant_h
-#define slipstep_synthetic_tests_plant_h
+#ifndef slipstep_commands_plant_h
+#define slipstep_commands_plant_h
 
 #include <slipstep/utilities/command_line.h>
 

@@ -1,5 +1,5 @@
-#ifndef slipstep_measured_data_import_tests_h
-#define slipstep_measured_data_import_tests_h
+#ifndef slipstep_commands_import_tests_h
+#define slipstep_commands_import_tests_h
 
 #include <slipstep/utilities/command_line.h>
 

@@ -1,5 +1,5 @@
-#ifndef slipstep_solid_run_block_h
-#define slipstep_solid_run_block_h
+#ifndef slipstep_commands_run_block_h
+#define slipstep_commands_run_block_h
 
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/summary.h>

@@ -1,4 +1,4 @@
-#include <slipstep/solid/run_checkpoints.h>
+#include <slipstep/commands/run_checkpoints.h>
 
 #include <slipstep/experiment/archive_file.h>
 #include <slipstep/solid/attempt_together.h>

@@ -1,4 +1,4 @@
-#include <slipstep/experiment/sweep.h>
+#include <slipstep/commands/sweep.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>

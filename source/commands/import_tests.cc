@@ -1,4 +1,4 @@
-#include <slipstep/measured_data/import_tests.h>
+#include <slipstep/commands/import_tests.h>
 
 #include <slipstep/measured_data/import_map.h>
 #include <slipstep/measured_data/test_set.h>
