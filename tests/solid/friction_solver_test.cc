@@ -3,7 +3,7 @@
 
 #include "solver_problem.h"
 
-#include <slipstep/solid/assembled_matrix.h>
+#include <slipstep/solid/linear_solver/assembled_matrix.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "solver_problem.h"
 
-#include <slipstep/solid/multigrid_levels.h>
+#include <slipstep/solid/linear_solver/multigrid_levels.h>
 
 #include <gtest/gtest.h>
 

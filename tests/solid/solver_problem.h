@@ -13,7 +13,7 @@
 #include <deal.II/grid/grid_generator.h>
 
 #include <slipstep/solid/supports.h>
-#include <slipstep/solid/tangent_system.h>
+#include <slipstep/solid/linear_solver/tangent_system.h>
 
 #include <random>
 

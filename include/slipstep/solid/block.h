@@ -20,7 +20,7 @@
 #include <slipstep/solid/mesh_change.h>
 #include <slipstep/solid/mesh_marker.h>
 #include <slipstep/solid/mesh_tolerance.h>
-#include <slipstep/solid/tangent_system.h>
+#include <slipstep/solid/linear_solver/tangent_system.h>
 
 #include <filesystem>
 #include <functional>

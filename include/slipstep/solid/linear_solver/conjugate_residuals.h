@@ -1,5 +1,5 @@
-#ifndef slipstep_solid_conjugate_residuals_h
-#define slipstep_solid_conjugate_residuals_h
+#ifndef slipstep_solid_linear_solver_conjugate_residuals_h
+#define slipstep_solid_linear_solver_conjugate_residuals_h
 
 #include <deal.II/base/mpi.h>
 

@@ -1,7 +1,7 @@
-#include <slipstep/solid/tangent_system.h>
+#include <slipstep/solid/linear_solver/tangent_system.h>
 
-#include <slipstep/solid/assembled_matrix.h>
-#include <slipstep/solid/preconditioner.h>
+#include <slipstep/solid/linear_solver/assembled_matrix.h>
+#include <slipstep/solid/linear_solver/preconditioner.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <deal.II/lac/solver_gmres.h>

@@ -1,5 +1,5 @@
-#ifndef slipstep_solid_multigrid_levels_h
-#define slipstep_solid_multigrid_levels_h
+#ifndef slipstep_solid_linear_solver_multigrid_levels_h
+#define slipstep_solid_linear_solver_multigrid_levels_h
 
 #include <deal.II/base/quadrature_lib.h>
 

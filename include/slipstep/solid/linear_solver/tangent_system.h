@@ -1,5 +1,5 @@
-#ifndef slipstep_solid_tangent_system_h
-#define slipstep_solid_tangent_system_h
+#ifndef slipstep_solid_linear_solver_tangent_system_h
+#define slipstep_solid_linear_solver_tangent_system_h
 
 #include <deal.II/lac/affine_constraints.h>
 

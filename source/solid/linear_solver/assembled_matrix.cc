@@ -1,4 +1,4 @@
-#include <slipstep/solid/assembled_matrix.h>
+#include <slipstep/solid/linear_solver/assembled_matrix.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

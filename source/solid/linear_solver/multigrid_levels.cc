@@ -1,4 +1,4 @@
-#include <slipstep/solid/multigrid_levels.h>
+#include <slipstep/solid/linear_solver/multigrid_levels.h>
 
 #include <slipstep/solid/supports.h>
 

@@ -1,5 +1,5 @@
-#ifndef slipstep_solid_preconditioner_h
-#define slipstep_solid_preconditioner_h
+#ifndef slipstep_solid_linear_solver_preconditioner_h
+#define slipstep_solid_linear_solver_preconditioner_h
 
 #include <deal.II/dofs/dof_handler.h>
 

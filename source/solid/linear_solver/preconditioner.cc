@@ -1,4 +1,4 @@
-#include <slipstep/solid/preconditioner.h>
+#include <slipstep/solid/linear_solver/preconditioner.h>
 
 #include <slipstep/utilities/exceptions.h>
 

@@ -1,7 +1,7 @@
-#ifndef slipstep_solid_elastic_operator_templates_h
-#define slipstep_solid_elastic_operator_templates_h
+#ifndef slipstep_solid_linear_solver_elastic_operator_templates_h
+#define slipstep_solid_linear_solver_elastic_operator_templates_h
 
-#include <slipstep/solid/elastic_operator.h>
+#include <slipstep/solid/linear_solver/elastic_operator.h>
 
 namespace SlipStep
 {

@@ -1,5 +1,5 @@
-#ifndef slipstep_solid_multigrid_system_h
-#define slipstep_solid_multigrid_system_h
+#ifndef slipstep_solid_linear_solver_multigrid_system_h
+#define slipstep_solid_linear_solver_multigrid_system_h
 
 // For the units that make_multigrid_system() is compiled in, and for tests:
 // they may be built with wider SIMD types than the library, see
@@ -38,12 +38,12 @@
 
 #include <deal.II/multigrid/mg_transfer_global_coarsening.templates.h>
 
-#include <slipstep/solid/assembled_matrix.h>
-#include <slipstep/solid/conjugate_residuals.h>
-#include <slipstep/solid/elastic_operator.templates.h>
-#include <slipstep/solid/multigrid_levels.h>
-#include <slipstep/solid/preconditioner.h>
-#include <slipstep/solid/tangent_system.h>
+#include <slipstep/solid/linear_solver/assembled_matrix.h>
+#include <slipstep/solid/linear_solver/conjugate_residuals.h>
+#include <slipstep/solid/linear_solver/elastic_operator.templates.h>
+#include <slipstep/solid/linear_solver/multigrid_levels.h>
+#include <slipstep/solid/linear_solver/preconditioner.h>
+#include <slipstep/solid/linear_solver/tangent_system.h>
 #include <slipstep/utilities/exceptions.h>
 
 namespace SlipStep

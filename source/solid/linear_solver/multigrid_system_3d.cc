@@ -1,9 +1,9 @@
-#include <slipstep/solid/multigrid_system.h>
+#include <slipstep/solid/linear_solver/multigrid_system.h>
 
 namespace SlipStep
 {
-  template std::unique_ptr<TangentSystem<2>>
+  template std::unique_ptr<TangentSystem<3>>
   make_multigrid_system(const BlockParameters &,
-                        const dealii::DoFHandler<2> &,
+                        const dealii::DoFHandler<3> &,
                         const dealii::AffineConstraints<double> &);
 } // namespace SlipStep

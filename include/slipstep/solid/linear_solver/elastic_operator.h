@@ -1,5 +1,5 @@
-#ifndef slipstep_solid_elastic_operator_h
-#define slipstep_solid_elastic_operator_h
+#ifndef slipstep_solid_linear_solver_elastic_operator_h
+#define slipstep_solid_linear_solver_elastic_operator_h
 
 // Types in this file depend on the width of VectorizedArray, which may differ
 // from that of the library: include it only where multigrid_system.h is.

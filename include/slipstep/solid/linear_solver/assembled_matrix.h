@@ -1,5 +1,5 @@
-#ifndef slipstep_solid_assembled_matrix_h
-#define slipstep_solid_assembled_matrix_h
+#ifndef slipstep_solid_linear_solver_assembled_matrix_h
+#define slipstep_solid_linear_solver_assembled_matrix_h
 
 #include <deal.II/base/quadrature.h>
 
