@@ -1,16 +1,7 @@
 #include <slipstep/friction/contact_point.h>
-#include <slipstep/friction/law.h>
 
 namespace SlipStep
 {
-  StageStart::StageStart(const ContactState &state)
-    : state(state)
-    , path_start(state.traction)
-    , path_base(state.traction)
-  {}
-
-
-
   ContactPoint::ContactPoint(const FrictionLaw &law)
     : ContactPoint(law.initial_state())
   {}

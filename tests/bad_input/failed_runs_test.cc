@@ -59,6 +59,16 @@ namespace
 
 
 
+  // 0 for a file that has just been created.
+  std::size_t n_rows(const std::filesystem::path &history)
+  {
+    return std::filesystem::file_size(history) == 0 ?
+             0 :
+             read_history(history).size();
+  }
+
+
+
   // Interrupts runs that have rows to keep; returns what is said.
   std::string interrupted(const SlipstepProcess &process,
                           const int              signal,
@@ -71,7 +81,7 @@ namespace
         for (const auto &entry :
              std::filesystem::recursive_directory_iterator(output))
           n += entry.path().filename() == "history.csv" &&
-               read_history(entry.path()).size() > 2;
+               n_rows(entry.path()) > 2;
       return n == n_runs;
     };
     BackgroundRun run(process.folder(), {"run", "case.prm"});

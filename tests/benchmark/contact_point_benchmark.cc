@@ -1,6 +1,8 @@
 // Updates of a contact point with tangent, per second and core:
 //   cmake --build build --target benchmark
 
+#include <slipstep/friction/contact_point.h>
+
 #include "../friction/law_test_tools.h"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 #ifndef tests_friction_law_test_tools_h
 #define tests_friction_law_test_tools_h
 
-#include <slipstep/friction/law.h>
+#include <slipstep/friction/contact_point.h>
 
 #include <cmath>
 #include <memory>

@@ -1,7 +1,7 @@
 #ifndef slipstep_experiment_history_h
 #define slipstep_experiment_history_h
 
-#include <slipstep/friction/contact_point.h>
+#include <slipstep/friction/contact_state.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 #ifndef slipstep_experiment_machine_h
 #define slipstep_experiment_machine_h
 
-#include <slipstep/friction/law.h>
+#include <slipstep/friction/contact_point.h>
 
 #include <string>
 #include <vector>

@@ -2,8 +2,8 @@
 #define slipstep_experiment_replay_h
 
 #include <slipstep/experiment/machine.h>
+#include <slipstep/friction/contact_point.h>
 #include <slipstep/measured_data/measured_test.h>
-#include <slipstep/friction/law.h>
 
 #include <cstddef>
 #include <limits>

@@ -3,7 +3,7 @@
 
 #include <deal.II/base/tensor.h>
 
-#include <slipstep/friction/contact_point.h>
+#include <slipstep/friction/contact_state.h>
 #include <slipstep/utilities/parameters.h>
 
 #include <functional>

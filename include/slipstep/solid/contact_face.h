@@ -10,7 +10,7 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <slipstep/experiment/history.h>
-#include <slipstep/friction/law.h>
+#include <slipstep/friction/contact_point.h>
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/contact_tangent.h>
 

@@ -1,0 +1,129 @@
+#ifndef slipstep_friction_contact_state_h
+#define slipstep_friction_contact_state_h
+
+#include <deal.II/base/tensor.h>
+
+#include <algorithm>
+#include <array>
+
+namespace SlipStep
+{
+  struct ContactState;
+
+  /// Something that single effects remember of a contact point.
+  struct ContactMemory
+  {
+    double ContactState::*value;
+    /// In files, with its unit.
+    const char *name;
+  };
+
+  /// Everything a contact point remembers from one step to the next.
+  struct ContactState
+  {
+    /// Tangential traction with which the plane resists the block [MPa];
+    /// positive along positive slip.
+    dealii::Tensor<1, 2> traction;
+    /// Normal traction f_n [MPa], positive in compression, 0 when open.
+    double normal_traction = 0.;
+    /// Yield level tau_y [MPa].
+    double strength = 0.;
+    /// Dynamic-loading ratio r = |f_t| / tau_y.
+    double loading_ratio = 0.;
+    /// Subloading normal ratio r_s.
+    double normal_ratio = 0.;
+    /// Quasi-static coefficient of friction mu.
+    double coefficient = 0.;
+    /// Viscoplastic slip path, the integral of lambda [mm].
+    double slip_path = 0.;
+    /// Viscoplastic slip rate lambda at the end of the step [mm/s].
+    double slip_rate = 0.;
+    /// Energy dissipated per area [MPa mm].
+    double dissipation = 0.;
+
+    // What single effects remember, 0 while they are off. None is negative; a
+    // change of the mesh averages them.
+
+    /// Temperature of the contact above that of its surroundings [degC].
+    double temperature_rise = 0.;
+    /// How long what now touches has been in touch, of effect ageing [s].
+    double contact_age = 0.;
+    /// The same with the renewal length of effect expression [s].
+    double hold_time = 0.;
+
+    /// The memories, for those who treat all alike: a new one is added here,
+    /// and is then transferred, saved and shown.
+    static constexpr std::array<ContactMemory, 3> memories()
+    {
+      return {{{&ContactState::temperature_rise, "temperature_rise_degC"},
+               {&ContactState::contact_age, "contact_age_s"},
+               {&ContactState::hold_time, "hold_time_s"}}};
+    }
+
+    /// All of it, for boost::serialization.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &traction &normal_traction &strength &loading_ratio &normal_ratio
+        &coefficient &slip_path &slip_rate &dissipation;
+      for (const auto memory : memories())
+        archive &(this->*memory.value);
+    }
+  };
+
+  /// What a stage of a contact point answers, with its exact linearisation.
+  struct ContactResponse
+  {
+    /// Tangential traction [MPa].
+    dealii::Tensor<1, 2> traction;
+    /// d traction / d slip increment [MPa/mm], in general unsymmetric.
+    dealii::Tensor<2, 2> d_slip;
+    /// d traction / d normal traction [1].
+    dealii::Tensor<1, 2> d_normal;
+    /// Whether more of the slip increment was viscoplastic than elastic.
+    bool slips = false;
+  };
+
+  /// Estimated error of a step, relative to the present strength.
+  struct StepError
+  {
+    /// Of traction, mu, r_s and strength, which the memories make, at the end
+    /// of the step.
+    double at_end = 0.;
+    /// Of the straight line from the beginning of the step to its end.
+    double of_line = 0.;
+
+    /// What the tolerance of a step is compared with: a line, of which the
+    /// error does not add up, may err four times as much.
+    double measure() const
+    {
+      return std::max(at_end, of_line / 4.);
+    }
+  };
+
+  /// Where an implicit stage starts.
+  struct StageStart
+  {
+    StageStart() = default;
+
+    /// The first stage of a step.
+    explicit StageStart(const ContactState &state);
+
+    ContactState state;
+    /// Where the elastic path begins on which the smallest r is looked for
+    /// [MPa], and what of the trial traction is counted from there: the
+    /// traction, in the second stage less what slip will take.
+    dealii::Tensor<1, 2> path_start, path_base;
+  };
+
+  /// One stage that has been made.
+  struct StageRecord
+  {
+    ContactState         end;
+    ContactResponse      response;
+    dealii::Tensor<1, 2> slip_increment; ///< [mm]
+    double               time_step = 0.; ///< [s]
+  };
+} // namespace SlipStep
+
+#endif
