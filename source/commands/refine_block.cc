@@ -2,7 +2,7 @@
 
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/refinement_study.h>
-#include <slipstep/report/report.h>
+#include <slipstep/report/run_report.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/run_recorder.h>

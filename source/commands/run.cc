@@ -4,7 +4,7 @@
 #include <slipstep/commands/run_point.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/point_driver.h>
-#include <slipstep/report/report.h>
+#include <slipstep/report/run_report.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/commands/sweep.h>

@@ -17,7 +17,6 @@ namespace SlipStep
 {
   namespace
   {
-    const std::string section = "Diagnosis/";
 
     const char *const list_key = "Calibration/Parameters";
 
@@ -120,7 +119,7 @@ namespace SlipStep
     Noise stated_noise(const Parameters &parameters)
     {
       const auto number = [&](const std::string &name) {
-        return parameters.number(section + name);
+        return parameters.number("Diagnosis/" + name);
       };
       Noise noise;
       noise.white      = 1.;
@@ -228,7 +227,7 @@ namespace SlipStep
 
     void Preparer::begin(const std::vector<CampaignTest> &tests)
     {
-      const unsigned int most_effects = start.integer(section + "Most effects");
+      const unsigned int most_effects = start.integer("Diagnosis/Most effects");
       result.workspace.reset(new Workspace{start,
                                            tests,
                                            Comparison(tests),
@@ -236,7 +235,7 @@ namespace SlipStep
                                            {},
                                            {},
                                            {},
-                                           start.number(section + "Level"),
+                                           start.number("Diagnosis/Level"),
                                            most_effects,
                                            0,
                                            stage});
@@ -336,7 +335,7 @@ namespace SlipStep
         find_contradiction(comparison.contrasts(difference),
                            workspace.noise.noise,
                            stated,
-                           start.integer(section + "Seed"));
+                           start.integer("Diagnosis/Seed"));
       if (!found.has_value())
         return false;
       const auto far     = distances(*found);
@@ -386,8 +385,8 @@ namespace SlipStep
         tested_range(comparison, workspace.tests, workspace.covariates);
       workspace.null_draws = draw_null(comparison,
                                        workspace.noise,
-                                       start.integer(section + "Draws"),
-                                       start.integer(section + "Seed"));
+                                       start.integer("Diagnosis/Draws"),
+                                       start.integer("Diagnosis/Seed"));
       RowMatrix whitened =
         comparison.difference(*result.base.simulator,
                               result.base.campaign->scaled_start());

@@ -299,7 +299,7 @@ namespace SlipStep
 
 
 
-    CheckpointManifest from_json(const json &object)
+    CheckpointManifest manifest_from_json(const json &object)
     {
       CheckpointManifest manifest;
       for (const auto &value : object.at("parameters").items())
@@ -369,7 +369,7 @@ namespace SlipStep
         object.erase("manifest_crc32");
         if (checksum_of(object) != checksum)
           throw Damage(file.string() + " has changed");
-        CheckpointManifest manifest = from_json(object);
+        CheckpointManifest manifest = manifest_from_json(object);
         manifest.folder             = folder;
         return manifest;
       }

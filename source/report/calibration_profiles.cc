@@ -4,7 +4,7 @@
 #include <slipstep/report/calibration_text.h>
 #include <slipstep/report/panel_grid.h>
 
-#include <slipstep/report/report_drawing.h>
+#include <slipstep/report/drawing.h>
 
 #include <boost/math/distributions/normal.hpp>
 

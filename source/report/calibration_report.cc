@@ -3,9 +3,8 @@
 #include <slipstep/report/calibration_figures.h>
 #include <slipstep/report/calibration_text.h>
 
-#include <slipstep/report/repeat_command.h>
-#include <slipstep/report/report_data.h>
-#include <slipstep/report/report_html.h>
+#include <slipstep/report/run_results.h>
+#include <slipstep/report/page.h>
 #include <slipstep/report/figure.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
@@ -17,16 +16,6 @@ namespace SlipStep
 {
   namespace
   {
-    std::string heading(const std::string &text)
-    {
-      return "<h2>" + html_text(text) + "</h2>\n";
-    }
-
-    std::string note(const std::string &text)
-    {
-      return "<p class='origin'>" + html_text(text) + "</p>\n";
-    }
-
     /// What the reader must not miss: results that the tests do not support.
     std::string weak_section(const Calibration &calibration)
     {
@@ -292,22 +281,6 @@ namespace SlipStep
                           fixed_text(calibration.wall_time, 1),
                           fixed_text(calibration.cpu_time, 1)}});
     }
-
-    std::string repeat_section(const Parameters &parameters)
-    {
-      return heading("Repeat it") + "<pre>" +
-             html_text(
-               program_call("calibrate", parameters.case_file().string()) +
-               given_settings(parameters)) +
-             "\n</pre>\n";
-    }
-
-    std::string title_of(const Parameters &parameters)
-    {
-      const std::string title = parameters.text("Report/Title");
-      return (title.empty() ? parameters.case_file().stem().string() : title) +
-             ": calibration";
-    }
   } // namespace
 
 
@@ -332,9 +305,10 @@ namespace SlipStep
                derived_section(calibration) + pictures_section(curves) +
                pictures_section(profiles) + correlation_section(calibration) +
                tests_section(calibration) + starts_section(calibration) +
-               cost_section(calibration) + repeat_section(parameters);
+               cost_section(calibration) +
+               repeat_section("calibrate", parameters);
     write_file(folder / "report.html",
-               html_page(title_of(parameters),
+               html_page(title_of(parameters) + ": calibration",
                          calibration_headline(calibration),
                          content));
     return warnings;

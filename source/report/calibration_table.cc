@@ -3,7 +3,7 @@
 #include <slipstep/report/calibration_report.h>
 #include <slipstep/report/calibration_text.h>
 
-#include <slipstep/report/report_data.h>
+#include <slipstep/report/run_results.h>
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/text.h>
 
@@ -13,8 +13,6 @@ namespace SlipStep
 {
   namespace
   {
-    constexpr std::size_t widest = 100;
-
     std::vector<TableLine> short_parameter_lines(const Calibration &calibration)
     {
       std::vector<TableLine> lines = {
@@ -60,9 +58,9 @@ namespace SlipStep
   std::string calibration_table(const Calibration &calibration)
   {
     std::string text =
-      wrapped_text(calibration_headline(calibration), 2, widest) + "\n";
+      wrapped_text(calibration_headline(calibration), 2, terminal_width) + "\n";
     if (!calibration.parameters.empty())
-      text += text_table(short_parameter_lines(calibration), widest);
+      text += text_table(short_parameter_lines(calibration), terminal_width);
     if (std::any_of(calibration.parameters.begin(),
                     calibration.parameters.end(),
                     [](const FittedParameter &fitted) {
@@ -70,14 +68,14 @@ namespace SlipStep
                     }))
       text += "  * at a bound, or at a condition of the law\n";
     if (!calibration.derived.empty())
-      text += "\n" + text_table(derived_lines(calibration), widest);
+      text += "\n" + text_table(derived_lines(calibration), terminal_width);
     if (!calibration.tests.empty())
-      text += "\n" + text_table(short_test_lines(calibration), widest);
+      text += "\n" + text_table(short_test_lines(calibration), terminal_width);
     if (!calibration.weak.empty())
       text += "\n  What these tests hardly determine:\n";
     for (const WeakDirection &direction : calibration.weak)
       {
-        std::string words = wrapped_text(direction.words, 4, widest);
+        std::string words = wrapped_text(direction.words, 4, terminal_width);
         if (words.size() > 2)
           words[2] = '-';
         text += words;

@@ -1,6 +1,6 @@
 #include <slipstep/report/calibration_text.h>
 
-#include <slipstep/report/report_data.h>
+#include <slipstep/report/run_results.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -12,11 +12,6 @@ namespace SlipStep
 {
   namespace
   {
-    std::string counted(const std::size_t n, const std::string &what)
-    {
-      return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-    }
-
     /// Over all rows of all tests.
     double total_rms(const Calibration &calibration, double TestMisfit::*rms)
     {

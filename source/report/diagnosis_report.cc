@@ -2,9 +2,8 @@
 
 #include <slipstep/report/diagnosis_sections.h>
 #include <slipstep/report/diagnosis_text.h>
-#include <slipstep/report/repeat_command.h>
-#include <slipstep/report/report_data.h>
-#include <slipstep/report/report_html.h>
+#include <slipstep/report/run_results.h>
+#include <slipstep/report/page.h>
 #include <slipstep/report/figure.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
@@ -277,11 +276,6 @@ namespace SlipStep
       return html + "</ul>\n";
     }
 
-    std::string counted(const std::size_t n, const std::string &what)
-    {
-      return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-    }
-
     std::string honesty_section(const Diagnosis &diagnosis)
     {
       std::vector<std::string> outliers;
@@ -336,22 +330,6 @@ namespace SlipStep
         bullets("Warnings", diagnosis.warnings) + html_table(lines, "numbers");
       return html + noise_table(diagnosis) + "</div>\n";
     }
-
-    std::string repeat_section(const Parameters &parameters)
-    {
-      return heading("Repeat it") + "<pre>" +
-             html_text(
-               program_call("diagnose", parameters.case_file().string()) +
-               given_settings(parameters)) +
-             "\n</pre>\n";
-    }
-
-    std::string title_of(const Parameters &parameters)
-    {
-      const std::string title = parameters.text("Report/Title");
-      return (title.empty() ? parameters.case_file().stem().string() : title) +
-             ": diagnosis";
-    }
   } // namespace
 
 
@@ -389,9 +367,10 @@ namespace SlipStep
                next_test_section(diagnosis.next_test) +
                correction_section(diagnosis) + honesty_section(diagnosis);
     write_file(folder / "report.html",
-               html_page(title_of(parameters),
+               html_page(title_of(parameters) + ": diagnosis",
                          kept_together(headline(diagnosis)),
-                         kept_together(content) + repeat_section(parameters)));
+                         kept_together(content) +
+                           repeat_section("diagnose", parameters)));
     return warnings;
   }
 } // namespace SlipStep

@@ -1,8 +1,8 @@
 #include <slipstep/report/diagnosis_sections.h>
 
 #include <slipstep/report/diagnosis_text.h>
-#include <slipstep/report/report_data.h>
-#include <slipstep/report/report_html.h>
+#include <slipstep/report/run_results.h>
+#include <slipstep/report/page.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -205,21 +205,6 @@ figure svg { max-width: 100%; }
   .bar, .card, .maps > div { break-inside: avoid; } }
 </style>
 )";
-
-
-
-  std::string heading(const std::string &text)
-  {
-    return "<h2>" + html_text(text) + "</h2>\n";
-  }
-
-
-
-  std::string note(const std::string &text)
-  {
-    return text.empty() ? "" :
-                          "<p class='origin'>" + html_text(text) + "</p>\n";
-  }
 
 
 

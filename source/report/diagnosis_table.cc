@@ -2,7 +2,7 @@
 
 #include <slipstep/report/diagnosis_text.h>
 
-#include <slipstep/report/report_data.h>
+#include <slipstep/report/run_results.h>
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/text.h>
 
@@ -12,7 +12,7 @@ namespace SlipStep
 {
   namespace
   {
-    constexpr std::size_t widest = 100, n_places = 3;
+    constexpr std::size_t n_places = 3;
 
     std::string summary(const Diagnosis &diagnosis)
     {
@@ -47,7 +47,7 @@ namespace SlipStep
              (under.empty() ? "" : ", " + under) +
              "\n  chance of this gap by noise alone: " +
              chance_text(diagnosis.gap_p, diagnosis.n_draws) + "\n\n" +
-             text_table(lines, widest);
+             text_table(lines, terminal_width);
     }
 
     std::string places(const Diagnosis &diagnosis)
@@ -60,7 +60,7 @@ namespace SlipStep
                            sign_text(where),
                            fixed_text(100. * where.share, 0) + " %",
                            where.phases.empty() ? "" : where.phases[0]});
-      return lines.size() > 1 ? "\n" + text_table(lines, widest) : "";
+      return lines.size() > 1 ? "\n" + text_table(lines, terminal_width) : "";
     }
 
     std::string candidates(const Diagnosis &diagnosis)
@@ -76,7 +76,7 @@ namespace SlipStep
                          fixed_text(candidate.left_out_gain, 1),
                          percent_text(candidate.minimum_detectable),
                          name_of(candidate.standing)});
-      return lines.size() > 1 ? "\n" + text_table(lines, widest) : "";
+      return lines.size() > 1 ? "\n" + text_table(lines, terminal_width) : "";
     }
 
     std::string parameters(const Diagnosis &diagnosis)
@@ -92,7 +92,7 @@ namespace SlipStep
       if (lines.size() == 1)
         return "";
       const auto all = named_parameters(diagnosis);
-      return "\n" + text_table(lines, widest) +
+      return "\n" + text_table(lines, terminal_width) +
              (std::any_of(all.begin(),
                           all.end(),
                           [](const DiagnosedParameter &parameter) {
@@ -115,7 +115,8 @@ namespace SlipStep
                                        "block - point"}};
       for (const ElementCheck &check : diagnosis.element_checks)
         if (check.block_after.empty())
-          remarks += wrapped_text(check.test + ": " + check.remark, 2, widest);
+          remarks +=
+            wrapped_text(check.test + ": " + check.remark, 2, terminal_width);
         else
           lines.push_back({check.test,
                            percent_text(check.block_gap_before),
@@ -123,7 +124,8 @@ namespace SlipStep
                            percent_text(check.point_gap_before),
                            percent_text(check.point_gap_after),
                            percent_text(check.difference)});
-      return "\n" + (lines.size() > 1 ? text_table(lines, widest) : "") +
+      return "\n" +
+             (lines.size() > 1 ? text_table(lines, terminal_width) : "") +
              remarks;
     }
 
@@ -139,7 +141,7 @@ namespace SlipStep
                                " (tells about " + list_text(next.separates) +
                                  ")"),
                           2,
-                          widest) +
+                          terminal_width) +
              (next.programme.empty() ? "" : "    " + next.programme + "\n");
     }
   } // namespace
@@ -148,7 +150,7 @@ namespace SlipStep
 
   std::string diagnosis_table(const Diagnosis &diagnosis)
   {
-    return wrapped_text(headline(diagnosis), 2, widest) + "\n" +
+    return wrapped_text(headline(diagnosis), 2, terminal_width) + "\n" +
            summary(diagnosis) + places(diagnosis) + candidates(diagnosis) +
            parameters(diagnosis) + blocks(diagnosis) + next_test(diagnosis);
   }

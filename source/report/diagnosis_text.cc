@@ -1,7 +1,7 @@
 #include <slipstep/report/diagnosis_text.h>
 
 #include <slipstep/report/calibration_text.h>
-#include <slipstep/report/report_data.h>
+#include <slipstep/report/run_results.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <slipstep/report/panel_grid.h>
 
-#include <slipstep/report/report_drawing.h>
+#include <slipstep/report/drawing.h>
 #include <slipstep/report/text_table.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // The pictures and the HTML of a refinement study.
 
-#include <slipstep/report/report_drawing.h>
-#include <slipstep/report/report_html.h>
+#include <slipstep/report/drawing.h>
+#include <slipstep/report/page.h>
 #include <slipstep/report/study_report.h>
 #include <slipstep/utilities/text.h>
 
@@ -150,7 +150,7 @@ namespace SlipStep
                          const std::vector<Picture>    &pictures)
   {
     std::string html =
-      "<h2>What was found</h2>\n" + html_table(study_summary(curves)) +
+      heading("What was found") + html_table(study_summary(curves)) +
       "<p>Errors are relative; \"&lt;\" stands where the "
       "difference to the reference is not above the "
       "reference's own uncertainty, \"?\" where no limit is "
@@ -183,6 +183,6 @@ namespace SlipStep
            short_text(point.value, 7),
            point.error_text(),
            std::isfinite(point.order) ? fixed_text(point.order, 2) : "–"});
-    return html + "<h2>Convergence</h2>\n" + html_table(lines);
+    return html + heading("Convergence") + html_table(lines);
   }
 } // namespace SlipStep

@@ -101,6 +101,13 @@ namespace SlipStep
 
 
 
+  std::string counted(const std::size_t n, const std::string &what)
+  {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+  }
+
+
+
   std::string capitalised(std::string text)
   {
     if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')

@@ -1,6 +1,6 @@
 #include <slipstep/commands/run_point.h>
 #include <slipstep/experiment/quantities.h>
-#include <slipstep/report/report.h>
+#include <slipstep/report/run_report.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <slipstep/report/calibration_report.h>
 #include <slipstep/report/calibration_text.h>
 #include <slipstep/report/panel_grid.h>
-#include <slipstep/report/report.h>
+#include <slipstep/report/run_report.h>
 #include <slipstep/report/text_table.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include <slipstep/report/diagnosis_report.h>
 #include <slipstep/report/diagnosis_text.h>
 
-#include <slipstep/report/report.h>
+#include <slipstep/report/run_report.h>
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/text.h>
 

@@ -2,7 +2,7 @@
 #define slipstep_report_calibration_figures_h
 
 #include <slipstep/calibration/calibration.h>
-#include <slipstep/report/report_figures.h>
+#include <slipstep/report/run_figures.h>
 
 #include <filesystem>
 #include <string>

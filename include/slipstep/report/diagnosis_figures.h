@@ -3,8 +3,8 @@
 
 #include <slipstep/diagnosis/diagnosis.h>
 
-#include <slipstep/report/report_drawing.h>
-#include <slipstep/report/report_figures.h>
+#include <slipstep/report/drawing.h>
+#include <slipstep/report/run_figures.h>
 
 #include <filesystem>
 #include <string>

@@ -15,11 +15,6 @@ namespace SlipStep
   /// What the page adds to the style of all reports.
   extern const char *const diagnosis_style;
 
-  std::string heading(const std::string &text);
-
-  /// Small grey text.
-  std::string note(const std::string &text);
-
   /// Verdict, where, what and how far, for whoever reads no further.
   std::string first_screen(const Diagnosis &diagnosis);
 

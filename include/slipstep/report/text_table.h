@@ -14,6 +14,9 @@ namespace SlipStep
   /// Text that ends with an ellipsis if it is wider than that.
   std::string cut_text(const std::string &text, const std::size_t widest);
 
+  /// Characters in a line of what the terminal shows.
+  constexpr std::size_t terminal_width = 100;
+
   /// A table for the terminal, the first line being its head. The first column
   /// holds names; the others are aligned to the right.
   /// @param widest number of characters in a line beyond which names are cut

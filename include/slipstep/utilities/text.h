@@ -39,6 +39,9 @@ namespace SlipStep
   std::string list_text(const std::vector<std::string> &names,
                         const std::string              &before_last = "and");
 
+  /// "1 test", "2 tests"
+  std::string counted(const std::size_t n, const std::string &what);
+
   /// With a capital at the beginning.
   std::string capitalised(std::string text);
 

@@ -1,6 +1,6 @@
 #include <slipstep/experiment/history.h>
-#include <slipstep/report/report.h>
-#include <slipstep/report/report_data.h>
+#include <slipstep/report/run_report.h>
+#include <slipstep/report/run_results.h>
 #include <slipstep/experiment/summary.h>
 
 #include <gtest/gtest.h>

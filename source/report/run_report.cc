@@ -1,9 +1,9 @@
-#include <slipstep/report/report.h>
+#include <slipstep/report/run_report.h>
 
 #include <slipstep/report/repeat_command.h>
-#include <slipstep/report/report_data.h>
-#include <slipstep/report/report_figures.h>
-#include <slipstep/report/report_html.h>
+#include <slipstep/report/run_results.h>
+#include <slipstep/report/run_figures.h>
+#include <slipstep/report/page.h>
 #include <slipstep/report/figure.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
@@ -278,7 +278,7 @@ namespace SlipStep
       const std::vector<TableLine> lines = stability_lines(runs);
       if (lines.empty())
         return "";
-      return "<h2>Stability of steady sliding</h2>\n" + html_table(lines) +
+      return heading("Stability of steady sliding") + html_table(lines) +
              "<p class='origin'>Below the critical stiffness k of the machine a "
              "small disturbance of steady sliding grows, swinging with the "
              "frequency given.</p>\n";
@@ -300,7 +300,7 @@ namespace SlipStep
           for (const QuantityValue &quantity : run.summary.quantities)
             lines.back().push_back(short_text(quantity.value, 6));
         }
-      return "<h2>Quantities of interest</h2>\n" + html_table(lines);
+      return heading("Quantities of interest") + html_table(lines);
     }
 
     std::vector<TableLine> effect_lines(const Parameters &parameters,
@@ -466,15 +466,13 @@ namespace SlipStep
       html << figures(pictures) << stability(runs);
       if (!runs.empty())
         {
-          html << "<h2>Energy</h2>\n"
-               << html_table(energy_lines(runs)) << quantities(runs)
-               << "<h2>Cost</h2>\n"
-               << html_table(cost_lines(runs)) << "<h2>Friction law</h2>\n"
+          html << heading("Energy") << html_table(energy_lines(runs))
+               << quantities(runs) << heading("Cost")
+               << html_table(cost_lines(runs)) << heading("Friction law")
                << html_table(effect_lines(parameters, runs[0]), "values")
-               << "<h2>Conditions</h2>\n"
+               << heading("Conditions")
                << html_table(condition_lines(parameters, runs), "values")
-               << "<h2>Repeat it</h2>\n"
-               << repetition(parameters, runs);
+               << heading("Repeat it") << repetition(parameters, runs);
         }
       return html_page(case_title(parameters, runs),
                        headline(rows, reference),

@@ -1,8 +1,8 @@
-#ifndef slipstep_report_report_data_h
-#define slipstep_report_report_data_h
+#ifndef slipstep_report_run_results_h
+#define slipstep_report_run_results_h
 
 #include <slipstep/experiment/history.h>
-#include <slipstep/report/report.h>
+#include <slipstep/report/run_report.h>
 #include <slipstep/experiment/summary.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/formula.h>

@@ -1,7 +1,7 @@
-#ifndef slipstep_report_report_drawing_h
-#define slipstep_report_report_drawing_h
+#ifndef slipstep_report_drawing_h
+#define slipstep_report_drawing_h
 
-#include <slipstep/report/report_figures.h>
+#include <slipstep/report/run_figures.h>
 #include <slipstep/report/figure.h>
 
 #include <algorithm>

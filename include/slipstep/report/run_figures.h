@@ -1,7 +1,7 @@
-#ifndef slipstep_report_report_figures_h
-#define slipstep_report_report_figures_h
+#ifndef slipstep_report_run_figures_h
+#define slipstep_report_run_figures_h
 
-#include <slipstep/report/report_data.h>
+#include <slipstep/report/run_results.h>
 
 namespace SlipStep
 {

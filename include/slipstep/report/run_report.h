@@ -1,5 +1,5 @@
-#ifndef slipstep_report_report_h
-#define slipstep_report_report_h
+#ifndef slipstep_report_run_report_h
+#define slipstep_report_run_report_h
 
 #include <slipstep/utilities/parameters.h>
 

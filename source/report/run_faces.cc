@@ -1,6 +1,6 @@
-#include <slipstep/report/report_faces.h>
+#include <slipstep/report/run_faces.h>
 
-#include <slipstep/report/report_drawing.h>
+#include <slipstep/report/drawing.h>
 #include <slipstep/utilities/text.h>
 
 #include <array>

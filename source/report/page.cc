@@ -1,6 +1,7 @@
-#include <slipstep/report/report_html.h>
+#include <slipstep/report/page.h>
 
 #include <slipstep/report/figure.h>
+#include <slipstep/report/repeat_command.h>
 #include <slipstep/utilities/version.h>
 
 namespace SlipStep
@@ -65,6 +66,40 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
 
 
 
+  std::string title_of(const Parameters &parameters)
+  {
+    const std::string title = parameters.text("Report/Title");
+    return title.empty() ? parameters.case_file().stem().string() : title;
+  }
+
+
+
+  std::string heading(const std::string &text)
+  {
+    return "<h2>" + html_text(text) + "</h2>\n";
+  }
+
+
+
+  std::string note(const std::string &text)
+  {
+    return text.empty() ? "" :
+                          "<p class='origin'>" + html_text(text) + "</p>\n";
+  }
+
+
+
+  std::string repeat_section(const std::string &command,
+                             const Parameters  &parameters)
+  {
+    return heading("Repeat it") + "<pre>" +
+           html_text(program_call(command, parameters.case_file().string()) +
+                     given_settings(parameters)) +
+           "\n</pre>\n";
+  }
+
+
+
   std::string problem_box(const std::string &text)
   {
     return "<p class='problem'>" + html_text(text) + "</p>\n";
@@ -91,7 +126,7 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
 
   std::string figure_element(const Picture &picture)
   {
-    return "<h2>" + html_text(picture.title) + "</h2>\n<figure" +
+    return heading(picture.title) + "<figure" +
            (picture.is_map ? " class='map'" : "") + ">\n" + picture.svg +
            "<figcaption>" + html_text(picture.caption) +
            "</figcaption></figure>\n";

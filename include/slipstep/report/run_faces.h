@@ -1,7 +1,7 @@
-#ifndef slipstep_report_report_faces_h
-#define slipstep_report_report_faces_h
+#ifndef slipstep_report_run_faces_h
+#define slipstep_report_run_faces_h
 
-#include <slipstep/report/report_figures.h>
+#include <slipstep/report/run_figures.h>
 
 namespace SlipStep
 {

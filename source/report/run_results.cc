@@ -1,4 +1,4 @@
-#include <slipstep/report/report_data.h>
+#include <slipstep/report/run_results.h>
 
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>

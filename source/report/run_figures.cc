@@ -1,7 +1,7 @@
-#include <slipstep/report/report_figures.h>
+#include <slipstep/report/run_figures.h>
 
-#include <slipstep/report/report_drawing.h>
-#include <slipstep/report/report_faces.h>
+#include <slipstep/report/drawing.h>
+#include <slipstep/report/run_faces.h>
 
 #include <slipstep/report/figure.h>
 #include <slipstep/utilities/text.h>

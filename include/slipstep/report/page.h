@@ -1,8 +1,9 @@
-#ifndef slipstep_report_report_html_h
-#define slipstep_report_report_html_h
+#ifndef slipstep_report_page_h
+#define slipstep_report_page_h
 
-#include <slipstep/report/report_figures.h>
+#include <slipstep/report/run_figures.h>
 #include <slipstep/report/text_table.h>
+#include <slipstep/utilities/parameters.h>
 
 #include <string>
 #include <vector>
@@ -16,6 +17,18 @@ namespace SlipStep
   std::string html_page(const std::string &title,
                         const std::string &headline,
                         const std::string &content);
+
+  /// What "Report/Title" says, or else the name of the case.
+  std::string title_of(const Parameters &parameters);
+
+  std::string heading(const std::string &text);
+
+  /// Small grey text; of none nothing.
+  std::string note(const std::string &text);
+
+  /// How to come to the same page again, by a command that reads one case.
+  std::string repeat_section(const std::string &command,
+                             const Parameters  &parameters);
 
   /// Something that the reader has to know first.
   std::string problem_box(const std::string &text);

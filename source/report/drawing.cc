@@ -1,4 +1,4 @@
-#include <slipstep/report/report_drawing.h>
+#include <slipstep/report/drawing.h>
 #include <slipstep/utilities/text.h>
 
 namespace SlipStep
