@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "tests/report/synthetic_calibration.h"
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -22,19 +23,6 @@ using namespace SlipStep;
 namespace
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-
-  std::string content(const std::filesystem::path &file)
-  {
-    std::ifstream     in(file);
-    std::stringstream text;
-    text << in.rdbuf();
-    return text.str();
-  }
-
-  bool contains(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
-  }
 
   bool has_program(const std::string &call)
   {

@@ -13,39 +13,13 @@
 #include <sstream>
 
 #include "tests/report/synthetic_diagnosis.h"
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
 
 namespace
 {
-  std::string content(const std::filesystem::path &file)
-  {
-    std::ifstream     in(file);
-    std::stringstream text;
-    text << in.rdbuf();
-    return text.str();
-  }
-
-  bool contains(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
-  }
-
-  bool has_gnuplot()
-  {
-    return std::system("gnuplot --version > /dev/null 2>&1") == 0;
-  }
-
-  std::size_t count(const std::string &text, const std::string &part)
-  {
-    std::size_t n = 0;
-    for (auto at = text.find(part); at != std::string::npos;
-         at      = text.find(part, at + 1))
-      ++n;
-    return n;
-  }
-
   /// The page; it has no number that is none, and tags that are closed.
   std::string page_of(const Diagnosis          &diagnosis,
                       std::vector<std::string> *warnings = nullptr)

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -20,28 +21,6 @@ namespace
     const auto folder = test_folder() / "it's a figure";
     std::filesystem::create_directories(folder);
     return folder;
-  }
-
-  std::string content(const std::filesystem::path &file)
-  {
-    std::ifstream     in(file);
-    std::stringstream text;
-    text << in.rdbuf();
-    return text.str();
-  }
-
-  std::size_t count(const std::string &text, const std::string &part)
-  {
-    std::size_t n = 0;
-    for (auto at = text.find(part); at != std::string::npos;
-         at      = text.find(part, at + 1))
-      ++n;
-    return n;
-  }
-
-  bool gnuplot_is_missing()
-  {
-    return std::system("gnuplot --version > /dev/null 2>&1") != 0;
   }
 } // namespace
 
@@ -68,7 +47,7 @@ TEST(Figure, DataAndScriptCanBeDrawnAgain)
 
 TEST(Figure, PicturesOnOnePageShareNoIds)
 {
-  if (gnuplot_is_missing())
+  if (!has_gnuplot())
     GTEST_SKIP() << "gnuplot is not installed";
   std::string page;
   for (const std::string name : {"one", "two"})
@@ -96,7 +75,7 @@ TEST(Figure, PicturesOnOnePageShareNoIds)
 
 TEST(Figure, AnErrorInTheScriptIsAWarning)
 {
-  if (gnuplot_is_missing())
+  if (!has_gnuplot())
     GTEST_SKIP() << "gnuplot is not installed";
   Figure figure(scratch_folder(), "broken", "Broken", 300, 200);
   figure.script() << "plot 'no such file' with lines\n";

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -85,19 +86,6 @@ namespace
       for (int j = 0; j < 3; ++j)
         out << i + 0.5 << "," << j + 0.5 << ",1,1,1," << 5.8 + 0.1 * i
             << ",0,0," << 20 - 0.001 * j << ",1,1,0.078\n";
-  }
-
-  std::string content(const std::filesystem::path &file)
-  {
-    std::ifstream     in(file);
-    std::stringstream text;
-    text << in.rdbuf();
-    return text.str();
-  }
-
-  bool contains(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
   }
 } // namespace
 

@@ -1,0 +1,39 @@
+#ifndef tests_file_text_h
+#define tests_file_text_h
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+/// All that a file holds.
+inline std::string content(const std::filesystem::path &file)
+{
+  std::ifstream     in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+inline bool contains(const std::string &text, const std::string &part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+/// How often a part stands in a text.
+inline std::size_t count(const std::string &text, const std::string &part)
+{
+  std::size_t n = 0;
+  for (auto at = text.find(part); at != std::string::npos;
+       at      = text.find(part, at + 1))
+    ++n;
+  return n;
+}
+
+inline bool has_gnuplot()
+{
+  return std::system("gnuplot --version > /dev/null 2>&1") == 0;
+}
+
+#endif
