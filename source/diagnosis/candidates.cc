@@ -1,16 +1,120 @@
 #include <slipstep/calibration/fit_parameter.h>
-#include <slipstep/diagnosis/candidate_makers.h>
+#include <slipstep/diagnosis/candidates.h>
+#include <slipstep/friction/effect.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 
 namespace SlipStep
 {
+  namespace
+  {
+    const char *const compliance_name = "compliance";
+
+    // A spring in series with the contact's own stiffness: for a contact point
+    // the same as a smaller alpha_t, which the block understands, too.
+    Candidate compliance(const Circumstances &now)
+    {
+      const std::string stiffness = "Friction/Tangential stiffness";
+      Candidate  candidate{compliance_name, "loading flanks only", {}, ""};
+      const auto is_fitted = [&](const std::string &path) {
+        return now.parameters.text("Calibration/Parameters").find(path + " ") !=
+               std::string::npos;
+      };
+      if (is_fitted(stiffness) || is_fitted("Loading/Machine stiffness"))
+        {
+          candidate.leave_to_model("the stiffness is fitted already");
+          return candidate;
+        }
+      const double alpha   = now.number(stiffness);
+      const double largest = now.friction() * now.range.highest;
+      // A flank longer by a thousandth of the path.
+      const double unit    = 1e-4 * now.range.longest_path / largest;
+      const double softest = largest / (0.3 * now.range.longest_path);
+      const double least   = std::min(softest, 0.1 * alpha);
+      TrialFormula formula;
+      formula.is_one_sided = true;
+      formula.parameters   = {{stiffness, least, alpha, true}};
+      formula.shapes       = {{[=](const double strength) {
+        return Values{
+          {stiffness,
+           std::max(1. / (1. / alpha + unit * std::max(strength, 1e-3)),
+                    1.01 * least)}};
+      }}};
+      candidate.formulas   = {formula};
+      return candidate;
+    }
+
+
+
+    bool acts(const EffectInfo &info, const Circumstances &now)
+    {
+      const std::string &amplitude = info.search.amplitude;
+      return now.has(info.name) &&
+             (amplitude.empty() || now.number(info.section() + amplitude) > 0.);
+    }
+
+
+
+    // By its own formula and by others of the same.
+    Candidate candidate_of(const EffectInfo &own, const Circumstances &now)
+    {
+      std::vector<EffectInfo> effects = {own};
+      for (const auto &entry : effect_registry())
+        if (entry.second.search.candidate == own.name)
+          effects.push_back(entry.second);
+      Candidate candidate{own.name, own.search.signature, {}, ""};
+      std::vector<std::string> reasons;
+      for (const EffectInfo &info : effects)
+        {
+          if (acts(info, now))
+            {
+              candidate.leave_to_model("it is in the model already");
+              return candidate;
+            }
+          TrialFormula formula = info.search.formula(now);
+          if (!now.has(info.name))
+            formula.effect = info.name;
+          if (formula.why_not.empty())
+            candidate.formulas.push_back(formula);
+          else
+            reasons.push_back(formula.why_not);
+        }
+      if (candidate.formulas.empty())
+        candidate.why_not = list_text(reasons);
+      return candidate;
+    }
+  } // namespace
+
+
+
+  void Candidate::leave_to_model(const std::string &why)
+  {
+    formulas.clear();
+    why_not     = why;
+    is_in_model = true;
+  }
+
+
+
   std::vector<std::string> candidate_names()
   {
     std::vector<std::string> names;
-    for (const auto &maker : candidate_makers())
-      names.push_back(maker.first);
+    for (const auto &entry : effect_registry())
+      if (entry.second.search.formula && entry.second.search.candidate.empty())
+        names.push_back(entry.first);
+    names.push_back(compliance_name);
     return names;
+  }
+
+
+
+  std::string plain_words(const std::string &candidate)
+  {
+    if (candidate == compliance_name)
+      return "another elastic stiffness of contact or machine";
+    const auto found = effect_registry().find(candidate);
+    return found == effect_registry().end() ? candidate : found->second.words;
   }
 
 
@@ -23,16 +127,11 @@ namespace SlipStep
     if (wanted.size() == 1 && wanted[0] == "all")
       wanted = candidate_names();
     std::vector<Candidate> result;
-    for (const auto &maker : candidate_makers())
-      if (std::find(wanted.begin(), wanted.end(), maker.first) != wanted.end())
-        {
-          // Those with keys of their own are in the model or not.
-          const bool is_known = now.has(maker.first);
-          result.push_back(maker.second(now));
-          if (is_known && maker.first != "healing" &&
-              maker.first != "overstress")
-            leave_to_model(result.back(), "it is in the model already");
-        }
+    for (const std::string &name : candidate_names())
+      if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
+        result.push_back(name == compliance_name ?
+                           compliance(now) :
+                           candidate_of(effect_registry().at(name), now));
     return result;
   }
 
@@ -58,7 +157,7 @@ namespace SlipStep
   {
     void add_part(const Part &part, const Values &values, Parameters &result)
     {
-      const Formula &formula = part.formula;
+      const TrialFormula &formula = part.formula;
       if (!formula.effect.empty())
         {
           const std::string list = result.text("Friction/Effects");
@@ -66,8 +165,10 @@ namespace SlipStep
                      list + (list.empty() ? "" : ", ") + formula.effect,
                      "diagnosis");
         }
-      for (const auto &setting : formula.settings)
-        result.set(setting.first, setting.second, "diagnosis");
+      for (const auto &[path, value] : formula.settings)
+        result.set(path, quantity_text(result, path, value), "diagnosis");
+      for (const auto &[path, text] : formula.texts)
+        result.set(path, text, "diagnosis");
       std::string list = result.text("Calibration/Parameters");
       for (const CandidateParameter &parameter : formula.parameters)
         if (list.find(parameter.path + " ") == std::string::npos)

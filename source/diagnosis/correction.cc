@@ -141,13 +141,13 @@ namespace SlipStep
       result.formula =
         formula_of(knots,
                    smooth_corrections(workspace, base, covariate->x, knots));
-      Formula formula;
-      formula.effect   = "expression";
-      formula.settings = {{"Friction/expression/Covariate", result.covariate},
-                          {"Friction/expression/Formula", result.formula},
-                          {"Friction/expression/From", number(knots.front())},
-                          {"Friction/expression/To", number(knots.back())}};
-      auto model       = if_possible([&]() -> std::optional<Model> {
+      TrialFormula formula;
+      formula.effect = "expression";
+      formula.texts  = {{"Friction/expression/Covariate", result.covariate},
+                        {"Friction/expression/Formula", result.formula},
+                        {"Friction/expression/From", number(knots.front())},
+                        {"Friction/expression/To", number(knots.back())}};
+      auto model     = if_possible([&]() -> std::optional<Model> {
         return make_model(workspace.start,
                           {{"expression", formula}},
                           base.values(),

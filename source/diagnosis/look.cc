@@ -44,21 +44,22 @@ namespace SlipStep
                                const std::size_t       formula_number,
                                std::vector<Direction> &directions)
     {
-      const Formula &formula = candidate.formulas[formula_number];
-      const Values   own     = model.values();
+      const TrialFormula &formula = candidate.formulas[formula_number];
+      const Values        own     = model.values();
       try
         {
-          Model trial = make_model(
-            workspace.start,
-            with_part(model, candidate, formula_number),
-            merged(own, formula.shapes[formula.shapes.size() / 2].values(1.)),
-            workspace.tests,
-            &model);
+          Model trial =
+            make_model(workspace.start,
+                       with_part(model, candidate, formula_number),
+                       merged(own,
+                              formula.shapes[formula.shapes.size() / 2](1.)),
+                       workspace.tests,
+                       &model);
           const Eigen::VectorXd base =
             workspace.comparison.difference(*model.simulator, model.scaled);
           for (std::size_t s = 0; s < formula.shapes.size(); ++s)
             {
-              const Values values = merged(own, formula.shapes[s].values(1.));
+              const Values        values = merged(own, formula.shapes[s](1.));
               std::vector<double> scaled;
               for (const FitParameter &parameter : trial.campaign->fitted)
                 scaled.push_back(std::clamp(

@@ -186,13 +186,14 @@ namespace SlipStep
                                   const Model     &base,
                                   const Candidate &candidate)
     {
-      const Formula &formula = candidate.formulas.front();
-      const Shape   &shape   = formula.shapes[formula.shapes.size() / 2];
+      const TrialFormula        &formula = candidate.formulas.front();
+      const TrialFormula::Shape &shape =
+        formula.shapes[formula.shapes.size() / 2];
       return if_possible([&]() -> std::optional<Model> {
         Model model =
           make_model(workspace.start,
                      with_part(base, candidate, 0),
-                     merged(base.values(), shape.values(worthwhile_strength)),
+                     merged(base.values(), shape(worthwhile_strength)),
                      workspace.tests,
                      &base);
         // The effect stays; what these tests show of it, the others take away

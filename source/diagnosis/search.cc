@@ -34,7 +34,7 @@ namespace SlipStep
                                   const Values    &values,
                                   double           strength)
     {
-      const Shape &shape =
+      const TrialFormula::Shape &shape =
         candidate.formulas[direction.formula].shapes[direction.shape];
       std::optional<Model> result;
       for (unsigned int attempt = 0; attempt < 2 && !result.has_value();
@@ -44,7 +44,7 @@ namespace SlipStep
             workspace,
             make_model(workspace.start,
                        with_part(model, candidate, direction.formula),
-                       merged(values, shape.values(strength)),
+                       merged(values, shape(strength)),
                        workspace.tests,
                        &model));
         });

@@ -1,5 +1,6 @@
 #include <slipstep/friction/law.h>
 #include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/text.h>
 
 namespace SlipStep
 {
@@ -23,19 +24,19 @@ namespace SlipStep
 
 
 
-    void print_parameter(std::ostream            &out,
-                         const Parameters::Entry &entry,
-                         const std::string       &section,
-                         const bool               as_markdown)
+    void print_parameter(std::ostream          &out,
+                         const EffectParameter &parameter,
+                         const bool             as_markdown)
     {
-      const std::string key     = entry.path.substr(section.size());
-      const std::string allowed = allowed_in_words(*entry.pattern);
+      const std::string allowed = allowed_in_words(*parameter.pattern);
       if (as_markdown)
-        out << "| " << key << " | " << entry.default_value << " | " << allowed
-            << " | " << entry.documentation << " |\n";
+        out << "| " << parameter.key << " | " << parameter.symbol << " | "
+            << parameter.default_value << " | " << allowed << " | "
+            << parameter.meaning << " |\n";
       else
-        out << "    set " << key << " = " << entry.default_value << "   # "
-            << allowed << '\n';
+        out << "    set " << parameter.key << " = " << parameter.default_value
+            << "   # " << parameter.symbol
+            << (parameter.symbol.empty() ? "" : ": ") << allowed << '\n';
     }
   } // namespace
 
@@ -43,27 +44,25 @@ namespace SlipStep
 
   void print_effects(std::ostream &out, const bool as_markdown)
   {
-    Parameters parameters;
-    FrictionLaw::declare_parameters(parameters);
-
     for (const auto &item : effect_registry())
       {
-        const EffectInfo &info    = item.second;
-        const std::string section = "Friction/" + info.name + "/";
+        const EffectInfo &info = item.second;
         if (as_markdown)
-          out << "## " << info.name << "\n\n    " << info.formula
-              << "\n\n* source: " << info.source
+          out << "## " << info.name << "\n\n"
+              << capitalised(info.words) << ".\n\n\\f[ " << info.latex
+              << " \\f]\n\n* in text: `" << info.formula
+              << "`\n* source: " << info.source
               << "\n* neutral when: " << info.neutral << "\n* "
               << slot_words(info.slot)
-              << "\n\n| key | default | allowed | meaning |\n"
-                 "|---|---|---|---|\n";
+              << "\n\n| key | symbol | default | allowed | meaning |\n"
+                 "|---|---|---|---|---|\n";
         else
-          out << info.name << "\n    " << info.formula
+          out << info.name << ": " << info.words << "\n    " << info.formula
               << "\n    source:  " << info.source
               << "\n    neutral: " << info.neutral << "\n    "
               << slot_words(info.slot) << '\n';
-        for (const std::string &path : parameters.paths(section))
-          print_parameter(out, parameters.entry(path), section, as_markdown);
+        for (const EffectParameter &parameter : info.parameters)
+          print_parameter(out, parameter, as_markdown);
         out << '\n';
       }
     if (!as_markdown)

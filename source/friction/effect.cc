@@ -1,4 +1,5 @@
 #include <slipstep/friction/effect.h>
+#include <slipstep/utilities/text.h>
 
 namespace SlipStep
 {
@@ -12,6 +13,40 @@ namespace SlipStep
       return registry;
     }
   } // namespace
+
+
+
+  EffectParameter::EffectParameter(const std::string &key,
+                                   const std::string &symbol,
+                                   const std::string &default_value,
+                                   const dealii::Patterns::PatternBase &pattern,
+                                   const std::string                   &meaning)
+    : key(key)
+    , symbol(symbol)
+    , default_value(default_value)
+    , pattern(pattern.clone())
+    , meaning(meaning)
+  {}
+
+
+
+  std::string EffectInfo::section() const
+  {
+    return "Friction/" + name + "/";
+  }
+
+
+
+  void EffectInfo::declare(Parameters &all) const
+  {
+    for (const EffectParameter &parameter : parameters)
+      all.declare(section() + parameter.key,
+                  parameter.default_value,
+                  *parameter.pattern,
+                  parameter.symbol.empty() ?
+                    capitalised(parameter.meaning) + "." :
+                    parameter.symbol + ": " + parameter.meaning + ".");
+  }
 
 
 

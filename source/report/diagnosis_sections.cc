@@ -1,3 +1,4 @@
+#include <slipstep/diagnosis/candidates.h>
 #include <slipstep/report/diagnosis_sections.h>
 
 #include <slipstep/report/diagnosis_text.h>

@@ -1,3 +1,4 @@
+#include <slipstep/diagnosis/candidates.h>
 #include <slipstep/report/diagnosis_text.h>
 
 #include <slipstep/report/calibration_text.h>
@@ -204,30 +205,6 @@ namespace SlipStep
               "; not all of it is explained" :
               "") +
            outlier_words(diagnosis.outliers) + ".";
-  }
-
-
-
-  std::string plain_words(const std::string &effect)
-  {
-    static const std::map<std::string, std::string> words = {
-      {"overstress", "friction that rises with sliding speed"},
-      {"softening", "friction that falls after the first slip and stays low"},
-      {"healing", "contacts that strengthen at rest: a peak after every hold"},
-      {"pressure", "a friction coefficient that changes with pressure"},
-      {"shear_cap", "a limit of the shear stress at high pressure"},
-      {"adhesion", "surfaces that stick even without pressure"},
-      {"heating", "friction that falls as fast sliding heats the contact"},
-      {"run_in", "surfaces that run in: a slow drift with the distance slid"},
-      {"anisotropy", "friction that depends on the direction in the plane"},
-      {"direction", "friction that differs between forward and back strokes"},
-      {"stribeck", "higher friction at slow speeds, as with a lubricant"},
-      {"viscous", "a drag in proportion to speed, as of a fluid film"},
-      {"compliance", "another elastic stiffness of contact or machine"},
-      {"subloading", "slip that begins little by little before full friction"},
-      {"expression", "a correction by a formula, cause unknown"}};
-    const auto found = words.find(effect);
-    return found == words.end() ? effect : found->second;
   }
 
 

@@ -1,5 +1,7 @@
 #include <tests/diagnosis/hidden/trial.h>
 
+#include <slipstep/friction/effect.h>
+
 #include <gtest/gtest.h>
 
 using namespace SlipStep;
@@ -45,14 +47,13 @@ TEST(Candidates, MakeCasesThatTheLawTakes)
 {
   const Parameters start = coulomb_case();
   for (const Candidate &candidate : make_candidates(start, usual_range()))
-    for (const Formula &formula : candidate.formulas)
-      for (const Shape &shape : formula.shapes)
+    for (const TrialFormula &formula : candidate.formulas)
+      for (const TrialFormula::Shape &shape : formula.shapes)
         for (const double strength : {0.01, 1., 30., 1000.})
           {
             SCOPED_TRACE(candidate.name + " " + std::to_string(strength));
-            const Parameters with = assemble(start,
-                                             {{candidate.name, formula}},
-                                             shape.values(strength));
+            const Parameters with =
+              assemble(start, {{candidate.name, formula}}, shape(strength));
             EXPECT_NO_THROW(FrictionLaw{with});
             const std::vector<FitParameter> fitted = read_fit_parameters(with);
             for (const CandidateParameter &parameter : formula.parameters)
@@ -62,6 +63,32 @@ TEST(Candidates, MakeCasesThatTheLawTakes)
                                         return one.path == parameter.path;
                                       }));
           }
+}
+
+
+
+// One list of effects: whoever adds one either says how it is looked for or why
+// it is not.
+TEST(Candidates, EveryEffectIsOneOrSaysWhyNot)
+{
+  std::set<std::string> tried;
+  for (const std::string &name : candidate_names())
+    tried.insert(name);
+  for (const auto &[name, info] : effect_registry())
+    {
+      EXPECT_NE(bool(info.search.formula), !info.search.why_not.empty())
+        << name;
+      const std::string candidate =
+        info.search.candidate.empty() ? name : info.search.candidate;
+      EXPECT_EQ(tried.count(candidate), info.search.formula ? 1u : 0u) << name;
+      EXPECT_EQ(info.search.signature.empty(),
+                candidate != name || !info.search.formula)
+        << name;
+      EXPECT_NE(plain_words(name), name);
+    }
+  for (const std::string &name : candidate_names())
+    EXPECT_NE(plain_words(name), name);
+  EXPECT_EQ(plain_words("my own"), "my own");
 }
 
 
@@ -90,7 +117,7 @@ TEST(Candidates, HealingIsRecoveryOrAgeing)
     start.set("Friction/Effects", effects, "test");
     const std::vector<Candidate> found = make_candidates(start, range);
     std::vector<std::string>     names;
-    for (const Formula &formula : found[0].formulas)
+    for (const TrialFormula &formula : found[0].formulas)
       names.push_back(formula.effect);
     return names;
   };

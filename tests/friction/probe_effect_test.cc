@@ -12,6 +12,21 @@ namespace SlipStep
     class Probe : public StrengthEffect
     {
     public:
+      Probe(const Parameters &, const CoefficientBasis &)
+      {}
+
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name  = "probe";
+        info.words = "a strength that depends on slip, pressure and direction";
+        info.formula        = info.words;
+        info.source         = "made for the tests";
+        info.neutral        = "not neutral";
+        info.search.why_not = "it is made for the tests";
+        return info;
+      }
+
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
         const double path   = step.start.slip_path + step.slip;
@@ -35,17 +50,6 @@ namespace SlipStep
       }
     };
 
-    const RegisterEffect probe_registration(
-      {"probe",
-       ExclusiveSlot::none,
-       "a strength that depends on slip, pressure and direction",
-       "made for the tests",
-       "not neutral",
-       [](Parameters &) {},
-       [](const Parameters &, const CoefficientBasis &) {
-         return std::make_unique<Probe>();
-       },
-       {},
-       {}});
+    const RegisterEffect probe_registration = register_effect<Probe>();
   } // namespace
 } // namespace SlipStep

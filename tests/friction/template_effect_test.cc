@@ -4,6 +4,7 @@
 
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -39,37 +40,62 @@ namespace SlipStep
         return factor;
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/template/Change",
-                           "0.1",
-                           Quantity(Dimension::number, -0.9, 10.),
-                           "Meaning w, and its formula. From -0.9 to 10, no "
-                           "unit.");
-        parameters.declare("Friction/template/Length",
-                           "1",
-                           Quantity(Dimension::length, 0., 1e30, true),
-                           "Meaning L. More than 0, in mm.");
+        EffectInfo info;
+        info.name    = "template";
+        info.words   = "what it does, for who knows no formulas";
+        info.formula = "G = 1 + w tanh(D / L), D: slip path";
+        info.latex   = "G = 1 + w \\tanh\\frac{D}{L}";
+        info.source  = "Author (year), Journal volume, page";
+        info.neutral = "Change = 0";
+        // Key, symbol, default, range with unit, meaning; the defaults run.
+        info.parameters = {{"Change",
+                            "w",
+                            "0.1",
+                            Quantity(Dimension::number, -0.9, 10.),
+                            "share by which the strength changes"},
+                           {"Length",
+                            "L",
+                            "1",
+                            Quantity(Dimension::length, 0., 1e30, true),
+                            "slip path after which most has changed"}};
+        // Values for the tests: with the first it does nothing, with the second
+        // much, within 0.05 mm of slip, 1 s and 2 to 6 MPa.
+        info.neutral_settings = {{"Change", "0"}};
+        info.typical_settings = {{"Change", "0.5"}, {"Length", "0.01 mm"}};
+        info.search = {"how it shows in measured tests, beside others", search};
+        return info;
       }
 
     private:
+      // How `slipstep diagnose` looks for it: bounds of the parameters to be
+      // fitted, their natural end being told from a failure, and values to
+      // start from, a ladder of lengths over what the tests cover. At strength
+      // 1 they should change friction by about one per cent. (With one
+      // parameter set_proportional() writes both; an effect that is not looked
+      // for sets info.search.why_not instead.)
+      static TrialFormula search(const Circumstances &now)
+      {
+        const std::string change = "Friction/template/Change";
+        const std::string length = "Friction/template/Length";
+        const double      path   = now.range.longest_path;
+        TrialFormula      formula;
+        formula.parameters = {{change, -0.8, 3., false},
+                              {length, 0.01 * path, 10. * path, true}};
+        for (const double L : ladder(0.03 * path, 3. * path, 5))
+          formula.shapes.push_back([=](const double strength) {
+            return Values{{change,
+                           std::clamp(just_noticed * strength, -0.7, 2.9)},
+                          {length, L}};
+          });
+        return formula;
+      }
+
       const double w;
       const double L;
     };
 
-    const RegisterEffect template_registration(
-      {"template",
-       ExclusiveSlot::none,
-       "G = 1 + w tanh(D / L), D: slip path",
-       "Author (year), Journal volume, page",
-       "Change = 0",
-       &Template::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Template>(parameters, basis);
-       },
-       // Values for the tests: with the first it does nothing, with the second
-       // much, within 0.05 mm of slip, 1 s and 2 to 6 MPa.
-       {{"Change", "0"}},
-       {{"Change", "0.5"}, {"Length", "0.01 mm"}}});
+    const RegisterEffect template_registration = register_effect<Template>();
   } // namespace
 } // namespace SlipStep

@@ -159,29 +159,6 @@ TEST(DiagnosisText, NumbersHaveTheDigitsWorthReading)
 
 
 
-TEST(DiagnosisText, EveryVerdictAndEveryEffectHasPlainWords)
-{
-  for (const std::string effect : {"overstress",
-                                   "softening",
-                                   "healing",
-                                   "pressure",
-                                   "shear_cap",
-                                   "adhesion",
-                                   "heating",
-                                   "run_in",
-                                   "anisotropy",
-                                   "direction",
-                                   "stribeck",
-                                   "viscous",
-                                   "compliance",
-                                   "subloading",
-                                   "expression"})
-    EXPECT_NE(plain_words(effect), effect);
-  EXPECT_EQ(plain_words("my own"), "my own");
-}
-
-
-
 TEST(DiagnosisTable, ItFitsTheTerminalAndHasAllThatMatters)
 {
   for (const Diagnosis &diagnosis : {SyntheticDiagnosis::named(),

@@ -4,6 +4,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <slipstep/friction/contact_state.h>
+#include <slipstep/friction/effect_search.h>
 #include <slipstep/utilities/parameters.h>
 
 #include <functional>
@@ -96,10 +97,10 @@ namespace SlipStep
   ///
   /// One that changes the yield level is a StrengthEffect.
   ///
-  /// An effect lives in one file of friction/effects, which declares its
-  /// parameters in the section `Friction/<name>`, implements the hooks that it
-  /// needs, and ends with one line of registration. Hooks are pure functions,
-  /// so one object serves all contact points.
+  /// An effect lives in one file of friction/effects, which implements the
+  /// hooks that it needs, tells all that is known of it (EffectInfo), and ends
+  /// with one line of registration. Hooks are pure functions, so one object
+  /// serves all contact points.
   class Effect
   {
   public:
@@ -202,24 +203,53 @@ namespace SlipStep
   /// Keys of an effect's section, with values.
   using EffectSettings = std::vector<std::pair<std::string, std::string>>;
 
-  /// How an effect is listed, declared and made.
+  /// A parameter of an effect, in its section.
+  struct EffectParameter
+  {
+    /// @param symbol as in the formula; may be ""
+    /// @param pattern range and unit
+    /// @param meaning without what the others say
+    EffectParameter(const std::string                   &key,
+                    const std::string                   &symbol,
+                    const std::string                   &default_value,
+                    const dealii::Patterns::PatternBase &pattern,
+                    const std::string                   &meaning);
+
+    std::string                                          key;
+    std::string                                          symbol;
+    std::string                                          default_value;
+    std::shared_ptr<const dealii::Patterns::PatternBase> pattern;
+    std::string                                          meaning;
+  };
+
+  /// All that is known of an effect.
   struct EffectInfo
   {
     std::string   name;
     ExclusiveSlot slot = ExclusiveSlot::none;
+    std::string   words;   ///< what it does, for who knows no formulas
     std::string   formula; ///< one line of text
+    std::string   latex;   ///< the same
     std::string   source;  ///< paper and equation
     std::string   neutral; ///< parameter value for which it does nothing
 
-    std::function<void(Parameters &)> declare;
-    std::function<std::unique_ptr<Effect>(const Parameters &,
-                                          const CoefficientBasis &)>
-      create;
+    std::vector<EffectParameter> parameters;
 
     /// Values for which it does nothing, or as good as nothing, and values with
     /// which it does much: the tests try both.
     EffectSettings neutral_settings;
     EffectSettings typical_settings;
+
+    EffectSearch search;
+
+    std::function<std::unique_ptr<Effect>(const Parameters &,
+                                          const CoefficientBasis &)>
+      create;
+
+    /// "Friction/<name>/"
+    std::string section() const;
+
+    void declare(Parameters &parameters) const;
   };
 
   /// All effects linked into the program, by name.
@@ -230,6 +260,18 @@ namespace SlipStep
   {
     explicit RegisterEffect(const EffectInfo &info);
   };
+
+  /// The same for a class with a static member info().
+  template <class EffectType>
+  RegisterEffect register_effect()
+  {
+    EffectInfo info = EffectType::info();
+    info.create     = [](const Parameters       &parameters,
+                     const CoefficientBasis &basis) {
+      return std::make_unique<EffectType>(parameters, basis);
+    };
+    return RegisterEffect(info);
+  }
 } // namespace SlipStep
 
 #endif

@@ -10,13 +10,8 @@ namespace SlipStep
 {
   /// @name What a diagnosis found, in the words of screen and page
   ///@{
-
   /// The verdict in one sentence with its numbers.
   std::string headline(const Diagnosis &diagnosis);
-
-  /// "friction that rises with sliding speed"; the name itself of an effect
-  /// that is not in the catalogue.
-  std::string plain_words(const std::string &effect);
 
   /// The verdict in two or three words.
   std::string short_verdict(const Diagnosis &diagnosis);

@@ -22,30 +22,44 @@ namespace SlipStep
         return strength;
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/adhesion/Strength",
-                           "0.01",
-                           Quantity(Dimension::stress, 0.),
-                           "Shear strength c of the adhesive bonds, lost when "
-                           "the contact opens. 0 or more, in MPa.");
+        EffectInfo info;
+        info.name    = "adhesion";
+        info.words   = "surfaces that stick even without pressure";
+        info.formula = "tau_y = f_n mu G_1 G_2 ... + c";
+        info.latex   = "\\tau_y = f_n \\mu\\,G_1 G_2 \\cdots + c";
+        info.source =
+          "Bowden and Tabor (1950); Derjaguin (1934), Z. Phys. 88, 661-675";
+        info.neutral          = "Strength = 0 MPa";
+        info.parameters       = {{"Strength",
+                                  "c",
+                                  "0.01",
+                                  Quantity(Dimension::stress, 0.),
+                                  "shear strength of the adhesive bonds, lost when "
+                                        "the contact opens"}};
+        info.neutral_settings = {{"Strength", "0"}};
+        info.typical_settings = {{"Strength", "0.3"}};
+        info.search           = {"only low pressures rise, as 1/p", search};
+        return info;
       }
 
     private:
+      static TrialFormula search(const Circumstances &now)
+      {
+        const double unit = now.friction() * now.range.lowest;
+        TrialFormula formula;
+        formula.is_one_sided = true;
+        formula.set_proportional("Friction/adhesion/Strength",
+                                 unit,
+                                 0.,
+                                 2. * unit);
+        return formula;
+      }
+
       const double c;
     };
 
-    const RegisterEffect adhesion_registration(
-      {"adhesion",
-       ExclusiveSlot::none,
-       "tau_y = f_n mu G_1 G_2 ... + c",
-       "Bowden and Tabor (1950); Derjaguin (1934), Z. Phys. 88, 661-675",
-       "Strength = 0 MPa",
-       &Adhesion::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Adhesion>(parameters, basis);
-       },
-       {{"Strength", "0"}},
-       {{"Strength", "0.3"}}});
+    const RegisterEffect adhesion_registration = register_effect<Adhesion>();
   } // namespace
 } // namespace SlipStep

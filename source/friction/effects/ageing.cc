@@ -1,6 +1,7 @@
 #include <slipstep/friction/contact_age.h>
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -56,42 +57,79 @@ namespace SlipStep
         return {&ContactState::contact_age};
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/ageing/Growth",
-                           "0",
-                           Quantity(Dimension::number, 0.),
-                           "Growth b_age of the strength per e-fold of the "
-                           "contact's age. 0 or more, no unit.");
-        parameters.declare("Friction/ageing/Time",
-                           "1",
-                           Quantity(Dimension::time, 0., 1e30, true),
-                           "Age t_0 from which the contact grows with the "
-                           "logarithm of its age. More than 0, in s.");
-        parameters.declare("Friction/ageing/Renewal length",
-                           "0.1",
-                           Quantity(Dimension::length, 0., 1e30, true),
-                           "Slip L that renews the contacts. More than 0, in "
-                           "mm.");
+        EffectInfo info;
+        info.name  = "ageing";
+        info.words = "contacts that strengthen with their age";
+        info.formula =
+          "G = 1 + b_age ln(1 + theta/t_0), d theta/dt = 1 - lambda theta/L";
+        info.latex      = "G = 1 + b_{age} \\ln\\left(1 + \\frac{\\theta}{t_0}"
+                          "\\right), \\quad \\dot\\theta = 1 - \\frac{\\lambda"
+                          "\\theta}{L}";
+        info.source     = "Dieterich (1979), J. Geophys. Res. 84, 2161-2168";
+        info.neutral    = "Growth = 0";
+        info.parameters = {
+          {"Growth",
+           "b_age",
+           "0",
+           Quantity(Dimension::number, 0.),
+           "growth of the strength per e-fold of the contact's age"},
+          {"Time",
+           "t_0",
+           "1",
+           Quantity(Dimension::time, 0., 1e30, true),
+           "age from which the contact grows with the logarithm of its age"},
+          {"Renewal length",
+           "L",
+           "0.1",
+           Quantity(Dimension::length, 0., 1e30, true),
+           "slip that renews the contacts"}};
+        info.neutral_settings = {{"Growth", "0"}};
+        info.typical_settings = {{"Growth", "0.1"},
+                                 {"Time", "0.05 s"},
+                                 {"Renewal length", "0.02 mm"}};
+        info.search           = {"", search, "healing", "Growth"};
+        return info;
       }
 
     private:
+      // The peak after a rest fades on a length of its own, which is not longer
+      // than what touches: otherwise it is a drift, which has other names.
+      static TrialFormula search(const Circumstances &now)
+      {
+        constexpr double  shortest = 1e-4, longest = 1.; // [mm]
+        const std::string growth = "Friction/ageing/Growth";
+        const std::string time   = "Friction/ageing/Time";
+        const std::string length = "Friction/ageing/Renewal length";
+        const double      rest   = now.range.longest_rest;
+        TrialFormula      formula;
+        // Without rests it is an effect of the speed, which has other names.
+        if (rest == 0.)
+          return TrialFormula::none("nothing rested");
+        formula.is_one_sided = true;
+        formula.parameters   = {{growth, 0., 1., false},
+                                {time, 1e-4 * rest, 10. * rest, true, true, true},
+                                {length, shortest, longest, true}};
+        for (const double t_0 : {0.01 * rest, 0.3 * rest})
+          for (const double L : ladder(0.01, 0.5, 3))
+            formula.shapes.push_back([=](const double strength) {
+              return Values{{growth,
+                             std::clamp(just_noticed * strength /
+                                          std::log1p(rest / t_0),
+                                        1e-6,
+                                        0.9)},
+                            {time, t_0},
+                            {length, L}};
+            });
+        return formula;
+      }
+
       const double b_age;
       const double t_0;
       const double L;
     };
 
-    const RegisterEffect ageing_registration(
-      {"ageing",
-       ExclusiveSlot::none,
-       "G = 1 + b_age ln(1 + theta/t_0), d theta/dt = 1 - lambda theta/L",
-       "Dieterich (1979), J. Geophys. Res. 84, 2161-2168",
-       "Growth = 0",
-       &Ageing::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Ageing>(parameters, basis);
-       },
-       {{"Growth", "0"}},
-       {{"Growth", "0.1"}, {"Time", "0.05 s"}, {"Renewal length", "0.02 mm"}}});
+    const RegisterEffect ageing_registration = register_effect<Ageing>();
   } // namespace
 } // namespace SlipStep

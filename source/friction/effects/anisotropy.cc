@@ -1,5 +1,8 @@
+#include <deal.II/base/numbers.h>
+
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -36,39 +39,59 @@ namespace SlipStep
                rho * outer_product(second, second);
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/anisotropy/Ratio",
-                           "0.8",
-                           Quantity(Dimension::number, 0.01, 100.),
-                           "Ratio rho of the coefficient along the second axis "
-                           "to that along the first, which is mu. From 0.01 to "
-                           "100, no unit.");
-        parameters.declare(
-          "Friction/anisotropy/Angle",
-          "0",
-          Quantity(Dimension::angle, -360., 360.),
-          "Angle from the first axis of the contact plane to "
-          "the first axis of the ellipse. From -360 to 360, in "
-          "deg.");
+        EffectInfo info;
+        info.name  = "anisotropy";
+        info.slot  = ExclusiveSlot::anisotropy;
+        info.words = "friction that depends on the direction in the plane";
+        info.formula =
+          "|f_t| = sqrt(f_1^2 + (f_2 / rho)^2), slip normal to the ellipse";
+        info.latex = "|f_t|^2 = f_1^2 + \\left(\\frac{f_2}{\\varrho}\\right)^2";
+        info.source  = "Michalowski and Mroz (1978), Arch. Mech. 30, 259-276";
+        info.neutral = "Ratio = 1";
+        info.parameters = {
+          {"Ratio",
+           "rho",
+           "0.8",
+           Quantity(Dimension::number, 0.01, 100.),
+           "ratio of the coefficient along the second axis to that along the "
+           "first, which is mu"},
+          {"Angle",
+           "",
+           "0",
+           Quantity(Dimension::angle, -360., 360.),
+           "angle from the first axis of the contact plane to the first axis "
+           "of the ellipse"}};
+        info.neutral_settings = {{"Ratio", "1"}};
+        info.typical_settings = {{"Ratio", "0.6"}, {"Angle", "35 deg"}};
+        info.search           = {"a ratio in off-axis tests", search};
+        return info;
       }
 
     private:
+      static TrialFormula search(const Circumstances &)
+      {
+        const std::string ratio   = "Friction/anisotropy/Ratio";
+        const std::string angle   = "Friction/anisotropy/Angle";
+        const double      quarter = dealii::numbers::PI / 4.;
+        TrialFormula      formula;
+        formula.parameters = {{ratio, 0.3, 3., true},
+                              {angle, -quarter, quarter, false, true, true}};
+        for (const double phi : {0., 0.9 * quarter})
+          formula.shapes.push_back([=](const double strength) {
+            return Values{{ratio,
+                           std::clamp(1. + just_noticed * strength, 0.35, 2.9)},
+                          {angle, phi}};
+          });
+        return formula;
+      }
+
       const double rho;
       const double angle;
     };
 
-    const RegisterEffect anisotropy_registration(
-      {"anisotropy",
-       ExclusiveSlot::anisotropy,
-       "|f_t| = sqrt(f_1^2 + (f_2 / rho)^2), slip normal to the ellipse",
-       "Michalowski and Mroz (1978), Arch. Mech. 30, 259-276",
-       "Ratio = 1",
-       &Anisotropy::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Anisotropy>(parameters, basis);
-       },
-       {{"Ratio", "1"}},
-       {{"Ratio", "0.6"}, {"Angle", "35 deg"}}});
+    const RegisterEffect anisotropy_registration =
+      register_effect<Anisotropy>();
   } // namespace
 } // namespace SlipStep

@@ -31,39 +31,48 @@ namespace SlipStep
         return factor;
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/direction/Change",
-                           "0.1",
-                           Quantity(Dimension::number, -0.99, 100.),
-                           "Share d by which the strength differs in reverse "
-                           "strokes, negative if it is less. From -0.99 to "
-                           "100, no unit.");
-        parameters.declare(
-          "Friction/direction/Forward angle",
-          "0",
-          Quantity(Dimension::angle, -360., 360.),
-          "Angle of the forward direction n in the contact "
-          "plane, from its first axis to its second. From -360 "
-          "to 360, in deg.");
+        EffectInfo info;
+        info.name  = "direction";
+        info.words = "friction that differs between forward and back strokes";
+        info.formula =
+          "G = 1 + d (1 - cos(phi)) / 2, phi: from the forward angle to slip";
+        info.latex      = "G = 1 + d\\,\\frac{1 - \\cos\\varphi}{2}";
+        info.source     = "chosen";
+        info.neutral    = "Change = 0";
+        info.parameters = {
+          {"Change",
+           "d",
+           "0.1",
+           Quantity(Dimension::number, -0.99, 100.),
+           "share by which the strength differs in reverse strokes, negative "
+           "if it is less"},
+          {"Forward angle",
+           "",
+           "0",
+           Quantity(Dimension::angle, -360., 360.),
+           "angle of the forward direction n in the contact plane, from its "
+           "first axis to its second"}};
+        info.neutral_settings = {{"Change", "0"}};
+        info.typical_settings = {{"Change", "0.5"},
+                                 {"Forward angle", "20 deg"}};
+        info.search           = {"an offset on reverse strokes", search};
+        return info;
       }
 
     private:
+      static TrialFormula search(const Circumstances &)
+      {
+        TrialFormula formula;
+        formula.set_proportional("Friction/direction/Change", 1., -0.8, 3.);
+        return formula;
+      }
+
       const double         d;
       dealii::Tensor<1, 2> n;
     };
 
-    const RegisterEffect direction_registration(
-      {"direction",
-       ExclusiveSlot::none,
-       "G = 1 + d (1 - cos(phi)) / 2, phi: from the forward angle to slip",
-       "chosen",
-       "Change = 0",
-       &Direction::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Direction>(parameters, basis);
-       },
-       {{"Change", "0"}},
-       {{"Change", "0.5"}, {"Forward angle", "20 deg"}}});
+    const RegisterEffect direction_registration = register_effect<Direction>();
   } // namespace
 } // namespace SlipStep

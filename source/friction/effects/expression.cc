@@ -166,40 +166,59 @@ namespace SlipStep
         return {};
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare(
-          key("Covariate"),
-          "log10 speed",
-          dealii::Patterns::Selection(
-            "log10 speed|pressure|path|hold time|temperature|angle"),
-          "What x is: 'log10 speed' of the slip rate in mm/s, 'pressure' in "
-          "MPa, slip 'path' in mm, 'hold time' in s, 'temperature' rise in degC "
-          "(needs effect heating) or 'angle' of slip in deg.");
-        parameters.declare(
-          key("Formula"),
-          "1",
-          dealii::Patterns::Anything(),
-          "Factor G as a formula of x, as muParser reads it: + "
-          "- * / ^ exp ln log10 sqrt tanh min max, a ? b : c. "
-          "Decimals begin with a point. "
-          "Between 1e-6 and 1e6 over the range, no unit.");
-        parameters.declare(
-          key("From"),
-          "-3",
-          Quantity(Dimension::number),
-          "Least x of the formula; below, G stays. A number in "
-          "the unit of the covariate.");
-        parameters.declare(key("To"),
-                           "2",
-                           Quantity(Dimension::number),
-                           "Largest x of the formula; above, G stays. A number "
-                           "in the unit of the covariate, greater than From.");
-        parameters.declare(key("Renewal length"),
-                           "0.01",
-                           Quantity(Dimension::length, 0., 1e30, true),
-                           "Slip D_c after which the hold time is forgotten; "
-                           "for that covariate only. More than 0, in mm.");
+        EffectInfo info;
+        info.name    = "expression";
+        info.words   = "a correction by a formula, cause unknown";
+        info.formula = "G = formula of one covariate x, From <= x <= To";
+        info.latex   = "G = g\\left(\\min(\\max(x, x_0), x_1)\\right)";
+        info.source  = "chosen; hold time as in Dieterich (1979), J. Geophys. "
+                       "Res. 84, 2161";
+        info.neutral = "Formula = 1";
+        info.parameters = {
+          {"Covariate",
+           "",
+           "log10 speed",
+           dealii::Patterns::Selection(
+             "log10 speed|pressure|path|hold time|temperature|angle"),
+           "what x is: 'log10 speed' of the slip rate in mm/s, 'pressure' in "
+           "MPa, slip 'path' in mm, 'hold time' in s, 'temperature' rise in "
+           "degC (needs effect heating) or 'angle' of slip in deg"},
+          {"Formula",
+           "g",
+           "1",
+           dealii::Patterns::Anything(),
+           "factor as a formula of x, as muParser reads it: + - * / ^ exp ln "
+           "log10 sqrt tanh min max, a ? b : c; decimals begin with a point; "
+           "between 1e-6 and 1e6 over the range"},
+          {"From",
+           "x_0",
+           "-3",
+           Quantity(Dimension::number),
+           "least x of the formula, in the unit of the covariate; below, G "
+           "stays"},
+          {"To",
+           "x_1",
+           "2",
+           Quantity(Dimension::number),
+           "largest x of the formula, greater than From; above, G stays"},
+          {"Renewal length",
+           "D_c",
+           "0.01",
+           Quantity(Dimension::length, 0., 1e30, true),
+           "slip after which the hold time is forgotten; for that covariate "
+           "only"}};
+        info.neutral_settings = {{"Formula", "1"}};
+        info.typical_settings = {{"Covariate", "hold time"},
+                                 {"Formula", "1 + 0.3 * tanh(x / 5)"},
+                                 {"From", "0"},
+                                 {"To", "100"},
+                                 {"Renewal length", "0.002 mm"}};
+        info.search           = {};
+        info.search.why_not =
+          "it is what describes a gap for which no effect has a name";
+        return info;
       }
 
     private:
@@ -253,21 +272,7 @@ namespace SlipStep
       const Table       table;
     };
 
-    const RegisterEffect expression_registration(
-      {"expression",
-       ExclusiveSlot::none,
-       "G = formula of one covariate x, From <= x <= To",
-       "chosen; hold time as in Dieterich (1979), J. Geophys. Res. 84, 2161",
-       "Formula = 1",
-       &Expression::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Expression>(parameters, basis);
-       },
-       {{"Formula", "1"}},
-       {{"Covariate", "hold time"},
-        {"Formula", "1 + 0.3 * tanh(x / 5)"},
-        {"From", "0"},
-        {"To", "100"},
-        {"Renewal length", "0.002 mm"}}});
+    const RegisterEffect expression_registration =
+      register_effect<Expression>();
   } // namespace
 } // namespace SlipStep

@@ -30,23 +30,84 @@ namespace SlipStep
         return {xi * growth, -xi * b * (growth + 1.)};
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/healing/Rate",
-                           "0",
-                           Quantity(Dimension::per_time, 0.),
-                           "Rate xi of recovery with time (eq. 2 of the source "
-                           "paper). 0 or more, in 1/s.");
-        parameters.declare("Friction/healing/Steepness",
-                           "1",
-                           Quantity(Dimension::number, 0., 1e4, true),
-                           "Steepness b of recovery in terms of mu (eq. 2 of "
-                           "the source paper): a large value makes the "
-                           "coefficient grow with the logarithm of the time at "
-                           "rest. More than 0, no unit.");
+        EffectInfo info;
+        info.name = "healing";
+        info.words =
+          "contacts that strengthen at rest: a peak after every hold";
+        info.formula = "d mu/dt = xi (exp(b (mu_s - mu)) - 1)";
+        info.latex = "\\dot\\mu = \\xi \\left(e^{b(\\mu_s - \\mu)} - 1\\right)";
+        info.source     = "source paper, eq. 2, second term";
+        info.neutral    = "Rate = 0 1/s";
+        info.parameters = {
+          {"Rate",
+           "xi",
+           "0",
+           Quantity(Dimension::per_time, 0.),
+           "rate of recovery with time (eq. 2 of the source paper)"},
+          {"Steepness",
+           "b",
+           "1",
+           Quantity(Dimension::number, 0., 1e4, true),
+           "steepness of recovery in terms of mu (eq. 2 of the source paper): a "
+           "large value makes the coefficient grow with the logarithm of the "
+           "time at rest"}};
+        info.neutral_settings = {{"Rate", "0"}};
+        info.typical_settings = {{"Rate", "1e-3"}, {"Steepness", "100"}};
+        info.search           = {"a peak after a hold that grows with the "
+                                           "logarithm of its time, gone after some slip",
+                                 search,
+                                 "",
+                                 "Rate"};
+        return info;
       }
 
     private:
+      // xi such that a share of the fall comes back in the longest rest.
+      static double rate_of(const double fall,
+                            const double steepness,
+                            const double rest,
+                            const double share)
+      {
+        return std::log(std::expm1(-steepness * fall) /
+                        std::expm1(-steepness * fall * (1. - share))) /
+               (steepness * rest);
+      }
+
+      // The peak after a rest fades as softening does.
+      static TrialFormula search(const Circumstances &now)
+      {
+        if (!now.has("softening"))
+          return TrialFormula::none("without softening nothing can recover");
+        const std::string rate      = "Friction/healing/Rate";
+        const std::string steepness = "Friction/healing/Steepness";
+        const double      mu_s      = now.number("Friction/Static coefficient");
+        const double      fall =
+          std::max(mu_s - now.number("Friction/softening/Kinetic coefficient"),
+                   0.01 * mu_s);
+        const double rest = now.range.longest_rest > 0. ?
+                              now.range.longest_rest :
+                              now.range.longest_test;
+        TrialFormula formula;
+        formula.is_one_sided = true;
+        formula.parameters   = {
+            {rate, 1e-14, 1e2, true},
+            {steepness, 0.3 / fall, 25. / fall, true, true, true}};
+        for (const double x : {0.5, 3., 8.})
+          for (const double share : {0.1, 0.5})
+            formula.shapes.push_back([=](const double strength) {
+              return Values{
+                {rate,
+                 rate_of(fall,
+                         x / fall,
+                         rest,
+                         std::clamp(share * strength, 0.003, 0.97))},
+                {steepness, x / fall}};
+            });
+        return formula;
+      }
+
       // Beyond, a product with no slip or no time would not be 0.
       static constexpr double largest_exponent = 500.;
 
@@ -55,17 +116,6 @@ namespace SlipStep
       const double mu_s;
     };
 
-    const RegisterEffect healing_registration(
-      {"healing",
-       ExclusiveSlot::none,
-       "d mu/dt = xi (exp(b (mu_s - mu)) - 1)",
-       "source paper, eq. 2, second term",
-       "Rate = 0 1/s",
-       &Healing::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Healing>(parameters, basis);
-       },
-       {{"Rate", "0"}},
-       {{"Rate", "1e-3"}, {"Steepness", "100"}}});
+    const RegisterEffect healing_registration = register_effect<Healing>();
   } // namespace
 } // namespace SlipStep

@@ -1,5 +1,6 @@
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -43,26 +44,78 @@ namespace SlipStep
         return {&ContactState::temperature_rise};
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/heating/Weakening",
-                           "1e-3",
-                           Quantity(Dimension::per_temperature, 0.),
-                           "Weakening beta with temperature. 0 or more, in "
-                           "1/degC.");
-        parameters.declare("Friction/heating/Heating",
-                           "10",
-                           Quantity(Dimension::heating, 0.),
-                           "Temperature h that the contact gains per work of "
-                           "friction and area. 0 or more, in degC mm/N.");
-        parameters.declare("Friction/heating/Cooling time",
-                           "10",
-                           Quantity(Dimension::time, 0., 1e30, true),
-                           "Time t_c in which the temperature falls to 37 %. "
-                           "More than 0, in s.");
+        EffectInfo info;
+        info.name    = "heating";
+        info.words   = "friction that falls as fast sliding heats the contact";
+        info.formula = "G = 1 / (1 + beta T), dT/dt = h |f_t| lambda - T / t_c";
+        info.latex   = "G = \\frac{1}{1 + \\beta T}, \\quad \\dot T = h |f_t| "
+                       "\\lambda - \\frac{T}{t_c}";
+        info.source =
+          "Blok (1937), Proc. Inst. Mech. Eng. 2, 222-235; form chosen";
+        info.neutral    = "Weakening = 0 1/degC";
+        info.parameters = {
+          {"Weakening",
+           "beta",
+           "1e-3",
+           Quantity(Dimension::per_temperature, 0.),
+           "weakening with temperature"},
+          {"Heating",
+           "h",
+           "10",
+           Quantity(Dimension::heating, 0.),
+           "temperature that the contact gains per work of friction and area"},
+          {"Cooling time",
+           "t_c",
+           "10",
+           Quantity(Dimension::time, 0., 1e30, true),
+           "time in which the temperature falls to 37 %"}};
+        info.neutral_settings = {{"Weakening", "0"}};
+        info.typical_settings = {{"Weakening", "0.02"},
+                                 {"Heating", "50"},
+                                 {"Cooling time", "2 s"}};
+        info.search = {"falls inside a fast run, recovers in a pause, repeats",
+                       search};
+        return info;
       }
 
     private:
+      // Only the product of weakening and heating is felt.
+      static TrialFormula search(const Circumstances &now)
+      {
+        constexpr double  weakening = 1e-3;
+        const std::string heating   = "Friction/heating/Heating";
+        const std::string cooling   = "Friction/heating/Cooling time";
+        const double      power =
+          now.friction() * now.range.highest * now.range.fastest;
+        const double shortest =
+          std::min(now.range.longest_test,
+                   now.range.longest_path / now.range.fastest);
+        TrialFormula formula;
+        formula.is_one_sided = true;
+        formula.settings     = {{"Friction/heating/Weakening", weakening}};
+        formula.parameters   = {{heating,
+                                 1e-6 /
+                                   (weakening * power * now.range.longest_test),
+                                 1e3 / (weakening * power * shortest),
+                                 true},
+                                {cooling,
+                                 0.03 * shortest,
+                                 3. * now.range.longest_test,
+                                 true,
+                                 false,
+                                 true}};
+        for (const double t : ladder(0.1 * shortest, now.range.longest_test, 6))
+          formula.shapes.push_back([=](const double strength) {
+            return Values{{heating,
+                           std::clamp(just_noticed * strength, 1e-4, 10.) /
+                             (weakening * power * std::min(t, shortest))},
+                          {cooling, t}};
+          });
+        return formula;
+      }
+
       // Of heat that flows during the step, some is gone at its end.
       double rise_per_work(const SlipStepData &step) const
       {
@@ -80,17 +133,6 @@ namespace SlipStep
       const double t_c;
     };
 
-    const RegisterEffect heating_registration(
-      {"heating",
-       ExclusiveSlot::none,
-       "G = 1 / (1 + beta T), dT/dt = h |f_t| lambda - T / t_c",
-       "Blok (1937), Proc. Inst. Mech. Eng. 2, 222-235; form chosen",
-       "Weakening = 0 1/degC",
-       &Heating::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Heating>(parameters, basis);
-       },
-       {{"Weakening", "0"}},
-       {{"Weakening", "0.02"}, {"Heating", "50"}, {"Cooling time", "2 s"}}});
+    const RegisterEffect heating_registration = register_effect<Heating>();
   } // namespace
 } // namespace SlipStep

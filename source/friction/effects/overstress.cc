@@ -2,6 +2,7 @@
 
 #include <boost/math/tools/roots.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -60,44 +61,79 @@ namespace SlipStep
         return r_m;
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/overstress/Viscosity",
-                           "1.15e4",
-                           Quantity(Dimension::viscosity, 0., 1e30, true),
-                           "Viscosity eta_v of the overstress (eq. 3 of the "
-                           "source paper; its Table 3 prints 1.15e7 ms/mm). "
-                           "More than 0, in s/mm.");
-        parameters.declare("Friction/overstress/Exponent",
-                           "16.52",
-                           Quantity(Dimension::number, 0., 1e4, true),
-                           "Exponent n of the overstress (eq. 3 of the source "
-                           "paper). More than 0, no unit.");
-        parameters.declare("Friction/overstress/Maximum ratio",
-                           "1.8",
-                           Quantity(Dimension::number, 1., 1e6, true),
-                           "Upper limit r_m of the dynamic-loading ratio, "
-                           "approached at infinite speed (eq. 3 of the source "
-                           "paper). More than 1, no unit.");
+        EffectInfo info;
+        info.name  = "overstress";
+        info.slot  = ExclusiveSlot::overstress;
+        info.words = "friction that rises with sliding speed";
+        info.formula =
+          "lambda = (exp(n (r - r_s)) - 1) / (eta_v (r_m - r)) for r > r_s";
+        info.latex   = "\\lambda = \\frac{1}{\\eta_v}\\,\\frac{e^{n(r-r_s)} - "
+                       "1}{r_m - r} \\quad (r > r_s)";
+        info.source  = "source paper, eq. 3 and Table 3";
+        info.neutral = "Viscosity -> 0 s/mm; switch the effect off instead";
+        info.parameters = {
+          {"Viscosity",
+           "eta_v",
+           "1.15e4",
+           Quantity(Dimension::viscosity, 0., 1e30, true),
+           "viscosity of the overstress (eq. 3 of the source paper; its Table 3 "
+           "prints 1.15e7 ms/mm)"},
+          {"Exponent",
+           "n",
+           "16.52",
+           Quantity(Dimension::number, 0., 1e4, true),
+           "exponent of the overstress (eq. 3 of the source paper)"},
+          {"Maximum ratio",
+           "r_m",
+           "1.8",
+           Quantity(Dimension::number, 1., 1e6, true),
+           "upper limit of the dynamic-loading ratio, approached at infinite "
+           "speed (eq. 3 of the source paper)"}};
+        info.neutral_settings = {{"Viscosity", "1e-12"}};
+        info.search           = {
+                    "the same step in every phase, linear in ln V, the same both ways",
+                    search};
+        return info;
       }
 
     private:
+      // r - r_s is about ln(1 + eta_v V (r_m - r)) / n.
+      static TrialFormula search(const Circumstances &now)
+      {
+        const std::string viscosity = "Friction/overstress/Viscosity";
+        const std::string exponent  = "Friction/overstress/Exponent";
+        TrialFormula      formula;
+        formula.is_one_sided = true;
+        formula.parameters   = {{viscosity,
+                                 1e-2 / now.range.fastest,
+                                 1e6 / now.range.slowest,
+                                 true,
+                                 true,
+                                 true},
+                                {exponent, 2., 1e4, true}};
+        for (const double eta :
+             ladder(0.3 / now.range.fastest, 1e4 / now.range.slowest, 5))
+          {
+            const double rise =
+              std::log1p(eta * now.range.fastest * 0.8) / just_noticed;
+            formula.shapes.push_back([=](const double strength) {
+              return Values{
+                {viscosity, eta},
+                {exponent,
+                 std::clamp(rise / std::max(strength, 1e-3), 2.5, 9e3)}};
+            });
+          }
+        return formula;
+      }
+
       const double eta;
       const double n;
       const double r_m;
     };
 
-    const RegisterEffect overstress_registration(
-      {"overstress",
-       ExclusiveSlot::overstress,
-       "lambda = (exp(n (r - r_s)) - 1) / (eta_v (r_m - r)) for r > r_s",
-       "source paper, eq. 3 and Table 3",
-       "Viscosity -> 0 s/mm; switch the effect off instead",
-       &Overstress::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Overstress>(parameters, basis);
-       },
-       {{"Viscosity", "1e-12"}},
-       {}});
+    const RegisterEffect overstress_registration =
+      register_effect<Overstress>();
   } // namespace
 } // namespace SlipStep

@@ -1,5 +1,6 @@
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -42,21 +43,51 @@ namespace SlipStep
         return std::numeric_limits<double>::infinity();
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/perzyna/Viscosity",
-                           "100",
-                           Quantity(Dimension::viscosity, 0., 1e30, true),
-                           "Viscosity eta of the power-law overstress. More "
-                           "than 0, in s/mm.");
-        parameters.declare("Friction/perzyna/Exponent",
-                           "4",
-                           Quantity(Dimension::number, 1., 1e3),
-                           "Exponent n of the power-law overstress. 1 or more, "
-                           "no unit.");
+        EffectInfo info;
+        info.name    = "perzyna";
+        info.slot    = ExclusiveSlot::overstress;
+        info.words   = "friction that rises with a power of the sliding speed";
+        info.formula = "lambda = <r - r_s>^n / eta";
+        info.latex   = "\\lambda = \\frac{1}{\\eta}\\left<r - r_s\\right>^{n}";
+        info.source  = "Perzyna (1963), Quart. Appl. Math. 20, 321-332";
+        info.neutral = "Viscosity -> 0 s/mm; switch the effect off instead";
+        info.parameters       = {{"Viscosity",
+                                  "eta",
+                                  "100",
+                                  Quantity(Dimension::viscosity, 0., 1e30, true),
+                                  "viscosity of the power-law overstress"},
+                                 {"Exponent",
+                                  "n",
+                                  "4",
+                                  Quantity(Dimension::number, 1., 1e3),
+                                  "exponent of the power-law overstress"}};
+        info.neutral_settings = {{"Viscosity", "1e-40"}};
+        info.search           = {"", search, "overstress"};
+        return info;
       }
 
     private:
+      // r - r_s = (eta V)^(1/n).
+      static TrialFormula search(const Circumstances &now)
+      {
+        const std::string viscosity = "Friction/perzyna/Viscosity";
+        const std::string exponent  = "Friction/perzyna/Exponent";
+        const double      speed     = now.range.fastest;
+        TrialFormula      formula;
+        formula.is_one_sided = true;
+        formula.parameters   = {{viscosity, 1e-30 / speed, 1e6 / speed, true},
+                                {exponent, 2., 16., true, true, true}};
+        for (const double n : {2., 4., 8.})
+          formula.shapes.push_back([=](const double strength) {
+            const double rise = std::clamp(just_noticed * strength, 1e-3, 3.);
+            return Values{{viscosity, std::pow(rise, n) / speed},
+                          {exponent, n}};
+          });
+        return formula;
+      }
+
       double overstress_of(const double slip_rate) const
       {
         return std::pow(eta * std::max(slip_rate, 0.), 1. / n);
@@ -66,17 +97,6 @@ namespace SlipStep
       const double n;
     };
 
-    const RegisterEffect perzyna_registration(
-      {"perzyna",
-       ExclusiveSlot::overstress,
-       "lambda = <r - r_s>^n / eta",
-       "Perzyna (1963), Quart. Appl. Math. 20, 321-332",
-       "Viscosity -> 0 s/mm; switch the effect off instead",
-       &Perzyna::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Perzyna>(parameters, basis);
-       },
-       {{"Viscosity", "1e-40"}},
-       {}});
+    const RegisterEffect perzyna_registration = register_effect<Perzyna>();
   } // namespace
 } // namespace SlipStep

@@ -28,37 +28,48 @@ namespace SlipStep
         return factor;
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/pressure/Exponent",
-                           "0.1",
-                           Quantity(Dimension::number, -1., 0.9),
-                           "Exponent gamma of the pressure, negative if the "
-                           "coefficient grows with it. From -1 to 0.9, no "
-                           "unit.");
-        parameters.declare("Friction/pressure/Reference pressure",
-                           "5.8",
-                           Quantity(Dimension::stress, 0., 1e30, true),
-                           "Pressure p_0 at which the coefficients were "
-                           "measured. More than 0, in MPa.");
+        EffectInfo info;
+        info.name       = "pressure";
+        info.words      = "a friction coefficient that changes with pressure";
+        info.formula    = "G = (f_n / p_0)^-gamma";
+        info.latex      = "G = \\left(\\frac{f_n}{p_0}\\right)^{-\\gamma}";
+        info.source     = "Archard (1957), Proc. R. Soc. Lond. A 243, 190-205";
+        info.neutral    = "Exponent = 0";
+        info.parameters = {
+          {"Exponent",
+           "gamma",
+           "0.1",
+           Quantity(Dimension::number, -1., 0.9),
+           "exponent of the pressure, negative if the coefficient grows with "
+           "it"},
+          {"Reference pressure",
+           "p_0",
+           "5.8",
+           Quantity(Dimension::stress, 0., 1e30, true),
+           "pressure at which the coefficients were measured"}};
+        info.neutral_settings = {{"Exponent", "0"}};
+        info.typical_settings = {{"Exponent", "0.3"},
+                                 {"Reference pressure", "3"}};
+        info.search           = {"straight in ln p only", search};
+        return info;
       }
 
     private:
+      static TrialFormula search(const Circumstances &now)
+      {
+        TrialFormula formula;
+        formula.settings = {{"Friction/pressure/Reference pressure",
+                             std::sqrt(now.range.lowest * now.range.highest)}};
+        formula.set_proportional("Friction/pressure/Exponent", 1., -0.8, 0.8);
+        return formula;
+      }
+
       const double gamma;
       const double p_0;
     };
 
-    const RegisterEffect pressure_registration(
-      {"pressure",
-       ExclusiveSlot::none,
-       "G = (f_n / p_0)^-gamma",
-       "Archard (1957), Proc. R. Soc. Lond. A 243, 190-205",
-       "Exponent = 0",
-       &Pressure::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Pressure>(parameters, basis);
-       },
-       {{"Exponent", "0"}},
-       {{"Exponent", "0.3"}, {"Reference pressure", "3"}}});
+    const RegisterEffect pressure_registration = register_effect<Pressure>();
   } // namespace
 } // namespace SlipStep

@@ -1,5 +1,6 @@
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -28,37 +29,60 @@ namespace SlipStep
         return factor;
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/run_in/Change",
-                           "0.2",
-                           Quantity(Dimension::number, -0.99, 100.),
-                           "Share w by which the strength has changed after "
-                           "long sliding, negative if it falls. From -0.99 to "
-                           "100, no unit.");
-        parameters.declare("Friction/run_in/Length",
-                           "100",
-                           Quantity(Dimension::length, 0., 1e30, true),
-                           "Slip path D_w after which 63 % of the change are "
-                           "made. More than 0, in mm.");
+        EffectInfo info;
+        info.name = "run_in";
+        info.words =
+          "surfaces that run in: a slow drift with the distance slid";
+        info.formula = "G = 1 + w (1 - exp(-D / D_w)), D: slip path";
+        info.latex   = "G = 1 + w \\left(1 - e^{-D/D_w}\\right)";
+        info.source  = "Blau (2005), Tribol. Int. 38, 1007-1012; form chosen";
+        info.neutral = "Change = 0";
+        info.parameters = {
+          {"Change",
+           "w",
+           "0.2",
+           Quantity(Dimension::number, -0.99, 100.),
+           "share by which the strength has changed after long sliding, "
+           "negative if it falls"},
+          {"Length",
+           "D_w",
+           "100",
+           Quantity(Dimension::length, 0., 1e30, true),
+           "slip path after which 63 % of the change are made"}};
+        info.neutral_settings = {{"Change", "0"}};
+        info.typical_settings = {{"Change", "-0.4"}, {"Length", "0.02 mm"}};
+        info.search = {"slow drift with the path, no recovery", search};
+        return info;
       }
 
     private:
+      // A fall with the path is softening by another name: without softening in
+      // the model only a rise is run-in.
+      static TrialFormula search(const Circumstances &now)
+      {
+        const std::string change = "Friction/run_in/Change";
+        const std::string length = "Friction/run_in/Length";
+        const double      path   = now.range.longest_path;
+        TrialFormula      formula;
+        formula.is_one_sided = !now.has("softening");
+        formula.parameters   = {
+            {change, formula.is_one_sided ? 0. : -0.8, 3., false},
+            {length, 0.02 * path, 10. * path, true, false, true}};
+        for (const double D : ladder(0.03 * path, 3. * path, 5))
+          formula.shapes.push_back([=](const double strength) {
+            return Values{{change,
+                           std::clamp(just_noticed * strength, -0.7, 2.9)},
+                          {length, D}};
+          });
+        return formula;
+      }
+
       const double w;
       const double D_w;
     };
 
-    const RegisterEffect run_in_registration(
-      {"run_in",
-       ExclusiveSlot::none,
-       "G = 1 + w (1 - exp(-D / D_w)), D: slip path",
-       "Blau (2005), Tribol. Int. 38, 1007-1012; form chosen",
-       "Change = 0",
-       &RunIn::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<RunIn>(parameters, basis);
-       },
-       {{"Change", "0"}},
-       {{"Change", "-0.4"}, {"Length", "0.02 mm"}}});
+    const RegisterEffect run_in_registration = register_effect<RunIn>();
   } // namespace
 } // namespace SlipStep

@@ -1,5 +1,6 @@
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -42,42 +43,68 @@ namespace SlipStep
         return factor;
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/stribeck/Rise",
-                           "0.05",
-                           Quantity(Dimension::number, 0., 100.),
-                           "Share s by which the strength at rest exceeds that "
-                           "at high speed. From 0 to 100, no unit.");
-        parameters.declare("Friction/stribeck/Speed",
-                           "0.5 mm/s",
-                           Quantity(Dimension::speed, 0., 1e30, true, true),
-                           "Speed V_s at which the rise has fallen to 37 %. "
-                           "More than 0, with its unit.");
-        parameters.declare("Friction/stribeck/Exponent",
-                           "1",
-                           Quantity(Dimension::number, 1., 10.),
-                           "Exponent q of the speed. From 1 (less would fall "
-                           "infinitely fast from rest) to 10, no unit.");
+        EffectInfo info;
+        info.name       = "stribeck";
+        info.words      = "higher friction at slow speeds, as with a lubricant";
+        info.formula    = "G = 1 + s exp(-(lambda / V_s)^q)";
+        info.latex      = "G = 1 + s\\,e^{-(\\lambda/V_s)^q}";
+        info.source     = "Stribeck (1902), Z. VDI 46, 1341; Bo and Pavelescu "
+                          "(1982), Wear 82, 277";
+        info.neutral    = "Rise = 0";
+        info.parameters = {
+          {"Rise",
+           "s",
+           "0.05",
+           Quantity(Dimension::number, 0., 100.),
+           "share by which the strength at rest exceeds that at high speed"},
+          {"Speed",
+           "V_s",
+           "0.5 mm/s",
+           Quantity(Dimension::speed, 0., 1e30, true, true),
+           "speed at which the rise has fallen to 37 %"},
+          {"Exponent",
+           "q",
+           "1",
+           Quantity(Dimension::number, 1., 10.),
+           "exponent of the speed; less than 1 would fall infinitely fast from "
+           "rest"}};
+        info.neutral_settings = {{"Rise", "0"}};
+        info.typical_settings = {{"Rise", "0.1"},
+                                 {"Speed", "2 mm/s"},
+                                 {"Exponent", "1.5"}};
+        info.search = {"slow speeds high, no memory of holds", search};
+        return info;
       }
 
     private:
+      static TrialFormula search(const Circumstances &now)
+      {
+        const std::string rise     = "Friction/stribeck/Rise";
+        const std::string speed    = "Friction/stribeck/Speed";
+        const std::string exponent = "Friction/stribeck/Exponent";
+        const double slowest = now.range.slowest, fastest = now.range.fastest;
+        TrialFormula formula;
+        formula.is_one_sided = true;
+        formula.parameters   = {{rise, 0., 3., false},
+                                {speed, 0.1 * slowest, 10. * fastest, true},
+                                {exponent, 1., 3., false, true, false}};
+        for (const double V : ladder(0.7 * slowest, 1.5 * fastest, 6))
+          formula.shapes.push_back([=](const double strength) {
+            return Values{{rise,
+                           std::clamp(just_noticed * strength, 1e-4, 2.9)},
+                          {speed, V},
+                          {exponent, 1.2}};
+          });
+        return formula;
+      }
+
       const double s;
       const double V_s;
       const double q;
     };
 
-    const RegisterEffect stribeck_registration(
-      {"stribeck",
-       ExclusiveSlot::none,
-       "G = 1 + s exp(-(lambda / V_s)^q)",
-       "Stribeck (1902), Z. VDI 46, 1341; Bo and Pavelescu (1982), Wear 82, 277",
-       "Rise = 0",
-       &Stribeck::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Stribeck>(parameters, basis);
-       },
-       {{"Rise", "0"}},
-       {{"Rise", "0.1"}, {"Speed", "2 mm/s"}, {"Exponent", "1.5"}}});
+    const RegisterEffect stribeck_registration = register_effect<Stribeck>();
   } // namespace
 } // namespace SlipStep

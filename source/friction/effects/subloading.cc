@@ -6,6 +6,7 @@
 #include <boost/math/special_functions/expint.hpp>
 #include <boost/math/tools/roots.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -47,23 +48,56 @@ namespace SlipStep
         return is_logarithmic ? logarithmic(r_s0, slip) : cotangent(r_s0, slip);
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/subloading/Form",
-                           "cot",
-                           dealii::Patterns::Selection("cot|log"),
-                           "Evolution function U of the normal ratio: 'cot' is "
-                           "u cot(pi r_s/2), 'log' is -u ln(r_s).");
-        parameters.declare("Friction/subloading/Rate",
-                           "200",
-                           Quantity(Dimension::per_length, 0., 1e30, true),
-                           "Rate u at which the normal ratio grows with slip: "
-                           "sliding is fully developed after a slip of a few "
-                           "1/u; infinity is Coulomb's law. More than 0, in "
-                           "1/mm.");
+        EffectInfo info;
+        info.name  = "subloading";
+        info.slot  = ExclusiveSlot::normal_ratio;
+        info.words = "slip that begins little by little before full friction";
+        info.formula =
+          "d r_s/d lambda = u cot(pi r_s/2) or -u ln(r_s); r_s <= r";
+        info.latex   = "\\frac{dr_s}{d\\lambda} = u \\cot\\frac{\\pi r_s}{2} "
+                       "\\quad\\text{or}\\quad -u \\ln r_s, \\qquad r_s \\le r";
+        info.source  = "Hashiguchi, Ozaki and Okayasu (2005), Int. J. Solids "
+                       "Struct. 42, 1705-1727";
+        info.neutral = "Rate -> infinity; switch the effect off instead";
+        info.parameters = {
+          {"Form",
+           "U",
+           "cot",
+           dealii::Patterns::Selection("cot|log"),
+           "evolution function of the normal ratio: 'cot' is u cot(pi r_s/2), "
+           "'log' is -u ln(r_s)"},
+          {"Rate",
+           "u",
+           "200",
+           Quantity(Dimension::per_length, 0., 1e30, true),
+           "rate at which the normal ratio grows with slip: sliding is fully "
+           "developed after a slip of a few 1/u; infinity is Coulomb's law"}};
+        info.neutral_settings = {{"Rate", "1e12"}};
+        info.search           = {"rounded flanks before every peak", search};
+        return info;
       }
 
     private:
+      // The smooth onset of slip.
+      static TrialFormula search(const Circumstances &now)
+      {
+        const std::string rate = "Friction/subloading/Rate";
+        const double      unit = 100. / now.range.longest_path;
+        TrialFormula      formula;
+        formula.is_one_sided = true;
+        formula.parameters   = {{rate, 0.01 * unit, 1e5 * unit, true}};
+        for (const double u : {1., 30.})
+          formula.shapes.push_back([=](const double strength) {
+            return Values{{rate,
+                           std::clamp(u * unit / std::max(strength, 1e-3),
+                                      0.011 * unit,
+                                      9e4 * unit)}};
+          });
+        return formula;
+      }
+
       double rate(const double r_s) const
       {
         return is_logarithmic ? -u * std::log(r_s) : u / std::tan(PI_2 * r_s);
@@ -113,18 +147,7 @@ namespace SlipStep
       const bool   is_logarithmic;
     };
 
-    const RegisterEffect subloading_registration(
-      {"subloading",
-       ExclusiveSlot::normal_ratio,
-       "d r_s/d lambda = u cot(pi r_s/2) or -u ln(r_s); r_s <= r",
-       "Hashiguchi, Ozaki and Okayasu (2005), Int. J. Solids Struct. 42, "
-       "1705-1727",
-       "Rate -> infinity; switch the effect off instead",
-       &Subloading::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Subloading>(parameters, basis);
-       },
-       {{"Rate", "1e12"}},
-       {}});
+    const RegisterEffect subloading_registration =
+      register_effect<Subloading>();
   } // namespace
 } // namespace SlipStep

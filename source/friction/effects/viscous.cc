@@ -30,30 +30,40 @@ namespace SlipStep
         return strength;
       }
 
-      static void declare(Parameters &parameters)
+      static EffectInfo info()
       {
-        parameters.declare("Friction/viscous/Drag",
-                           "0.01",
-                           Quantity(Dimension::drag, 0.),
-                           "Strength c_v per slip rate. 0 or more, in MPa "
-                           "s/mm.");
+        EffectInfo info;
+        info.name       = "viscous";
+        info.words      = "a drag in proportion to speed, as of a fluid film";
+        info.formula    = "tau_y = f_n mu G_1 G_2 ... + c_v lambda";
+        info.latex      = "\\tau_y = f_n \\mu\\,G_1 G_2 \\cdots + c_v \\lambda";
+        info.source     = "Reynolds (1886), Phil. Trans. R. Soc. 177, 157-234";
+        info.neutral    = "Drag = 0 MPa s/mm";
+        info.parameters = {{"Drag",
+                            "c_v",
+                            "0.01",
+                            Quantity(Dimension::drag, 0.),
+                            "strength per slip rate"}};
+        info.neutral_settings = {{"Drag", "0"}};
+        info.typical_settings = {{"Drag", "0.2"}};
+        info.search = {"linear in V, its share shrinks with pressure", search};
+        return info;
       }
 
     private:
+      static TrialFormula search(const Circumstances &now)
+      {
+        const double unit =
+          now.friction() * now.range.highest / now.range.fastest;
+        TrialFormula formula;
+        formula.is_one_sided = true;
+        formula.set_proportional("Friction/viscous/Drag", unit, 0., 3. * unit);
+        return formula;
+      }
+
       const double c_v;
     };
 
-    const RegisterEffect viscous_registration(
-      {"viscous",
-       ExclusiveSlot::none,
-       "tau_y = f_n mu G_1 G_2 ... + c_v lambda",
-       "Reynolds (1886), Phil. Trans. R. Soc. 177, 157-234",
-       "Drag = 0 MPa s/mm",
-       &Viscous::declare,
-       [](const Parameters &parameters, const CoefficientBasis &basis) {
-         return std::make_unique<Viscous>(parameters, basis);
-       },
-       {{"Drag", "0"}},
-       {{"Drag", "0.2"}}});
+    const RegisterEffect viscous_registration = register_effect<Viscous>();
   } // namespace
 } // namespace SlipStep

@@ -1,0 +1,119 @@
+#ifndef slipstep_friction_effect_search_h
+#define slipstep_friction_effect_search_h
+
+#include <slipstep/utilities/parameters.h>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Numbers of a case by their paths, in base units.
+  using Values = std::map<std::string, double>;
+
+  /// The ranges that a campaign of tests covers.
+  struct TestedRange
+  {
+    double slowest          = 0.; ///< [mm/s]
+    double fastest          = 0.;
+    double lowest           = 0.; ///< [MPa]
+    double highest          = 0.;
+    double longest_path     = 0.; ///< [mm]
+    double longest_rest     = 0.; ///< [s]
+    double longest_test     = 0.; ///< [s]
+    double longest_slide    = 0.; ///< without a rest [s]
+    double typical_friction = 0.;
+  };
+
+  /// Where an effect is looked for: the model so far, and the tests.
+  struct Circumstances
+  {
+    const Parameters  &parameters; ///< with fitted values
+    const TestedRange &range;
+
+    /// Whether the model has an effect.
+    bool has(const std::string &effect) const;
+
+    double number(const std::string &path) const
+    {
+      return parameters.number(path);
+    }
+
+    /// Typical friction, which is no coefficient of the law.
+    double friction() const
+    {
+      return range.typical_friction;
+    }
+  };
+
+  /// A number of the case that is to be fitted with an effect. Base units.
+  struct CandidateParameter
+  {
+    std::string path;
+    double      lower          = 0.;
+    double      upper          = 1.;
+    bool        is_logarithmic = false;
+    /// A fit that ends at a bound is no explanation, unless that bound is a
+    /// limit which makes sense: nothing cools, the speeds are all fast.
+    bool lower_makes_sense = false;
+    bool upper_makes_sense = false;
+  };
+
+  /// An effect by one formula, to be tried on measured tests.
+  struct TrialFormula
+  {
+    /// A way in which the effect may act, its strength apart: the values of all
+    /// parameters when it is @p strength times as strong as one that is only
+    /// just noticed.
+    using Shape = std::function<Values(const double strength)>;
+
+    /// What is added to Friction/Effects; "" for what is there already.
+    std::string                        effect;
+    std::vector<CandidateParameter>    parameters;
+    Values                             settings; ///< numbers that stay
+    std::map<std::string, std::string> texts;    ///< that stay
+    std::vector<Shape>                 shapes;
+    bool                               is_one_sided = false;
+    /// Why it cannot be tried; "" if it can.
+    std::string why_not;
+
+    static TrialFormula none(const std::string &why_not);
+
+    /// Let one parameter be in proportion to the strength, @p unit of it
+    /// changing friction by its own size.
+    void set_proportional(const std::string &path,
+                          const double       unit,
+                          const double       lower,
+                          const double       upper);
+  };
+
+  /// How an effect is looked for in measured tests.
+  struct EffectSearch
+  {
+    /// How it shows, beside other effects.
+    std::string signature;
+
+    std::function<TrialFormula(const Circumstances &)> formula;
+
+    /// The effect of which this one is but another formula, "" if none.
+    std::string candidate;
+
+    /// The key with which it does nothing where that is 0, although it is in
+    /// the list; "" if it does something whenever it is there.
+    std::string amplitude;
+
+    /// Why it is never looked for: then there is no formula.
+    std::string why_not;
+  };
+
+  /// A change of friction by one per cent, the size of all trial strengths.
+  constexpr double just_noticed = 0.01;
+
+  /// Values from a to b, each the same factor from the next.
+  std::vector<double>
+  ladder(const double a, const double b, const unsigned int n);
+} // namespace SlipStep
+
+#endif
