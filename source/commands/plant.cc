@@ -1,8 +1,10 @@
 #include <slipstep/synthetic_tests/answer.h>
 #include <slipstep/commands/plant.h>
+#include <slipstep/synthetic_tests/hidden_effects.h>
 #include <slipstep/synthetic_tests/planted_campaign.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/utilities.h>
@@ -10,11 +12,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 namespace SlipStep
 {
   namespace
   {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
     /// The value of an option, or "" if it was not given.
     std::string value_of(const CommandLine &line, const std::string &option)
     {
@@ -41,11 +46,14 @@ namespace SlipStep
 
 
 
-    double factor(const CommandLine &line, const std::string &option)
+    double number(const CommandLine &line,
+                  const std::string &option,
+                  const double       if_missing,
+                  const double       most)
     {
       const std::string text = value_of(line, option);
       if (text.empty())
-        return 1.;
+        return if_missing;
       std::size_t end   = 0;
       double      value = -1.;
       try
@@ -54,9 +62,11 @@ namespace SlipStep
         }
       catch (const std::logic_error &)
         {}
-      if (end != text.size() || !std::isfinite(value) || value < 0.)
-        throw InputError("--" + option + " " + text +
-                         ": must be a number, 0 or more");
+      if (end != text.size() || !std::isfinite(value) || value < 0. ||
+          value > most)
+        throw InputError(
+          "--" + option + " " + text + ": must be a number, 0 or more" +
+          (std::isfinite(most) ? ", at most " + rounded_text(most, 3) : ""));
       return value;
     }
 
@@ -77,7 +87,11 @@ namespace SlipStep
       options.n_tests =
         std::min<std::uint64_t>(whole_number(line, "tests", options.n_tests),
                                 1000);
-      options.noise_factor    = factor(line, "noise-factor");
+      options.edition =
+        std::min<std::uint64_t>(whole_number(line, "edition", options.edition),
+                                1000);
+      options.noise_factor    = number(line, "noise-factor", 1., infinity);
+      options.amplitude       = number(line, "amplitude", 0., 0.5);
       options.with_replicates = line.plant_options.count("no-replicates") == 0;
       return options;
     }
@@ -85,8 +99,56 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    std::string list_of(const Planting::CampaignClass campaign_class)
+    {
+      std::string list;
+      for (const std::string &effect :
+           Planting::drawn_effects(campaign_class, Planting::newest_edition()))
+        {
+          const Planting::HiddenEffectKind &kind =
+            Planting::hidden_effect(effect,
+                                    Planting::formula_of(campaign_class));
+          list += "  " + effect + ": " + kind.formula +
+                  (kind.edition > 1 ?
+                     " (edition " + std::to_string(kind.edition) + ")" :
+                     "") +
+                  '\n';
+        }
+      return list.empty() ? "  nothing\n" : list;
+    }
+
+
+
+    // Class by class; those that draw from the same together.
+    void list_hidden_effects(std::ostream &out)
+    {
+      std::vector<std::pair<std::string, std::string>> lists;
+      for (const std::string &name : Planting::campaign_classes())
+        {
+          const std::string list = list_of(Planting::campaign_class(name));
+          if (!lists.empty() && lists.back().second == list)
+            lists.back().first += ", " + name;
+          else
+            lists.emplace_back(name, list);
+        }
+      for (const auto &[names, list] : lists)
+        out << "class " << names << '\n' << list;
+    }
+  } // namespace
+
+
+
   int plant(const CommandLine &line)
   {
+    if (line.plant_options.count("list") > 0)
+      {
+        if (!line.files.empty())
+          throw InputError("slipstep plant --list takes no folder");
+        list_hidden_effects(std::cout);
+        return 0;
+      }
     const std::string answer = value_of(line, "open");
     if (!answer.empty())
       {

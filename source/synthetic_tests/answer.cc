@@ -68,6 +68,7 @@ namespace SlipStep
                 {"schema", "slipstep planted campaign 1"},
                 {"class", to_string(options.campaign_class)},
                 {"seed", options.seed},
+                {"edition", options.edition},
                 {"hidden", hidden},
                 {"effects_of_truth", campaign.base_effects},
                 {"base_parameters", to_json(campaign.base_parameters)},

@@ -7,6 +7,8 @@
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/write_file.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -75,6 +77,57 @@ namespace SlipStep
 
 
 
+    std::vector<std::string> campaign_classes()
+    {
+      std::vector<std::string> names;
+      for (const auto &one : class_names)
+        names.push_back(one.second);
+      return names;
+    }
+
+
+
+    Formula formula_of(const CampaignClass campaign_class)
+    {
+      return campaign_class == CampaignClass::other_formula ?
+               Formula::alternative :
+             campaign_class == CampaignClass::outside ? Formula::outside :
+                                                        Formula::catalogue;
+    }
+
+
+
+    std::vector<std::string> drawn_effects(const CampaignClass campaign_class,
+                                           const unsigned int  edition)
+    {
+      if (campaign_class == CampaignClass::none)
+        return {};
+      if (campaign_class == CampaignClass::ablated)
+        return {"overstress", "softening"};
+      // What could be seen in such tests.
+      if (campaign_class == CampaignClass::narrow)
+        return {"pressure", "shear_cap", "adhesion", "run_in", "viscous"};
+      std::vector<std::string> names;
+      for (const auto &kind : hidden_effects(formula_of(campaign_class)))
+        if (kind.edition <= edition)
+          names.push_back(kind.name);
+      return names;
+    }
+
+
+
+    unsigned int newest_edition()
+    {
+      unsigned int newest = 1;
+      for (const Formula formula :
+           {Formula::catalogue, Formula::alternative, Formula::outside})
+        for (const auto &kind : hidden_effects(formula))
+          newest = std::max(newest, kind.edition);
+      return newest;
+    }
+
+
+
     namespace
     {
       unsigned int n_hidden(const CampaignClass campaign_class)
@@ -84,43 +137,23 @@ namespace SlipStep
                                                        1;
       }
 
-      Formula formula_of(const CampaignClass campaign_class)
-      {
-        return campaign_class == CampaignClass::other_formula ?
-                 Formula::alternative :
-               campaign_class == CampaignClass::outside ? Formula::outside :
-                                                          Formula::catalogue;
-      }
-
-      std::vector<std::string> candidates(const CampaignClass campaign_class)
-      {
-        if (campaign_class == CampaignClass::ablated)
-          return {"overstress", "softening"};
-        // What could be seen in such tests.
-        if (campaign_class == CampaignClass::narrow)
-          return {"pressure", "shear_cap", "adhesion", "run_in", "viscous"};
-        std::vector<std::string> names;
-        for (const auto &kind : hidden_effects(formula_of(campaign_class)))
-          names.push_back(kind.name);
-        return names;
-      }
-
-
-
-      std::string list_of(const std::vector<std::string> &names)
-      {
-        std::string list;
-        for (const std::string &name : names)
-          list += (list.empty() ? "" : ", ") + name;
-        return list;
-      }
-
 
 
       void check_wish(const CampaignOptions &options)
       {
-        const std::string name     = to_string(options.campaign_class);
-        const auto        possible = candidates(options.campaign_class);
+        const std::string name = to_string(options.campaign_class);
+        // A wish may be for the newest.
+        const auto possible =
+          drawn_effects(options.campaign_class, newest_edition());
+        if (options.edition < 1 || options.edition > newest_edition())
+          throw InputError("edition " + std::to_string(options.edition) +
+                           ": there are editions 1 to " +
+                           std::to_string(newest_edition()));
+        if (options.amplitude > 0. &&
+            (options.campaign_class == CampaignClass::none ||
+             options.campaign_class == CampaignClass::ablated))
+          throw InputError("class " + name +
+                           " adds no effect that could have an amplitude");
         if (!options.effects.empty() &&
             options.effects.size() != n_hidden(options.campaign_class))
           throw InputError("class " + name + " hides " +
@@ -138,7 +171,8 @@ namespace SlipStep
               throw InputError("effect \"" + effect + "\" is named twice");
             if (std::count(possible.begin(), possible.end(), effect) == 0)
               throw InputError("class " + name + " hides one of: " +
-                               list_of(possible) + "; not \"" + effect + "\"");
+                               boost::algorithm::join(possible, ", ") +
+                               "; not \"" + effect + "\"");
           }
       }
 
@@ -148,7 +182,8 @@ namespace SlipStep
       std::vector<std::string> choose_effects(const CampaignOptions &options,
                                               Random                &random)
       {
-        std::vector<std::string> names = candidates(options.campaign_class);
+        std::vector<std::string> names =
+          drawn_effects(options.campaign_class, options.edition);
         // Drawn in any case, so that the numbers after it are the same.
         std::shuffle(names.begin(), names.end(), random);
         names.resize(n_hidden(options.campaign_class));

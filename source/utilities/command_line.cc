@@ -131,6 +131,9 @@ namespace SlipStep
           "no-replicates",
           "noise",
           "noise-factor",
+          "amplitude",
+          "edition",
+          "list",
           "open",
           "quiet"},
          {}},
@@ -230,6 +233,13 @@ namespace SlipStep
          "normal, heavy_tails, two_drifts")
         ("noise-factor", po::value<std::string>()->value_name("F"),
          "so many times the usual noise")
+        ("amplitude", po::value<std::string>()->value_name("A"),
+         "change of friction by what is hidden, 0.02 for 2 %; drawn unless "
+         "given")
+        ("edition", po::value<std::string>()->value_name("N"),
+         "draw also from effects that came with later editions; 1 unless given, "
+         "so that a seed hides the same for ever")
+        ("list", "list the effects that can be hidden")
         ("open", po::value<std::string>()->value_name("FILE"),
          "print a sealed answer")
         ("quiet", "print errors and warnings only")
@@ -401,8 +411,15 @@ namespace SlipStep
     line.version           = values.count("version") > 0;
     line.help              = values.count("help") > 0;
     line.settings_as_typed = list("set");
-    for (const std::string name :
-         {"class", "seed", "effect", "tests", "noise", "noise-factor", "open"})
+    for (const std::string name : {"class",
+                                   "seed",
+                                   "effect",
+                                   "tests",
+                                   "noise",
+                                   "noise-factor",
+                                   "amplitude",
+                                   "edition",
+                                   "open"})
       if (values.count(name))
         {
           line.plant_options[name] =
@@ -410,8 +427,9 @@ namespace SlipStep
           if (text(name).empty())
             throw InputError("--" + name + ": a value is needed");
         }
-    if (values.count("no-replicates"))
-      line.plant_options["no-replicates"];
+    for (const std::string name : {"no-replicates", "list"})
+      if (values.count(name))
+        line.plant_options[name];
     for (const std::string &typed : line.settings_as_typed)
       {
         const auto setting = parse_setting(typed);

@@ -75,3 +75,28 @@ TEST_F(Plant, CampaignThatIsReadAndOpened)
   process.write("b.sealed", "not sealed\n");
   expect_refusal({"--open", "b.sealed"}, "is not a sealed answer");
 }
+
+
+
+TEST_F(Plant, ListsWhatCanBeHidden)
+{
+  const auto result = plant({"--list"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const std::string part : {"class none\n  nothing\n",
+                                 "class one, two\n",
+                                 "class narrow\n  pressure: G = ",
+                                 "  damage: "})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part;
+  EXPECT_TRUE(process.wrote_nothing());
+}
+
+
+
+TEST_F(Plant, AmplitudesAndEditionsAreChecked)
+{
+  expect_refusal({"a", "--amplitude", "2 %"}, "must be a number");
+  expect_refusal({"a", "--amplitude", "3"}, "at most 0.5");
+  expect_refusal({"a", "--amplitude", "0.1", "--class", "none"},
+                 "adds no effect");
+  expect_refusal({"a", "--edition", "99"}, "there are editions 1 to");
+}

@@ -47,6 +47,78 @@ TEST(PlantedCampaign, IsAFunctionOfItsOptions)
 
 
 
+// Published seeds: what they hide stays, whatever effects are added.
+TEST(PlantedCampaign, HidesTheSameForEver)
+{
+  const std::map<std::string, std::vector<std::string>> hidden = {
+    {"one",
+     {"stribeck",
+      "softening",
+      "compliance",
+      "viscous",
+      "direction",
+      "direction"}},
+    {"two",
+     {"adhesion shear_cap",
+      "softening compliance",
+      "heating direction",
+      "overstress run_in",
+      "overstress adhesion",
+      "pressure viscous"}},
+    {"other_formula",
+     {"stribeck", "viscous", "viscous", "compliance", "overstress", "heating"}},
+    {"outside",
+     {"load_memory",
+      "memory_length",
+      "memory_length",
+      "damage",
+      "run_order",
+      "largest_pressure"}},
+    {"ablated",
+     {"softening",
+      "overstress",
+      "softening",
+      "softening",
+      "softening",
+      "softening"}},
+    {"narrow",
+     {"viscous", "pressure", "shear_cap", "run_in", "viscous", "shear_cap"}}};
+  for (const auto &[name, expected] : hidden)
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      {
+        CampaignOptions options;
+        options.campaign_class = campaign_class(name);
+        options.seed           = i + 1;
+        options.n_tests        = 2;
+        std::string found;
+        for (const PlantedEffect &effect : plant_campaign(options).hidden)
+          found += (found.empty() ? "" : " ") + effect.name;
+        EXPECT_EQ(found, expected[i]) << name << " " << i + 1;
+      }
+}
+
+
+
+TEST(PlantedCampaign, TakesAnAmplitudeThatIsGiven)
+{
+  CampaignOptions options;
+  options.seed      = 4;
+  options.n_tests   = 2;
+  const auto drawn  = plant_campaign(options);
+  options.amplitude = 0.05;
+  const auto given  = plant_campaign(options);
+  EXPECT_EQ(given.hidden[0].name, drawn.hidden[0].name);
+  EXPECT_EQ(given.hidden[0].amplitude, 0.05);
+  EXPECT_NE(given.start_model, "");
+  options.campaign_class = CampaignClass::none;
+  EXPECT_THROW(plant_campaign(options), InputError);
+  options.amplitude = 0.;
+  options.edition   = newest_edition() + 1;
+  EXPECT_THROW(plant_campaign(options), InputError);
+}
+
+
+
 TEST(PlantedCampaign, HidesWhatItsClassSays)
 {
   const std::map<CampaignClass, unsigned int> sizes = {

@@ -82,6 +82,9 @@ namespace SlipStep
                                                 const double amplitude,
                                                 Random      &random)>
         add;
+      /// Of the campaigns that draw it: what a seed hides stays the same when
+      /// an effect is added, with the next number.
+      unsigned int edition = 1;
     };
 
     /// All effects in one of the mathematics.

@@ -32,6 +32,19 @@ namespace SlipStep
     /// @throws InputError naming the nearest if there is none
     CampaignClass campaign_class(const std::string &name);
 
+    /// Names of all classes.
+    std::vector<std::string> campaign_classes();
+
+    /// The mathematics of what a class hides.
+    Formula formula_of(const CampaignClass campaign_class);
+
+    /// The effects that a class draws from in an edition.
+    std::vector<std::string> drawn_effects(const CampaignClass campaign_class,
+                                           const unsigned int  edition);
+
+    /// The edition of the effect that was added last.
+    unsigned int newest_edition();
+
     /// A campaign is a function of these alone. Each of the three, what is
     /// planted, the tests, and the noise, has its own random numbers: with
     /// other noise or other tests the truth stays the same.
@@ -39,6 +52,8 @@ namespace SlipStep
     {
       CampaignClass campaign_class = CampaignClass::one;
       std::uint64_t seed           = 1;
+      /// Effects that were added later are not drawn.
+      unsigned int edition = 1;
       /// Hide these instead of drawn ones.
       std::vector<std::string> effects;
       /// Relative change of friction by the hidden effects; 0: drawn between
