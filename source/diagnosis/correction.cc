@@ -1,4 +1,4 @@
-#include <slipstep/diagnosis/prove.h>
+#include <slipstep/diagnosis/correction.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <Eigen/Dense>

@@ -1,9 +1,13 @@
+#include <slipstep/diagnosis/candidate_results.h>
+#include <slipstep/diagnosis/correction.h>
 #include <slipstep/diagnosis/diagnose.h>
 
-#include <slipstep/diagnosis/describe.h>
+#include <slipstep/diagnosis/findings.h>
 #include <slipstep/diagnosis/element_tests.h>
 #include <slipstep/diagnosis/improved_case.h>
-#include <slipstep/diagnosis/where.h>
+#include <slipstep/diagnosis/intervals.h>
+#include <slipstep/diagnosis/next_test.h>
+#include <slipstep/diagnosis/localisation.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>
@@ -15,12 +19,12 @@ namespace SlipStep
 {
   namespace
   {
-    std::vector<NamedTest> named_tests(const Prepared &prepared)
+    std::vector<NamedTest> named_tests(const Ingested &ingested)
     {
       std::vector<NamedTest> result;
-      for (const CampaignTest &test : prepared.workspace->tests)
+      for (const CampaignTest &test : ingested.workspace->tests)
         result.emplace_back(test.rows.name, test.rows.file);
-      for (const CampaignTest &test : prepared.outlier_tests)
+      for (const CampaignTest &test : ingested.outlier_tests)
         result.emplace_back(test.rows.name, test.rows.file);
       return result;
     }
@@ -76,7 +80,7 @@ namespace SlipStep
 
       const Parameters parameters;
       const Stage      stage;
-      Prepared         prepared;
+      Ingested         ingested;
       Judgement        judgement;
       Model            final_model;
     };
@@ -86,8 +90,8 @@ namespace SlipStep
     // The strongest first.
     void Diagnostician::name()
     {
-      judgement              = judge(*prepared.workspace, prepared.base);
-      result.has_gap         = judgement.gap.p <= prepared.workspace->level;
+      judgement              = judge(*ingested.workspace, ingested.base);
+      result.has_gap         = judgement.gap.p <= ingested.workspace->level;
       result.gap_p           = judgement.gap.p;
       result.p_smooth        = judgement.gap.p_smooth;
       result.p_waves         = judgement.gap.p_waves;
@@ -128,7 +132,7 @@ namespace SlipStep
       constexpr double      most             = 0.5;
       constexpr std::size_t least_conditions = 4;
 
-      const Comparison         &comparison = prepared.workspace->comparison;
+      const Comparison         &comparison = ingested.workspace->comparison;
       const std::vector<double> squares =
         comparison.squares_by_test(judgement.gap.explained);
       std::vector<double> of_condition(comparison.conditions.size(), 0.);
@@ -145,11 +149,11 @@ namespace SlipStep
       for (std::size_t t = 0; t < squares.size(); ++t)
         if (comparison.tests[t].condition ==
             static_cast<std::size_t>(worst - of_condition.begin()))
-          left_out.push_back(prepared.workspace->tests[t].rows.name);
+          left_out.push_back(ingested.workspace->tests[t].rows.name);
       Judgement without;
       try
         {
-          const Prepared others = prepare(parameters, {}, left_out);
+          const Ingested others = ingest(parameters, {}, left_out);
           without               = judge(*others.workspace, others.base);
         }
       catch (const RunError &)
@@ -180,7 +184,7 @@ namespace SlipStep
     {
       stage("describing what has no name");
       const std::optional<Correction> correction = find_correction(
-        *prepared.workspace, prepared.base, judgement, result.where);
+        *ingested.workspace, ingested.base, judgement, result.where);
       if (!correction.has_value())
         return;
       result.correction_covariate = correction->covariate;
@@ -193,7 +197,7 @@ namespace SlipStep
 
     void Diagnostician::prove()
     {
-      const Workspace &workspace = *prepared.workspace;
+      const Workspace &workspace = *ingested.workspace;
       stage("intervals");
       found_parameters =
         find_intervals(workspace, final_model, result.confidence);
@@ -201,7 +205,7 @@ namespace SlipStep
       result.candidates = candidate_results(workspace,
                                             judgement,
                                             found_parameters,
-                                            prepared.base);
+                                            ingested.base);
       stage("the next test");
       result.next_test =
         propose_next_test(workspace, final_model, judgement.found.rivals);
@@ -218,14 +222,14 @@ namespace SlipStep
 
     void Diagnostician::show()
     {
-      const Workspace  &workspace  = *prepared.workspace;
+      const Workspace  &workspace  = *ingested.workspace;
       const Comparison &comparison = workspace.comparison;
       stage("before and after");
-      describe_tests(prepared, final_model, result);
-      describe_shrink(prepared, final_model, result);
+      describe_tests(ingested, final_model, result);
+      describe_shrink(ingested, final_model, result);
       describe_doubts(workspace, result);
       const Eigen::VectorXd base_difference =
-        comparison.difference(*prepared.base.simulator, prepared.base.scaled);
+        comparison.difference(*ingested.base.simulator, ingested.base.scaled);
       std::vector<std::pair<std::string, Eigen::VectorXd>> changes;
       const auto add = [&](const std::string &label, const Model &model) {
         changes.emplace_back(label,
@@ -242,7 +246,7 @@ namespace SlipStep
           add(rival.name, rival.model);
       result.panels =
         covariate_panels(workspace, base_difference, changes, result.where);
-      before = case_of(parameters, prepared.base);
+      before = case_of(parameters, ingested.base);
       after  = case_of(parameters, final_model);
     }
 
@@ -254,10 +258,10 @@ namespace SlipStep
       result.level         = parameters.number("Diagnosis/Level");
       result.n_draws       = parameters.integer("Diagnosis/Draws");
       result.is_restricted = parameters.text("Diagnosis/Candidates") != "all";
-      prepared             = prepare(parameters, stage);
-      check_element_tests(parameters, named_tests(prepared));
+      ingested             = ingest(parameters, stage);
+      check_element_tests(parameters, named_tests(ingested));
       if (result.is_restricted)
-        check_candidates(*prepared.workspace);
+        check_candidates(*ingested.workspace);
     }
 
 
@@ -265,14 +269,14 @@ namespace SlipStep
     void Diagnostician::run()
     {
       const ResourceUsage begin = ResourceUsage::now();
-      describe_data(prepared, result);
-      describe_noise(*prepared.workspace, result);
+      describe_data(ingested, result);
+      describe_noise(*ingested.workspace, result);
       name();
       if (result.has_gap)
         {
           stage("where the gap is");
           result.where =
-            localise(*prepared.workspace, prepared.base, judgement.gap);
+            localise(*ingested.workspace, ingested.base, judgement.gap);
         }
       if (result.verdict == Verdict::unnamed)
         {

@@ -1,5 +1,5 @@
 #include <slipstep/calibration/uncertainty.h>
-#include <slipstep/diagnosis/prove.h>
+#include <slipstep/diagnosis/intervals.h>
 
 #include <Eigen/Dense>
 

@@ -1,3 +1,4 @@
+#include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/search.h>
 #include <slipstep/utilities/exceptions.h>
 
@@ -239,7 +240,7 @@ namespace SlipStep
     {
       constexpr unsigned int most_tried = 5;
 
-      const View           view = look(workspace, result.model);
+      const View           view = score_candidates(workspace, result.model);
       std::optional<Model> best;
       unsigned int         n_tried = 0;
       for (const CandidateView &seen : view.candidates)
@@ -311,7 +312,7 @@ namespace SlipStep
     {
       constexpr unsigned int most_rivals = 4;
 
-      const View   view    = look(workspace, less);
+      const View   view    = score_candidates(workspace, less);
       unsigned int n_tried = 0;
       for (const CandidateView &seen : view.candidates)
         {
@@ -364,7 +365,9 @@ namespace SlipStep
           result.costs.size() < result.model.parts.size())
         return false;
       const GapTest remainder =
-        test_gap(workspace, result.model, look(workspace, result.model));
+        test_gap(workspace,
+                 result.model,
+                 score_candidates(workspace, result.model));
       const double least =
         *std::min_element(result.costs.begin(), result.costs.end());
       return remainder.p <= workspace.level &&

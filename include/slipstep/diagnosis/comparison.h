@@ -118,7 +118,7 @@ namespace SlipStep
     std::vector<Whitener> whiteners;
   };
 
-  /// The starting model with effects added, for tests that are prepared
+  /// The starting model with effects added, for tests that are ingested
   /// already; its search begins at the values of the case, with time steps
   /// for those.
   /// @param like a model that differs in weak effects only, by which the error

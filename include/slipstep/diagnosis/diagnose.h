@@ -2,7 +2,7 @@
 #define slipstep_diagnosis_diagnose_h
 
 #include <slipstep/diagnosis/diagnosis.h>
-#include <slipstep/diagnosis/prepare.h>
+#include <slipstep/diagnosis/ingest.h>
 
 #include <vector>
 

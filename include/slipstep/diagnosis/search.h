@@ -1,7 +1,7 @@
 #ifndef slipstep_diagnosis_search_h
 #define slipstep_diagnosis_search_h
 
-#include <slipstep/diagnosis/look.h>
+#include <slipstep/diagnosis/candidate_scores.h>
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 #define slipstep_diagnosis_track_waves_h
 
 #include <slipstep/diagnosis/covariates.h>
-#include <slipstep/diagnosis/score.h>
+#include <slipstep/diagnosis/score_test.h>
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include <slipstep/diagnosis/where.h>
+#include <slipstep/diagnosis/localisation.h>
 
 #include <tests/diagnosis/hidden/trial.h>
 
@@ -155,14 +155,14 @@ namespace
 
     Judgement judged()
     {
-      prepared = prepare(parameters, {});
-      return judge(*prepared.workspace, prepared.base);
+      ingested = ingest(parameters, {});
+      return judge(*ingested.workspace, ingested.base);
     }
 
     TemporaryFolder           folder;
     Planting::PlantedCampaign campaign;
     Parameters                parameters;
-    Prepared                  prepared;
+    Ingested                  ingested;
   };
 
   // Of a test with one axis.
@@ -277,9 +277,9 @@ TEST_F(CampaignFolder, NamesAnOutlierAndNoEffect)
         if (n++ == 0)
           EXPECT_EQ(name_of(judged().verdict), "no_gap");
         else
-          prepared = prepare(parameters, {});
-        ASSERT_EQ(prepared.outliers.size(), 1u) << spoilt << ' ' << factor;
-        EXPECT_EQ(prepared.outliers[0].test, spoilt) << factor;
+          ingested = ingest(parameters, {});
+        ASSERT_EQ(ingested.outliers.size(), 1u) << spoilt << ' ' << factor;
+        EXPECT_EQ(ingested.outliers[0].test, spoilt) << factor;
       }
 }
 
@@ -308,7 +308,7 @@ TEST_F(CampaignFolder, WaveAlongTheTrackIsTold)
   const Judgement judgement = judged();
   EXPECT_EQ(name_of(judgement.verdict), "unnamed");
   EXPECT_LE(judgement.gap.p_track, 0.002);
-  const double level = prepared.workspace->level;
+  const double level = ingested.workspace->level;
   EXPECT_GT(1.5 * judgement.gap.p_smooth, level);
   for (const double other : {judgement.gap.p_waves,
                              judgement.gap.p_conditions,
@@ -316,7 +316,7 @@ TEST_F(CampaignFolder, WaveAlongTheTrackIsTold)
                              judgement.gap.p_replicates})
     EXPECT_GT(15. * other, level);
   const std::vector<Localisation> where =
-    localise(*prepared.workspace, prepared.base, judgement.gap);
+    localise(*ingested.workspace, ingested.base, judgement.gap);
   ASSERT_FALSE(where.empty());
   EXPECT_EQ(where[0].covariate, "position");
   EXPECT_NEAR(where[0].wavelength, 1.0418, 0.03);
@@ -335,8 +335,8 @@ TEST_F(CampaignFolder, StatesTheNoiseWithoutReplicates)
   parameters = Testing::planted_case(campaign, folder.path() / "campaign");
   const Judgement judgement = judged();
   EXPECT_EQ(name_of(judgement.verdict), "no_gap");
-  EXPECT_EQ(prepared.workspace->noise.n_contrasts, 0u);
-  EXPECT_NEAR(prepared.workspace->noise.noise.gain,
+  EXPECT_EQ(ingested.workspace->noise.n_contrasts, 0u);
+  EXPECT_NEAR(ingested.workspace->noise.noise.gain,
               parameters.number("Diagnosis/Gain"),
               1e-12);
 }

@@ -1,10 +1,13 @@
 #ifndef tests_diagnosis_hidden_trial_h
 #define tests_diagnosis_hidden_trial_h
 
-#include <slipstep/diagnosis/describe.h>
+#include <slipstep/calibration/advice.h>
+#include <slipstep/diagnosis/findings.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
-#include <slipstep/diagnosis/judge.h>
-#include <slipstep/diagnosis/prepare.h>
+#include <slipstep/diagnosis/intervals.h>
+#include <slipstep/diagnosis/next_test.h>
+#include <slipstep/diagnosis/verdict.h>
+#include <slipstep/diagnosis/ingest.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/synthetic_tests/planted_campaign.h>
 
@@ -128,7 +131,7 @@ namespace SlipStep
       double least = model.objective;
       if (hidden.size() < 2)
         return least;
-      const View view = look(clean, model);
+      const View view = score_candidates(clean, model);
       for (const CandidateView &seen : view.candidates)
         if (!seen.ways.empty() &&
             std::find(hidden.begin(), hidden.end(), seen.candidate.name) !=
@@ -259,8 +262,8 @@ namespace SlipStep
             test.name = test.condition = "next test";
             write_measured_test(folder / "measured" / "next.csv", test);
           }
-      Prepared        prepared = prepare(parameters, {});
-      const Judgement again    = judge(*prepared.workspace, prepared.base);
+      Ingested        ingested = ingest(parameters, {});
+      const Judgement again    = judge(*ingested.workspace, ingested.base);
       std::vector<std::string> named;
       for (const Part &part : again.found.model.parts)
         named.push_back(part.name);
@@ -282,9 +285,9 @@ namespace SlipStep
       const Parameters      parameters =
         planted_case(campaign, folder.path() / "campaign");
       const std::clock_t begin     = std::clock();
-      Prepared           prepared  = prepare(parameters, {});
-      Workspace         &workspace = *prepared.workspace;
-      const Judgement    judgement = judge(workspace, prepared.base);
+      Ingested           ingested  = ingest(parameters, {});
+      Workspace         &workspace = *ingested.workspace;
+      const Judgement    judgement = judge(workspace, ingested.base);
       Trial              trial;
       trial.cpu_time =
         static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
@@ -312,7 +315,7 @@ namespace SlipStep
                                                   model.scaled) +
                               comparison.measured - truth);
       };
-      trial.error_before = error(prepared.base);
+      trial.error_before = error(ingested.base);
       trial.error_after  = error(judgement.found.model);
       if (!trial.truth.empty())
         {
@@ -321,7 +324,7 @@ namespace SlipStep
           clean.comparison = Comparison(tests);
           clean.comparison.set_noise(workspace.noise.noise, truth);
           trial.detectability =
-            detectability(clean, prepared.base, trial.truth);
+            detectability(clean, ingested.base, trial.truth);
         }
       if (with_evidence && !trial.named.empty())
         {
@@ -329,8 +332,8 @@ namespace SlipStep
           if (options.campaign_class != Planting::CampaignClass::other_formula)
             count_intervals(campaign, workspace, model, trial);
           Diagnosis diagnosis;
-          describe_tests(prepared, model, diagnosis);
-          describe_shrink(prepared, model, diagnosis);
+          describe_tests(ingested, model, diagnosis);
+          describe_shrink(ingested, model, diagnosis);
           trial.left_out_ratio =
             diagnosis.shrink.left_out_after / diagnosis.shrink.noise_floor;
           if (trial.verdict == Verdict::ambiguous)

@@ -1,4 +1,4 @@
-#include <slipstep/diagnosis/score.h>
+#include <slipstep/diagnosis/score_test.h>
 #include <slipstep/diagnosis/track_waves.h>
 
 #include <gtest/gtest.h>

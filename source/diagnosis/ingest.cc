@@ -1,5 +1,5 @@
 #include <slipstep/diagnosis/outlier.h>
-#include <slipstep/diagnosis/prepare.h>
+#include <slipstep/diagnosis/ingest.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 
@@ -169,7 +169,7 @@ namespace SlipStep
         , stated(stated_noise(parameters))
       {}
 
-      Prepared run(const std::vector<std::string> &left_out);
+      Ingested run(const std::vector<std::string> &left_out);
 
     private:
       void begin(const std::vector<CampaignTest> &tests);
@@ -190,7 +190,7 @@ namespace SlipStep
       const Stage      stage;
       const Parameters start;
       const Noise      stated;
-      Prepared         result;
+      Ingested         result;
     };
 
 
@@ -467,7 +467,7 @@ namespace SlipStep
 
 
 
-    Prepared Preparer::run(const std::vector<std::string> &left_out)
+    Ingested Preparer::run(const std::vector<std::string> &left_out)
     {
       const auto tell = [&](const std::string &text) {
         if (stage)
@@ -502,9 +502,9 @@ namespace SlipStep
 
 
 
-  Prepared prepare(const Parameters               &parameters,
-                   const Stage                    &stage,
-                   const std::vector<std::string> &left_out)
+  Ingested ingest(const Parameters               &parameters,
+                  const Stage                    &stage,
+                  const std::vector<std::string> &left_out)
   {
     return Preparer(parameters, stage).run(left_out);
   }

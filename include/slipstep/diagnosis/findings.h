@@ -1,25 +1,24 @@
-#ifndef slipstep_diagnosis_describe_h
-#define slipstep_diagnosis_describe_h
+#ifndef slipstep_diagnosis_findings_h
+#define slipstep_diagnosis_findings_h
 
 #include <slipstep/diagnosis/diagnosis.h>
-#include <slipstep/diagnosis/judge.h>
-#include <slipstep/diagnosis/prepare.h>
-#include <slipstep/diagnosis/prove.h>
+#include <slipstep/diagnosis/verdict.h>
+#include <slipstep/diagnosis/ingest.h>
 
 namespace SlipStep
 {
   /// @name What was found, put down for reports.
   ///@{
-  void describe_data(const Prepared &prepared, Diagnosis &diagnosis);
+  void describe_data(const Ingested &ingested, Diagnosis &diagnosis);
 
   void describe_noise(const Workspace &workspace, Diagnosis &diagnosis);
 
   /// @param after the model that the diagnosis came to
-  void describe_tests(const Prepared &prepared,
+  void describe_tests(const Ingested &ingested,
                       const Model    &after,
                       Diagnosis      &diagnosis);
 
-  void describe_shrink(const Prepared &prepared,
+  void describe_shrink(const Ingested &ingested,
                        const Model    &after,
                        Diagnosis      &diagnosis);
 

@@ -1,5 +1,5 @@
 #include <slipstep/diagnosis/basis.h>
-#include <slipstep/diagnosis/look.h>
+#include <slipstep/diagnosis/candidate_scores.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <algorithm>
@@ -165,7 +165,7 @@ namespace SlipStep
 
 
 
-  View look(const Workspace &workspace, const Model &model)
+  View score_candidates(const Workspace &workspace, const Model &model)
   {
     View view = find_directions(workspace, model);
     if (view.directions.empty())
@@ -207,17 +207,5 @@ namespace SlipStep
         result.push_back(direction);
       }
     return result;
-  }
-
-
-
-  GapTest
-  test_gap(const Workspace &workspace, const Model &model, const View &view)
-  {
-    return test_gap(workspace.comparison,
-                    workspace.covariates,
-                    model,
-                    workspace.null_draws,
-                    smooth_directions(workspace, view));
   }
 } // namespace SlipStep

@@ -1,8 +1,8 @@
-#ifndef slipstep_diagnosis_where_h
-#define slipstep_diagnosis_where_h
+#ifndef slipstep_diagnosis_localisation_h
+#define slipstep_diagnosis_localisation_h
 
 #include <slipstep/diagnosis/diagnosis.h>
-#include <slipstep/diagnosis/judge.h>
+#include <slipstep/diagnosis/verdict.h>
 
 #include <string>
 #include <utility>

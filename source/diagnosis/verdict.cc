@@ -1,5 +1,5 @@
-#include <slipstep/diagnosis/judge.h>
-#include <slipstep/diagnosis/prepare.h>
+#include <slipstep/diagnosis/verdict.h>
+#include <slipstep/diagnosis/ingest.h>
 
 #include <algorithm>
 
@@ -32,7 +32,7 @@ namespace SlipStep
     };
     Judgement result;
     tell("looking for a gap");
-    result.view        = look(workspace, base);
+    result.view        = score_candidates(workspace, base);
     result.gap         = test_gap(workspace, base, result.view);
     result.remainder   = result.gap;
     result.found.model = base;
@@ -55,9 +55,10 @@ namespace SlipStep
         result.verdict = Verdict::unnamed;
         return result;
       }
-    result.remainder = test_gap(workspace,
-                                result.found.model,
-                                look(workspace, result.found.model));
+    result.remainder =
+      test_gap(workspace,
+               result.found.model,
+               score_candidates(workspace, result.found.model));
     result.explained_share =
       result.gap.excess > 0. ?
         std::clamp(1. - result.remainder.excess / result.gap.excess, 0., 1.) :

@@ -1,7 +1,8 @@
-#ifndef slipstep_diagnosis_judge_h
-#define slipstep_diagnosis_judge_h
+#ifndef slipstep_diagnosis_verdict_h
+#define slipstep_diagnosis_verdict_h
 
 #include <slipstep/diagnosis/diagnosis.h>
+#include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/search.h>
 
 namespace SlipStep

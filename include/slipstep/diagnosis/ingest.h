@@ -1,5 +1,5 @@
-#ifndef slipstep_diagnosis_prepare_h
-#define slipstep_diagnosis_prepare_h
+#ifndef slipstep_diagnosis_ingest_h
+#define slipstep_diagnosis_ingest_h
 
 #include <slipstep/diagnosis/diagnosis.h>
 #include <slipstep/diagnosis/search.h>
@@ -15,7 +15,7 @@ namespace SlipStep
   using Stage = std::function<void(const std::string &)>;
 
   /// A case ready to be diagnosed.
-  struct Prepared
+  struct Ingested
   {
     std::unique_ptr<Workspace> workspace;
     Model                      base; ///< the calibrated starting model
@@ -31,9 +31,9 @@ namespace SlipStep
   /// The stages ingest, calibrate and noise.
   /// @param left_out names of tests that are to be left out
   /// @throws InputError, RunError if the starting model cannot be simulated
-  Prepared prepare(const Parameters               &parameters,
-                   const Stage                    &stage,
-                   const std::vector<std::string> &left_out = {});
+  Ingested ingest(const Parameters               &parameters,
+                  const Stage                    &stage,
+                  const std::vector<std::string> &left_out = {});
 
   /// The case with everything that is to be calibrated listed: that which
   /// "Calibration/Parameters" names, else all parameters of active effects.

@@ -1,4 +1,4 @@
-#include <slipstep/diagnosis/describe.h>
+#include <slipstep/diagnosis/findings.h>
 
 #include <boost/crc.hpp>
 
@@ -77,18 +77,18 @@ namespace SlipStep
 
 
 
-  void describe_data(const Prepared &prepared, Diagnosis &diagnosis)
+  void describe_data(const Ingested &ingested, Diagnosis &diagnosis)
   {
-    const Workspace &workspace  = *prepared.workspace;
+    const Workspace &workspace  = *ingested.workspace;
     diagnosis.n_conditions      = workspace.comparison.conditions.size();
     diagnosis.n_replicate_pairs = workspace.noise.n_contrasts;
     diagnosis.n_samples         = workspace.comparison.n_rows();
     diagnosis.data_hash         = hash_of(workspace.tests);
-    diagnosis.outliers          = prepared.outliers;
-    diagnosis.warnings          = prepared.warnings;
+    diagnosis.outliers          = ingested.outliers;
+    diagnosis.warnings          = ingested.warnings;
     diagnosis.start_effects     = workspace.start.list("Friction/Effects");
     diagnosis.start_parameters =
-      find_intervals(workspace, prepared.base, diagnosis.confidence);
+      find_intervals(workspace, ingested.base, diagnosis.confidence);
   }
 
 
@@ -197,10 +197,10 @@ namespace SlipStep
 
 
     // The starting model, and with one effect after the other.
-    std::vector<GapStep> steps_down(const Prepared &prepared,
+    std::vector<GapStep> steps_down(const Ingested &ingested,
                                     const Model    &after)
     {
-      const Workspace  &workspace  = *prepared.workspace;
+      const Workspace  &workspace  = *ingested.workspace;
       const Comparison &comparison = workspace.comparison;
       const auto step = [&](const std::string &label, const Model &model) {
         return GapStep{label,
@@ -210,9 +210,9 @@ namespace SlipStep
                        model.objective};
       };
       std::vector<GapStep> steps = {{"starting model as it is",
-                                     prepared.start_rms,
-                                     prepared.start_objective},
-                                    step("calibrated", prepared.base)};
+                                     ingested.start_rms,
+                                     ingested.start_objective},
+                                    step("calibrated", ingested.base)};
       for (std::size_t part = 0; part + 1 < after.parts.size(); ++part)
         {
           Model so_far =
@@ -232,21 +232,21 @@ namespace SlipStep
 
 
 
-  void describe_tests(const Prepared &prepared,
+  void describe_tests(const Ingested &ingested,
                       const Model    &after,
                       Diagnosis      &diagnosis)
   {
-    const Workspace  &workspace  = *prepared.workspace;
+    const Workspace  &workspace  = *ingested.workspace;
     const Comparison &comparison = workspace.comparison;
     Differences       differences;
     differences.before =
-      comparison.difference(*prepared.base.simulator, prepared.base.scaled);
+      comparison.difference(*ingested.base.simulator, ingested.base.scaled);
     differences.after = comparison.difference(*after.simulator, after.scaled);
-    left_out_squares(workspace, prepared.base, &differences.left_out_before);
+    left_out_squares(workspace, ingested.base, &differences.left_out_before);
     left_out_squares(workspace, after, &differences.left_out_after);
     for (std::size_t t = 0; t < workspace.tests.size(); ++t)
       diagnosis.tests.push_back(described_test(workspace, differences, t));
-    for (const CampaignTest &outlier : prepared.outlier_tests)
+    for (const CampaignTest &outlier : ingested.outlier_tests)
       diagnosis.tests.push_back(described_outlier(outlier));
     std::stable_sort(diagnosis.tests.begin(),
                      diagnosis.tests.end(),
@@ -261,11 +261,11 @@ namespace SlipStep
 
 
 
-  void describe_shrink(const Prepared &prepared,
+  void describe_shrink(const Ingested &ingested,
                        const Model    &after,
                        Diagnosis      &diagnosis)
   {
-    const Comparison &comparison = prepared.workspace->comparison;
+    const Comparison &comparison = ingested.workspace->comparison;
     Shrink           &shrink     = diagnosis.shrink;
     double            sum        = 0.;
     std::size_t       n          = 0;
@@ -276,7 +276,7 @@ namespace SlipStep
         n += test.n_bins();
       }
     shrink.noise_floor     = std::sqrt(sum / n);
-    diagnosis.steps        = steps_down(prepared, after);
+    diagnosis.steps        = steps_down(ingested, after);
     shrink.fitted_before   = diagnosis.steps[1].rms;
     shrink.fitted_after    = diagnosis.steps.back().rms;
     const auto above_floor = [&](const double value) {

@@ -2,7 +2,7 @@
 
 #include <slipstep/diagnosis/basis.h>
 #include <slipstep/diagnosis/track_waves.h>
-#include <slipstep/diagnosis/where.h>
+#include <slipstep/diagnosis/localisation.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,35 +1,15 @@
-#ifndef slipstep_diagnosis_look_h
-#define slipstep_diagnosis_look_h
+#ifndef slipstep_diagnosis_candidate_scores_h
+#define slipstep_diagnosis_candidate_scores_h
 
-#include <slipstep/diagnosis/candidates.h>
-#include <slipstep/diagnosis/comparison.h>
-#include <slipstep/diagnosis/covariates.h>
-#include <slipstep/diagnosis/score.h>
+#include <slipstep/diagnosis/score_test.h>
+#include <slipstep/diagnosis/workspace.h>
 
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
 namespace SlipStep
 {
-  /// What a search looks at: the tests, their noise, and the rules.
-  struct Workspace
-  {
-    Parameters                start;
-    std::vector<CampaignTest> tests;
-    Comparison                comparison;
-    NoiseEstimate             noise;
-    Covariates                covariates;
-    TestedRange               range;
-    RowMatrix                 null_draws;
-    double                    level        = 0.04;
-    unsigned int              most_effects = 4;
-    unsigned int              n_refits     = 0; ///< counted here
-    /// Told what is being done.
-    std::function<void(const std::string &)> progress;
-  };
-
   /// A candidate as seen from a model.
   struct CandidateView
   {
@@ -60,15 +40,11 @@ namespace SlipStep
     std::vector<Direction>     directions;
   };
 
-  View look(const Workspace &workspace, const Model &model);
+  View score_candidates(const Workspace &workspace, const Model &model);
 
   /// Directions of the covariates, and of the candidates seen from a model.
   std::vector<Direction> smooth_directions(const Workspace &workspace,
                                            const View      &view);
-
-  /// Whether a model leaves more than noise, with what is seen from it.
-  GapTest
-  test_gap(const Workspace &workspace, const Model &model, const View &view);
 
   /// The parts of a model and one more.
   std::vector<Part> with_part(const Model      &model,

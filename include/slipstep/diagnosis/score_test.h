@@ -1,7 +1,6 @@
-#ifndef slipstep_diagnosis_score_h
-#define slipstep_diagnosis_score_h
+#ifndef slipstep_diagnosis_score_test_h
+#define slipstep_diagnosis_score_test_h
 
-#include <slipstep/diagnosis/candidates.h>
 #include <slipstep/diagnosis/comparison.h>
 #include <slipstep/diagnosis/covariates.h>
 
@@ -88,37 +87,8 @@ namespace SlipStep
     std::vector<double> largest; ///< of every draw, sorted
   };
 
-  /// Whether anything is missing.
-  struct GapTest
-  {
-    double p            = 1.; ///< of all six, Bonferroni
-    double p_smooth     = 1.; ///< largest score of covariates and candidates
-    double p_waves      = 1.; ///< slow waves within tests
-    double p_conditions = 1.; ///< between conditions
-    double p_together   = 1.; ///< smooth and waves at once
-    double p_replicates = 1.; ///< what replicates have in common
-    double p_track      = 1.; ///< waves along the track
-    /// What a model with anything at all could explain, beyond chance.
-    double          excess = 0.;
-    Eigen::VectorXd explained; ///< that part of the residual, whitened
-    /// Of the clearest wave along the track [mm], 0 if nothing moves along it.
-    double wavelength = 0.;
-  };
-
-  /// The chance that replicates agree as much in what a model leaves: their
-  /// noise is independent, so that what they have in common is not noise,
-  /// whatever its shape and whatever kind of noise it is. 1 without replicates.
-  /// @param residual whitened
-  double chance_of_agreement(const Comparison      &comparison,
-                             const Eigen::VectorXd &residual,
-                             const RowMatrix       &null_draws);
-
-  /// @param smooth directions of covariates and candidates
-  GapTest test_gap(const Comparison             &comparison,
-                   const Covariates             &covariates,
-                   const Model                  &model,
-                   const RowMatrix              &null_draws,
-                   const std::vector<Direction> &smooth);
+  /// Chance of a value as large, by draws in ascending order.
+  double share_above(const std::vector<double> &sorted, const double value);
 } // namespace SlipStep
 
 #endif

@@ -1,0 +1,31 @@
+#ifndef slipstep_diagnosis_workspace_h
+#define slipstep_diagnosis_workspace_h
+
+#include <slipstep/diagnosis/comparison.h>
+#include <slipstep/diagnosis/covariates.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// What a search looks at: the tests, their noise, and the rules.
+  struct Workspace
+  {
+    Parameters                start;
+    std::vector<CampaignTest> tests;
+    Comparison                comparison;
+    NoiseEstimate             noise;
+    Covariates                covariates;
+    TestedRange               range;
+    RowMatrix                 null_draws;
+    double                    level        = 0.04;
+    unsigned int              most_effects = 4;
+    unsigned int              n_refits     = 0; ///< counted here
+    /// Told what is being done.
+    std::function<void(const std::string &)> progress;
+  };
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,124 @@
+#include <slipstep/diagnosis/candidate_results.h>
+#include <slipstep/diagnosis/next_test.h>
+#include <slipstep/utilities/process.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace SlipStep
+{
+  namespace
+  {
+    std::string why_not_testable(const CandidateView &seen)
+    {
+      if (!seen.failure.empty())
+        return "it could not be simulated: " + seen.failure;
+      if (seen.ways.empty())
+        return "nothing changes in these tests";
+      if (seen.score.free_length <= 0.)
+        return "its effect cannot be told from that of the fitted parameters";
+      return "only a change of friction by more than a quarter would be seen";
+    }
+    // What was seen of a candidate from the starting model.
+    CandidateResult seen_result(const CandidateView &seen,
+                                const Judgement     &judgement,
+                                const double         level)
+    {
+      CandidateResult result;
+      result.name               = seen.candidate.name;
+      result.signature          = seen.candidate.signature;
+      result.score              = seen.score.value;
+      result.p                  = seen.p;
+      result.minimum_detectable = seen.minimum_detectable;
+      result.is_testable        = seen.candidate.why_not.empty() &&
+                           seen.minimum_detectable <= largest_hidden_change;
+      for (const auto &gain : judgement.found.gains)
+        if (gain.first == result.name)
+          result.gain = gain.second;
+      if (!seen.candidate.why_not.empty())
+        {
+          result.why      = seen.candidate.why_not;
+          result.standing = seen.candidate.is_in_model ?
+                              Standing::in_the_model :
+                              Standing::not_testable;
+        }
+      else if (!result.is_testable)
+        {
+          result.why      = why_not_testable(seen);
+          result.standing = Standing::not_testable;
+        }
+      else
+        result.standing = result.p > level ? Standing::rejected :
+                          judgement.verdict == Verdict::unnamed ?
+                                             Standing::not_enough :
+                                             Standing::not_needed;
+      return result;
+    }
+
+
+
+    // What the search made of it.
+    void add_found(const SearchResult                    &found,
+                   const std::vector<DiagnosedParameter> &parameters,
+                   CandidateResult                       &result)
+    {
+      for (const Rival &rival : found.rivals)
+        if (rival.name == result.name)
+          result.standing = Standing::rival;
+      for (std::size_t part = 0; part < found.model.parts.size(); ++part)
+        {
+          if (found.model.parts[part].name != result.name)
+            continue;
+          result.standing    = Standing::named;
+          result.is_testable = true;
+          if (part < found.costs.size())
+            {
+              result.gain          = found.costs[part];
+              result.left_out_gain = found.left_out_gains[part];
+            }
+          for (const DiagnosedParameter &parameter : parameters)
+            if (parameter.effect == result.name)
+              result.parameters.push_back(parameter);
+        }
+    }
+
+
+
+    // Of the table: what was not tried comes last.
+    Standing rank(const CandidateResult &result)
+    {
+      return std::min(result.standing, Standing::not_testable);
+    }
+  } // namespace
+
+
+
+  std::vector<CandidateResult>
+  candidate_results(const Workspace                       &workspace,
+                    const Judgement                       &judgement,
+                    const std::vector<DiagnosedParameter> &parameters,
+                    const Model                           &base)
+  {
+    std::vector<CandidateResult> results(judgement.view.candidates.size());
+    side_by_side(results.size(), [&](const std::size_t c) {
+      const CandidateView &seen = judgement.view.candidates[c];
+      results[c]                = seen_result(seen, judgement, workspace.level);
+      add_found(judgement.found, parameters, results[c]);
+      if (results[c].standing == Standing::not_testable &&
+          !seen.candidate.formulas.empty())
+        {
+          Model own     = base;
+          own.simulator = std::make_shared<Simulator>(*base.simulator);
+          results[c].cheapest_test =
+            cheapest_test(workspace, own, seen.candidate);
+        }
+    });
+    std::stable_sort(results.begin(),
+                     results.end(),
+                     [](const CandidateResult &a, const CandidateResult &b) {
+                       return rank(a) != rank(b) ? rank(a) < rank(b) :
+                                                   a.score > b.score;
+                     });
+    return results;
+  }
+} // namespace SlipStep

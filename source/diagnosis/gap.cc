@@ -1,0 +1,159 @@
+#include <slipstep/diagnosis/basis.h>
+#include <slipstep/diagnosis/gap.h>
+#include <slipstep/diagnosis/track_waves.h>
+
+#include <algorithm>
+#include <array>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // Waves of every condition; the first is its mean.
+    std::vector<Direction> condition_waves(const Comparison  &comparison,
+                                           const Covariates  &covariates,
+                                           const unsigned int n_waves)
+    {
+      std::vector<Direction> result;
+      for (const Eigen::VectorXd &column :
+           condition_basis(comparison, covariates, n_waves))
+        {
+          Direction direction;
+          direction.friction = column;
+          result.push_back(direction);
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  namespace
+  {
+    // Rows that are added up before replicates are multiplied: sharp patterns
+    // are seen with few, weak slow ones with many.
+    constexpr std::array<std::size_t, 4> stretches = {1, 4, 16, 64};
+
+    // Sums over the stretches of the products of two replicates, added to one
+    // row of the result per length of a stretch.
+    void add_products(const ComparedTest &first,
+                      const ComparedTest &second,
+                      const RowMatrix    &columns,
+                      RowMatrix          &result)
+    {
+      const std::vector<std::size_t> rows =
+        partners(first.series[0].time, second.series[0].time);
+      const std::size_t n_series =
+        std::min(first.series.size(), second.series.size());
+      for (std::size_t l = 0; l < stretches.size(); ++l)
+        for (std::size_t s = 0; s < n_series; ++s)
+          for (std::size_t i = 0; i < rows.size(); i += stretches[l])
+            {
+              Eigen::RowVectorXd a = Eigen::RowVectorXd::Zero(columns.cols());
+              Eigen::RowVectorXd b = a;
+              for (std::size_t j = i;
+                   j < std::min(i + stretches[l], rows.size());
+                   ++j)
+                {
+                  a += columns.row(first.begin + s * first.n_bins() + j);
+                  b +=
+                    columns.row(second.begin + s * second.n_bins() + rows[j]);
+                }
+              result.row(l) += a.cwiseProduct(b);
+            }
+    }
+
+
+
+    RowMatrix agreement(const Comparison &comparison, const RowMatrix &columns)
+    {
+      RowMatrix result = RowMatrix::Zero(stretches.size(), columns.cols());
+      const std::vector<ComparedTest> &tests = comparison.tests;
+      for (std::size_t i = 0; i < tests.size(); ++i)
+        for (std::size_t j = i + 1; j < tests.size(); ++j)
+          if (tests[i].condition == tests[j].condition)
+            add_products(tests[i], tests[j], columns, result);
+      return result;
+    }
+  } // namespace
+
+
+
+  double chance_of_agreement(const Comparison      &comparison,
+                             const Eigen::VectorXd &residual,
+                             const RowMatrix       &null_draws)
+  {
+    const RowMatrix observed =
+      agreement(comparison, residual.head(comparison.n_rows()));
+    const RowMatrix       null = agreement(comparison, null_draws);
+    const Eigen::VectorXd deviations =
+      (null.rowwise().squaredNorm() / null.cols()).cwiseSqrt();
+    if (!(deviations.minCoeff() > 0.))
+      return 1.;
+    std::vector<double> largest;
+    for (Eigen::Index draw = 0; draw < null.cols(); ++draw)
+      largest.push_back(null.col(draw).cwiseQuotient(deviations).maxCoeff());
+    std::sort(largest.begin(), largest.end());
+    return share_above(largest,
+                       observed.col(0).cwiseQuotient(deviations).maxCoeff());
+  }
+
+
+
+  GapTest test_gap(const Comparison             &comparison,
+                   const Covariates             &covariates,
+                   const Model                  &model,
+                   const RowMatrix              &null_draws,
+                   const std::vector<Direction> &smooth)
+  {
+    GapTest         result;
+    const ScoreTest scores(comparison, model, null_draws, smooth);
+    double          largest = 0.;
+    for (const Score &score : scores.scores)
+      largest = std::max(largest, score.value);
+    result.p_smooth = scores.family_p(largest);
+
+    std::vector<Direction> all = condition_waves(comparison, covariates, 6);
+    result.p_waves = ScoreTest(comparison, model, null_draws, all).together().p;
+    result.p_conditions = ScoreTest(comparison,
+                                    model,
+                                    null_draws,
+                                    condition_waves(comparison, covariates, 0))
+                            .together()
+                            .p;
+    all.insert(all.end(), smooth.begin(), smooth.end());
+    const ScoreTest::Together saturated =
+      ScoreTest(comparison, model, null_draws, all).together();
+    result.excess     = saturated.excess;
+    result.explained  = saturated.explained;
+    result.p_together = saturated.p;
+    result.p_replicates =
+      chance_of_agreement(comparison, model.residual, null_draws);
+    const TrackWave track =
+      find_track_wave(comparison, covariates, model, null_draws);
+    result.p_track    = track.p;
+    result.wavelength = track.wavelength;
+    // Bonferroni, with most of the chance given to what has a name.
+    constexpr double share = 2. / 3., share_of_others = (1. - share) / 5.;
+    result.p = std::min({1.,
+                         result.p_smooth / share,
+                         result.p_waves / share_of_others,
+                         result.p_conditions / share_of_others,
+                         result.p_together / share_of_others,
+                         result.p_replicates / share_of_others,
+                         result.p_track / share_of_others});
+    return result;
+  }
+
+
+
+  GapTest
+  test_gap(const Workspace &workspace, const Model &model, const View &view)
+  {
+    return test_gap(workspace.comparison,
+                    workspace.covariates,
+                    model,
+                    workspace.null_draws,
+                    smooth_directions(workspace, view));
+  }
+} // namespace SlipStep
