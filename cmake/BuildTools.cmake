@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Optional helpers that shorten the build: a compiler cache, a fast linker.
 find_program(SLIPSTEP_CCACHE ccache)
 if(SLIPSTEP_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # The libraries of the program, gathered in the target slipstep_dependencies.
 # Their headers are system headers: warnings in them are not ours.
 string(CONCAT slipstep_deal_II_remedy

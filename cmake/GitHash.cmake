@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # The git hash, looked up at every build and seen by one source file only, so
 # that a new commit recompiles nothing else. Run as a script (cmake -P) this
 # file writes the header; included, it offers slipstep_provide_git_hash().

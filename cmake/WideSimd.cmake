@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Debian builds deal.II for any amd64 processor, with SIMD types of one number.
 # The matrix-free units of this program want types as wide as the processor: they
 # see a copy of deal.II's base/config.h with the width changed, before the

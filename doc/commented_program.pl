@@ -1,4 +1,5 @@
 #!/usr/bin/env perl
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Turns commented C++ files into one Doxygen page on which prose and code take
 # turns: lines that are only a "//" comment become prose, with their Markdown
 # and formulas; all others become code. "// @sect3{Title}" makes a heading,
@@ -28,6 +29,7 @@ for my $file (@ARGV)
     while (my $line = <$input>)
       {
         chomp $line;
+        next if $line =~ /SPDX-License-Identifier/;
         if ($line =~ m{^\s*//\s*[\@\\]sect(\d)\{(.*)\}\s*$})
           {
             flush_code();

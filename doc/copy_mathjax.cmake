@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Copies the part of MathJax that draws TeX formulas as SVG, so that the pages
 # work without network and from a file:// address.
 foreach(part IN ITEMS

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Runs "PROGRAM COMMAND [ARGUMENT] --format md" and makes its output the Doxygen
 # page with the id ID (or COMMAND): own title, and formulas in Doxygen's notation.
 if(NOT ID)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Read by ctest: the environment of all tests. Ranks may outnumber the cores,
 # the user may be root on a fresh machine, and MPI itself is not free of leaks.
 set(ENV{OMPI_ALLOW_RUN_AS_ROOT} 1)

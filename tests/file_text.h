@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_file_text_h
 #define tests_file_text_h
 

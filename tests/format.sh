@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Names the files that clang-format (the version .clang-format is written for)
 # would change. Repair with: clang-format -i <file>
 #   tests/format.sh <clang-format> [<root>]

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # The shape of the house: a room includes only rooms below it, the friction law
 # needs no mesh, and no file is too long to read.
 #   tests/layers.sh [<root>]    prints each violation; exit code 1 if any

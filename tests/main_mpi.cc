@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The main() of test executables that use MPI, alone or under mpirun. Every
 // rank runs every test; one failing rank fails the executable.
 #include <slipstep/utilities/process.h>

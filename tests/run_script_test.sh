@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Tests of ./run that build nothing: arguments, messages, and what would be
 # installed on machines of several kinds, played by fake programs in PATH.
 #   tests/run_script_test.sh <path of run>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Ranks that outnumber the cores yield the processor while they wait for each
 // other. Linux puts one that yields behind all that runs, as if it had used up
 // its time, so that each of thousands of waits takes milliseconds where other

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_temporary_folder_h
 #define tests_temporary_folder_h
 

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Writes the tests in measured/ again, with the same noise:
 #   prm/hidden_rate_effect/generate.sh
 # (after the program has been built)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # For the scripts that write planted tests, which say where they stand: here.
 
 slipstep=${SLIPSTEP:-$here/../../build/slipstep}

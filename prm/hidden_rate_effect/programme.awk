@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # The programme of a test, from pieces "SPEED:LENGTH" (in mm/min and mm; a negative
 # speed reverses) or "hold:TIME" (in s). Needs pressure [MPa], pieces.
 BEGIN {

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # From a history.csv to a record as a laboratory would have it: rows of every piece
 # of the programme, closer together at its beginning; 1 % white noise, a drift, and
 # the gain and offset of the test. Needs seed, pressure, pieces, name, condition.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Writes all records of this case again, with the same noise:
 #   prm/identify_flat_surface/generate.sh
 # (from where ./run was called, after the program has been built)

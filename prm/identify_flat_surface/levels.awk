@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Steady sliding at the kinetic coefficient of eq. 4, needs speed [mm/min].
 BEGIN {
   heading("eq. 4, " speed " mm/min", speed " mm/min",

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # normal(): numbers with standard deviation 1, the same ones from every awk
 # (Park and Miller's generator, Box and Muller's formula). Needs seed.
 function uniform() {

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # From a history.csv to a record as an instrument would make it: rows at equal
 # distances of the slide, with noise. Needs seed, noise, rows, speed [mm/min].
 BEGIN { FS = "," }

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Differentiates a record: displacement, friction, slope over windows of some
 # rows, side by side. Needs rows and, for neighbours, way=difference (friction of
 # the first row, slope to the last); else a straight line through all of them.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # A test at 1 mm/min by the closed form of eq. 2 without healing, mu(s), times
 # the loading ratio r of eq. 3 at this speed. Needs seed, noise.
 function flow(r) {  # eq. 3: the speed [mm/s] at a loading ratio

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Cuts four parts of five strokes to and fro out of the record, for diagnose.prm,
 # every fourth row, each from the same instant of a stroke: the end of the rest at
 # the near end.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/advice.h>
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/calibration/fit.h>

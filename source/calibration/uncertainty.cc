@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/fit.h>
 #include <slipstep/calibration/uncertainty.h>
 #include <slipstep/measured_data/resample.h>

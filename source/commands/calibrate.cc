@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/report/calibration_report.h>
 #include <slipstep/commands/calibrate.h>

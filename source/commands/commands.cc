@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The table of all commands.
 
 #include <slipstep/commands/calibrate.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/commands/diagnose.h>
 #include <slipstep/commands/element_check.h>
 #include <slipstep/diagnosis/diagnose.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/commands/import_tests.h>
 
 #include <slipstep/measured_data/import_map.h>

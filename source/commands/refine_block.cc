@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/commands/refine_block.h>
 
 #include <slipstep/experiment/checkpoint.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/utilities/exceptions.h>

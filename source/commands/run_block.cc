@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/commands/run_block.h>
 
 #include <slipstep/experiment/point_driver.h>

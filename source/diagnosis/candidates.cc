@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/fit_parameter.h>
 #include <slipstep/diagnosis/candidates.h>
 #include <slipstep/friction/effect.h>

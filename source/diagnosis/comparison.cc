@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/comparison.h>
 #include <slipstep/diagnosis/least_squares.h>
 #include <slipstep/measured_data/test_rows.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/element_tests.h>
 #include <slipstep/utilities/nearest_name.h>
 

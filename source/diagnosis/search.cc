@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/search.h>
 #include <slipstep/utilities/exceptions.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/convergence.h>
 
 #include <boost/math/tools/roots.hpp>

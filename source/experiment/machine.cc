@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/machine.h>
 #include <slipstep/utilities/pattern_words.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // How quantities of interest are written.
 
 #include <slipstep/experiment/quantities.h>

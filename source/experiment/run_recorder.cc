@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/run_recorder.h>
 
 #include <slipstep/experiment/stability.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/law.h>
 
 #include <slipstep/utilities/exceptions.h>

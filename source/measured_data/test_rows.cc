@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/test_rows.h>
 
 #include <slipstep/utilities/text.h>

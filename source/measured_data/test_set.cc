@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/test_set.h>
 
 #include <slipstep/measured_data/test_rows.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Pictures of measured and fitted curves and of what is left over.
 
 #include <slipstep/report/calibration_figures.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // calibration.json: a stable format, see tests/calibration.
 
 #include <slipstep/report/calibration_report.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Pictures of the profile likelihood.
 
 #include <slipstep/report/calibration_figures.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // What the terminal shows at the end of a calibration.
 
 #include <slipstep/report/calibration_report.h>

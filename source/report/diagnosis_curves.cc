@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Pictures of friction: of the tests and of the block.
 
 #include <slipstep/report/diagnosis_figures.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Pictures of what speaks for a name: differences along the covariates, and
 // profiles of the parameters.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The map of tests and phases: where the difference is, before and after.
 
 #include <slipstep/report/diagnosis_sections.h>

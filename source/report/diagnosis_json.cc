@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // diagnosis.json: a stable format, see tests/diagnosis.
 
 #include <slipstep/report/diagnosis_json.h>

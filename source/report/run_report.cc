@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/run_report.h>
 
 #include <slipstep/report/repeat_command.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The frame that all pictures of a diagnosis have in common.
 
 #include <slipstep/report/panel_grid.h>

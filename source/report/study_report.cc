@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The pictures and the HTML of a refinement study.
 
 #include <slipstep/report/drawing.h>

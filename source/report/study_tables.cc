@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/study_report.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/version.h>

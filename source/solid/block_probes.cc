@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/block_probes.h>
 
 #include <deal.II/base/mpi_remote_point_evaluation.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/contact_projection.h>
 
 #include <deal.II/base/polynomial.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/refinement_parameters.h>
 
 #include <slipstep/solid/mesh_goal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/supports.h>
 
 #include <deal.II/base/function.h>

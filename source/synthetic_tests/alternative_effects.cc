@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The same physics as the catalogue's in other formulas: only to be planted,
 // never fitted, so that it shows what a slightly wrong formula does.
 

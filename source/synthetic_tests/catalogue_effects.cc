@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The formulas of the catalogue, written anew. Amplitudes are turned into
 // parameters of the formulas, which are named as in a case file.
 

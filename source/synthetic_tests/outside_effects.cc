@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Physics that no effect of the catalogue has: the right verdict is that
 // something unknown is missing.
 

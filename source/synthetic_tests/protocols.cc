@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/synthetic_tests/hidden_effects.h>
 #include <slipstep/synthetic_tests/protocols.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>

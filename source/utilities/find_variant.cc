@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/find_variant.h>
 #include <slipstep/utilities/nearest_name.h>

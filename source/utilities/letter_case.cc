@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/utilities/letter_case.h>
 
 namespace SlipStep

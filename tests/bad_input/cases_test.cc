@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Every cases/*.prm is wrong in one way. Its first lines say how it is to be
 // refused:
 //   # expect: a regular expression found in the message (several lines);

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // What slipstep diagnose refuses, and what it makes of poor tests.
 
 #include <gtest/gtest.h>

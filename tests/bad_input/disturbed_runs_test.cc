@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Trouble from outside while the program works: folders that go, disks that
 // take nothing, pictures that nobody draws.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Runs that end badly: the reason is told in words, and what was computed
 // before is kept and can be read.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Measured tests, folders of them and maps that are wrong in one way each.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // What nobody would write on purpose.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // What slipstep plant refuses, and what it leaves when all is well.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // slipstep refine, from the command line to its files.
 
 #include <slipstep/experiment/summary.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The parameters that a run leaves behind make the same run again, bit for bit.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_bad_input_slipstep_process_h
 #define tests_bad_input_slipstep_process_h
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // A campaign of 20 tests, simulated once and calibrated:
 //   cmake --build build --target benchmark
 // With DEAL_II_NUM_THREADS=1 on one core.

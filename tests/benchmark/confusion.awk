@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # What was hidden against what was said, as a table, from lines that
 # diagnosis_benchmark prints: awk -v least=25 -f confusion.awk FILE...
 # least: detectability of the campaigns that count.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Updates of a contact point with tangent, per second and core:
 //   cmake --build build --target benchmark
 

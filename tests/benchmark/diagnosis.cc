@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // How often a diagnosis is right: many planted campaigns of a class.
 //
 //   diagnosis_benchmark CLASS FIRST_SEED LAST_SEED [NOISE [FACTOR [TESTS

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // How many iterations, how much time and memory a linear solve takes.
 //   linear_solver [<most unknowns> [multigrid|amg]]
 // Times are processor seconds of a rank; run it under mpirun for more ranks.

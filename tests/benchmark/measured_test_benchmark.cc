@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Reading and resampling a measured test of a million rows:
 //   cmake --build build --target benchmark
 

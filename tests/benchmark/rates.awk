@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Rates of the lines that diagnosis_benchmark prints, with 95 % intervals by
 # Wilson: awk -f rates.awk FILE...
 function rate(k, n,   p, c, h) {

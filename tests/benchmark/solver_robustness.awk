@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Sums up the table of solver_robustness.cc: iterations over the friction
 # coefficient, in the middle and at worst of all patterns of the contact,
 # stiffnesses of a group and local refinements; and how many did not converge.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Iterations of the linear solver over friction coefficient, stiffness of the
 // contact, Poisson's ratio, dimension and elements, as a table in Markdown.
 //   solver_robustness [multigrid|amg [<k in MPa/mm>...]]

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Planted parameters are found again, with intervals that hold what they say.
 
 #include <slipstep/calibration/advice.h>

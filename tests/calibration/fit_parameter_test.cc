@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The list of parameters: what it says and what is wrong with it.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/history.h>
 #include <slipstep/measured_data/measured_test.h>
 

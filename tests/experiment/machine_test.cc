@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Load point and contact: a spring in series with the friction law.
 
 #include <gtest/gtest.h>

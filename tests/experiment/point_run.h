@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_experiment_point_run_h
 #define tests_experiment_point_run_h
 

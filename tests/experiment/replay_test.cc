@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The same point as that of a programme, and smooth in the parameters.
 
 #include <slipstep/experiment/replay.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The limit of stability of steady sliding: closed form against the law's own
 // steps, and against what a spring and a mass do.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // An end to every run, warnings before those that no stiffness holds, and the
 // same rows by a replay as by a programme.
 

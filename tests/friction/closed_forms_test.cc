@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The law against closed forms: steady sliding, first slip, softening, healing.
 
 #include "law_test_tools.h"

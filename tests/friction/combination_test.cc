@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Effects in random company: nothing fails, and tangents stay exact.
 
 #include "law_test_tools.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // What every effect of the catalogue has to keep, whoever wrote it: an effect
 // that registers is tested.
 

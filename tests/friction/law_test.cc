@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Properties of the return mapping: tangent, admissibility, unloading,
 // repeatability, order in time.
 

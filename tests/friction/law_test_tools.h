@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_friction_law_test_tools_h
 #define tests_friction_law_test_tools_h
 

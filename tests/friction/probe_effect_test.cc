@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // An effect for the tests: a strength that depends on everything a hook may
 // depend on, and some strength besides.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The template of an effect; source/friction/effects/README.md says what to do
 // with it. It is compiled here, so every_effect_test.cc tries it like any
 // other.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Steps of two stages: their order in time, their error estimate, and which of
 // several roots they take.
 

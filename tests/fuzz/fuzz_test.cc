@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Inputs that somebody has damaged, at random: each is read right, warned of or
 // refused, in words that name the place. More of them, or others:
 //   SLIPSTEP_FUZZ_RUNS=3000 SLIPSTEP_FUZZ_SEED=7 build/tests/fuzz_test

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Files of instruments, converted by a map.
 
 #include <slipstep/measured_data/import_map.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // What is kept when a test is resampled: peaks to the last bit, everything else
 // within the tolerances it states.
 

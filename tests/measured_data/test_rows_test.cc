@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // What is done to the rows of a test as recorded, and what is refused.
 
 #include <slipstep/measured_data/measured_test.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Folders of tests, and tests that say to be replicates.
 
 #include <slipstep/measured_data/test_set.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # The files of a run, read by programs that are not ours: ParaView's library,
 # meshio, pandas, jq. What is not installed is skipped, with a word.
 #   read_results.py <slipstep> [mpirun ...]

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The cases of the benchmarks make exactly the steps they promise; the timings
 // themselves are no test.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Numbers of the shipped case as they were when they were last looked at. They
 // may change only in a commit that says why.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_diagnosis_synthetic_diagnosis_h
 #define tests_diagnosis_synthetic_diagnosis_h
 

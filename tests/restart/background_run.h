@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_restart_background_run_h
 #define tests_restart_background_run_h
 

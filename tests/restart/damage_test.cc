@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Checkpoints that are damaged, of something else, or cannot be written.
 
 #include <map>

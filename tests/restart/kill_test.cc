@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Killed again and again, a run always goes on, and nobody sees it in the end.
 
 #include <random>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Stop and resume: signals, other numbers of ranks, solvers, sweeps.
 
 #include <regex>

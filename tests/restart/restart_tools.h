@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_restart_restart_tools_h
 #define tests_restart_restart_tools_h
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // --resume goes by what a case says, not by where it is or where one stands.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Commands and processes do not take each other's results away.
 
 #include <gtest/gtest.h>

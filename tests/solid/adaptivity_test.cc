@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Meshes that are refined, uniformly or where the solution asks for it.
 
 #include "block_test_tools.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // What the contact face remembers can be seen in all files.
 
 #include <slipstep/solid/block_output.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Displacements of points and what acts through faces, against closed forms.
 
 #include "block_test_tools.h"

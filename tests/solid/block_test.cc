@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The block: patch test, supports, orientation, elements, solvers, failures.
 
 #include "block_test_tools.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Contact states from a face to its children and back.
 
 #include <slipstep/solid/contact_projection.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_solid_contact_transfer_tools_h
 #define tests_solid_contact_transfer_tools_h
 

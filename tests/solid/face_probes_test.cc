@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Quantities of interest on the contact face: pressures at points and the slip
 // front.
 

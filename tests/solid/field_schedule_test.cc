@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // When fields are written.
 
 #include "block_test_tools.h"

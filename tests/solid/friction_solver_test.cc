@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The linear solver with much friction and stiff contact, and what happens when
 // it does not converge.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include "block_test_tools.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Geometric multigrid: its levels, and the same answers as other solvers.
 
 #include "solver_problem.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Orders of convergence on a case with a closed form, and of the time step.
 
 #include "block_test_tools.h"

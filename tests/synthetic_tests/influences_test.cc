@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Every hidden effect: nothing at amplitude zero, and otherwise a change where
 // it should show.
 

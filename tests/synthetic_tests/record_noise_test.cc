@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The noise has the statistics that it states, within five standard errors.
 
 #include <slipstep/synthetic_tests/hidden_effects.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/write_file.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The diagnoses that are shipped say what their README tells.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The fits to published records: fitted.prm reproduces what its README tells.
 
 #include "../solid/block_test_tools.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The shipped case against the closed forms and against the measured law (eq. 4
 // of the source paper), and the block against the contact point.
 

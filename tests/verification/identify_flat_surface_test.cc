@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The numbers of prm/identify_flat_surface/README.md.
 
 #include "../solid/block_test_tools.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The workshop that plants effects and the law were written apart: with the
 // formulas of the catalogue they must agree in every protocol.
 

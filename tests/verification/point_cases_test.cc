@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The cases on one contact point against the closed forms of their READMEs.
 
 #include "../solid/block_test_tools.h"

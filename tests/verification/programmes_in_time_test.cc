@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Runs on one contact point against the rate equations integrated from event
 // to event: how right friction and energy are at the default tolerance, and how
 // fast they become better with a smaller one.

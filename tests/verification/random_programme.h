@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_verification_random_programme_h
 #define tests_verification_random_programme_h
 

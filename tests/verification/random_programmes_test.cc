@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Laws and programmes drawn at random: whatever they are, a run ends, its rows
 // make sense, and a smaller tolerance does not change what it says.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_verification_reference_contact_h
 #define tests_verification_reference_contact_h
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The reference of the programmes in time is right itself: closed forms, and
 // that its own error is far below those it measures.
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The refinement study: adaptive meshes get further with a tenth of the
 // unknowns, and with less if they know what they are for.
 

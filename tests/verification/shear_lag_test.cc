@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The shear-lag strip: the shipped case against its closed form.
 
 #include "../solid/block_test_tools.h"

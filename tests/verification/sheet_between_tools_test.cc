@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // The sheet between the tools: steady level and stretch.
 
 #include "../solid/block_test_tools.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // A published problem with a coefficient of friction of 1: a plane-strain block
 // of 40 x 40 mm (E = 130 GPa, nu = 0.2) on a rigid plane, pressed from above
 // with 50 MPa and from the side with 150 MPa, which stands for half of a block

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_calibration_calibration_h
 #define slipstep_calibration_calibration_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_commands_outcome_h
 #define slipstep_commands_outcome_h
 

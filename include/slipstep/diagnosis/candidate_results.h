@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_diagnosis_candidate_results_h
 #define slipstep_diagnosis_candidate_results_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_diagnosis_candidates_h
 #define slipstep_diagnosis_candidates_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_diagnosis_diagnosis_parameters_h
 #define slipstep_diagnosis_diagnosis_parameters_h
 

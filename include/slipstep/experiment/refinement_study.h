@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_experiment_refinement_study_h
 #define slipstep_experiment_refinement_study_h
 

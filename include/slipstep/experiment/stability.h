@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_experiment_stability_h
 #define slipstep_experiment_stability_h
 

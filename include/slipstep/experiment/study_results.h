@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_experiment_study_results_h
 #define slipstep_experiment_study_results_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_measured_data_resample_h
 #define slipstep_measured_data_resample_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_report_run_faces_h
 #define slipstep_report_run_faces_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_solid_contact_projection_h
 #define slipstep_solid_contact_projection_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_solid_error_indicator_h
 #define slipstep_solid_error_indicator_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_synthetic_tests_true_contact_h
 #define slipstep_synthetic_tests_true_contact_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_utilities_message_lines_h
 #define slipstep_utilities_message_lines_h
 

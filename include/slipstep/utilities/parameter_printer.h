@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_utilities_parameter_printer_h
 #define slipstep_utilities_parameter_printer_h
 

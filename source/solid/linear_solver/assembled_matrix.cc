@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/linear_solver/assembled_matrix.h>
 
 #include <deal.II/base/quadrature_lib.h>

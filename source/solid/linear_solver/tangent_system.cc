@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/linear_solver/tangent_system.h>
 
 #include <slipstep/solid/linear_solver/assembled_matrix.h>

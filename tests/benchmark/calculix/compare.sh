@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # slipstep and CalculiX side by side on the same cube: same mesh, contact
 # stiffnesses, increments and constant coefficient, one core each.
 #   tests/benchmark/calculix/compare.sh [N...] [--drag sliding|partial]

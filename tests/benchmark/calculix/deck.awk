@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Writes the cube as input of CalculiX: n^3 elements C3D8, the plane as the top
 # of one fixed element, penalty contact in its Gauss points, one increment of
 # pressing and 20 of dragging.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Bytes per unknown by who asked for them, when most memory is in use.
 #   heaptrack -o heap slipstep run ...
 #   heaptrack_print -f heap.zst --flamegraph-cost-type peak -F stacks >/dev/null

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Cost of a sliding run of 200 time steps: CPU time, iterations and memory over
 # the number of unknowns and of ranks.
 #   tests/benchmark/sliding_run/measure.sh [M...] [--ranks R[,R...]]

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # How much of its time a rank computes, and how much it waits for others.
 #   tests/benchmark/sliding_run/ranks.sh [M] [RANKS...]
 # M: the block has 4M x 4M x M cells Q2 (default 8: 215475 unknowns); RANKS

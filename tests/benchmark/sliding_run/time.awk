@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Shares of samples by what a function belongs to. In: lines "samples dso symbol",
 #   perf report --no-children --sort dso,sym -F sample,dso,sym | grep -v '^#'
 NF {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef tests_diagnosis_hidden_trial_h
 #define tests_diagnosis_hidden_trial_h
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Contact states through changes of a distributed mesh.
 
 #include <slipstep/solid/contact_transfer.h>

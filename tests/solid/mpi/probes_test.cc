@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // Quantities of interest of the block on all ranks against one rank.
 
 #include "../block_test_tools.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 // A block distributed over all ranks against the same block on each rank alone.
 
 #include "../block_test_tools.h"

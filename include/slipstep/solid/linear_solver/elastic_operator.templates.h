@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_solid_linear_solver_elastic_operator_templates_h
 #define slipstep_solid_linear_solver_elastic_operator_templates_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef slipstep_solid_linear_solver_multigrid_system_h
 #define slipstep_solid_linear_solver_multigrid_system_h
 

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# The program, its man page, the cases and the papers that belong to them.
+include(GNUInstallDirs)
+
+set(man_page "${PROJECT_BINARY_DIR}/slipstep.1")
+add_custom_command(OUTPUT "${man_page}"
+  COMMAND "${PROJECT_SOURCE_DIR}/doc/man_page.sh" $<TARGET_FILE:slipstep>
+          > "${man_page}"
+  DEPENDS slipstep "${PROJECT_SOURCE_DIR}/doc/man_page.sh"
+  COMMENT "Writing the man page")
+add_custom_target(man_page ALL DEPENDS "${man_page}")
+
+install(TARGETS slipstep RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+install(FILES "${man_page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE
+        DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(DIRECTORY prm DESTINATION "${CMAKE_INSTALL_DATADIR}/slipstep"
+        PATTERN output EXCLUDE)
