@@ -17,6 +17,15 @@ namespace SlipStep
 
 
 
+  // @sect3{The law at one point}
+  //
+  // One implicit stage: given the state at its beginning, the slip of the block
+  // over the plane, the normal traction at its end and its length in time, find
+  // the state at its end. Elastic predictor and return: the trial traction
+  // @f$f_t + \alpha_t \Delta u@f$ keeps its direction and is shortened by what
+  // slips. All else (mu, strength, r_s, flow rule) follows from that one
+  // number.
+  //
   // The local system of one step: what is given, the unknown slip, and
   // everything that follows from the slip, with derivatives.
   struct FrictionLaw::LocalSystem
@@ -336,6 +345,8 @@ namespace SlipStep
 
 
 
+  // @sect3{Which root}
+  //
   // Where there may be several roots, the one that goes on as before.
   void FrictionLaw::find_slip(LocalSystem &local) const
   {
@@ -503,6 +514,12 @@ namespace SlipStep
   }
 
 
+
+  // @sect3{The consistent tangent}
+  //
+  // Newton's method on the block converges quadratically only with the
+  // derivative of what was computed, not of the rate equations: it follows from
+  // the converged local residual.
 
   ContactResponse FrictionLaw::linearise(const LocalSystem &local) const
   {

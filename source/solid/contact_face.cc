@@ -21,6 +21,13 @@ namespace SlipStep
 
 
 
+  // @sect3{Points on the face}
+  //
+  // Every quadrature point of a cell's face on the plane is a contact point
+  // with a memory of its own: that is why the face is kept beside the finite
+  // element space and not in it. Shape functions are the same on all faces of
+  // boxes, so their values at the points are looked up once.
+
   template <int dim>
   void ContactFace<dim>::reinit(const DoFHandler<dim> &dof_handler)
   {
@@ -86,6 +93,17 @@ namespace SlipStep
   }
 
 
+
+  // @sect3{What the plane answers}
+  //
+  // The block may dip into the plane against a stiff spring, and slide against
+  // another one: @f$f_n = \alpha_n g@f$ of the penetration g, and the friction
+  // law of the slip since the beginning of the stage, which is that of the
+  // block plus that of the frame (the plane may be the part that moves). The
+  // answer is a traction and its derivative with respect to the displacement of
+  // the block at the point; what of it is tangential depends on the
+  // penetration, too, since a contact pressed harder holds more. So the tangent
+  // is unsymmetric.
 
   template <int dim>
   void ContactFace<dim>::update(const Vector       &displacement,
@@ -155,6 +173,12 @@ namespace SlipStep
   }
 
 
+
+  // @sect3{How long a step may be}
+  //
+  // The law estimates at each point what two stages differ from one. What
+  // counts is the force, so errors are averaged by strength; a single point may
+  // err ten times as much.
 
   template <int dim>
   double ContactFace<dim>::step_error(const MPI_Comm &communicator) const
@@ -248,6 +272,8 @@ namespace SlipStep
   }
 
 
+
+  // @sect3{Forces and sums}
 
   template <int dim>
   void ContactFace<dim>::add_forces(Vector &forces) const

@@ -12,6 +12,21 @@ namespace SlipStep
 {
   using namespace dealii;
 
+  // @sect3{History on another mesh}
+  //
+  // When the mesh changes, the displacement is interpolated by deal.II's
+  // SolutionTransfer. The history of the contact is no finite element function:
+  // it lives at quadrature points, must stay admissible (r_s not above r, no
+  // traction where it is open), and its integrals are forces and energies. So
+  // the states travel with the cells as data of their own. On a cell that stays
+  // they arrive bit for bit. Children get, and parents make of their children,
+  // what ContactProjection finds: a projection that keeps the integrals of
+  // traction, pressure, strength, slip and dissipated energy, limited where a
+  // polynomial would leave what is admissible.
+  //
+  // While the mesh changes, cells are known by level and index; the list of
+  // contact faces is found from these.
+
   template <int dim>
   ContactTransfer<dim>::Directory::Directory(const ContactFace<dim> &contact)
   {
@@ -65,6 +80,10 @@ namespace SlipStep
   }
 
 
+
+  // Of a cell that is about to lose its children their states are merged here,
+  // while they still exist; of one that gets children they are split after the
+  // journey, which may lead to another rank.
 
   template <int dim>
   typename ContactTransfer<dim>::Bytes

@@ -96,17 +96,17 @@ namespace SlipStep
     /// How it shows, beside other effects.
     std::string signature;
 
-    std::function<TrialFormula(const Circumstances &)> formula;
+    std::function<TrialFormula(const Circumstances &)> formula = {};
 
     /// The effect of which this one is but another formula, "" if none.
-    std::string candidate;
+    std::string candidate = "";
 
     /// The key with which it does nothing where that is 0, although it is in
     /// the list; "" if it does something whenever it is there.
-    std::string amplitude;
+    std::string amplitude = "";
 
     /// Why it is never looked for: then there is no formula.
-    std::string why_not;
+    std::string why_not = "";
   };
 
   /// A change of friction by one per cent, the size of all trial strengths.
