@@ -70,7 +70,11 @@ namespace SlipStep
         {
           if (acts(info, now))
             {
-              candidate.leave_to_model("it is in the model already");
+              candidate.leave_to_model(
+                (info.name == own.name ?
+                   "it" :
+                   info.name + ", another formula of it,") +
+                std::string(" is in the model already"));
               return candidate;
             }
           TrialFormula formula = info.search.formula(now);

@@ -165,7 +165,8 @@ TEST_F(Diagnose, WhatIsWrongWithTheCaseIsSaid)
                  {"Diagnosis/Draws", "0.001", "1499"});
   // The starting model has a flow rule.
   expect_refusal({"Diagnosis/Candidates=overstress, softening"},
-                 {"none of these can be tried", "flow rule already"});
+                 {"none of these can be tried",
+                  "overstress: it is in the model already"});
   expect_refusal({"Diagnosis/Gain=0"}, {"Diagnosis/Gain", "greater than 0"});
   expect_refusal({"Calibration/Tests=nowhere"}, {"there is no", "nowhere"});
   // What is wrong is found by slipstep check, too.

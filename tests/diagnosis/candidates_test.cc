@@ -153,6 +153,20 @@ TEST(Candidates, LeaveOutWhatTheModelHas)
 
 
 
+TEST(Candidates, LeaveOutWhatTheModelHasByAnotherFormula)
+{
+  Parameters start = coulomb_case();
+  start.set("Friction/Effects", "perzyna", "test");
+  start.set("Diagnosis/Candidates", "overstress", "test");
+  const std::vector<Candidate> found = make_candidates(start, usual_range());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].formulas.empty());
+  EXPECT_EQ(found[0].why_not,
+            "perzyna, another formula of it, is in the model already");
+}
+
+
+
 TEST(DiagnosisParameters, ListWhatActiveEffectsHave)
 {
   Parameters start = coulomb_case();
