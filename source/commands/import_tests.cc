@@ -6,6 +6,7 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/find_variant.h>
 #include <slipstep/utilities/home_folder.h>
+#include <slipstep/utilities/text.h>
 
 #include <fstream>
 #include <iostream>
@@ -112,7 +113,7 @@ namespace SlipStep
     const std::size_t n_tests = read_jobs(file, line).size();
     if (!line.quiet)
       std::cout << file.string() << ": OK, a map for slipstep import, "
-                << n_tests << (n_tests == 1 ? " test" : " tests") << std::endl;
+                << counted(n_tests, "test") << std::endl;
   }
 
 

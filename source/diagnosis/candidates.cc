@@ -60,26 +60,24 @@ namespace SlipStep
     // By its own formula and by others of the same.
     Candidate candidate_of(const EffectInfo &own, const Circumstances &now)
     {
-      std::vector<EffectInfo> effects = {own};
+      std::vector<const EffectInfo *> effects = {&own};
       for (const auto &entry : effect_registry())
         if (entry.second.search.candidate == own.name)
-          effects.push_back(entry.second);
+          effects.push_back(&entry.second);
       Candidate candidate{own.name, own.search.signature, {}, ""};
       std::vector<std::string> reasons;
-      for (const EffectInfo &info : effects)
+      for (const EffectInfo *info : effects)
         {
-          if (acts(info, now))
+          if (acts(*info, now))
             {
-              candidate.leave_to_model(
-                (info.name == own.name ?
-                   "it" :
-                   info.name + ", another formula of it,") +
-                std::string(" is in the model already"));
+              const std::string which =
+                info == &own ? "it" : info->name + ", another formula of it,";
+              candidate.leave_to_model(which + " is in the model already");
               return candidate;
             }
-          TrialFormula formula = info.search.formula(now);
-          if (!now.has(info.name))
-            formula.effect = info.name;
+          TrialFormula formula = info->search.formula(now);
+          if (!now.has(info->name))
+            formula.effect = info->name;
           if (formula.why_not.empty())
             candidate.formulas.push_back(formula);
           else

@@ -61,29 +61,25 @@ namespace SlipStep
 
 
 
-    CampaignClass campaign_class(const std::string &wanted)
-    {
-      std::vector<std::string> names;
-      std::string              known;
-      for (const auto &[one, name] : class_names)
-        {
-          if (name == wanted)
-            return one;
-          names.push_back(name);
-          known += (known.empty() ? "" : ", ") + name;
-        }
-      throw InputError("class \"" + wanted + "\": allowed is one of: " + known +
-                       did_you_mean(wanted, names));
-    }
-
-
-
     std::vector<std::string> campaign_classes()
     {
       std::vector<std::string> names;
       for (const auto &one : class_names)
         names.push_back(one.second);
       return names;
+    }
+
+
+
+    CampaignClass campaign_class(const std::string &wanted)
+    {
+      for (const auto &[one, name] : class_names)
+        if (name == wanted)
+          return one;
+      const std::vector<std::string> names = campaign_classes();
+      throw InputError("class \"" + wanted + "\": allowed is one of: " +
+                       boost::algorithm::join(names, ", ") +
+                       did_you_mean(wanted, names));
     }
 
 

@@ -230,13 +230,6 @@ TEST(ManyRanks, SpeakOnce)
     GTEST_SKIP() << "mpirun is missing";
   const SlipstepProcess process;
   const std::string     mpirun = "mpirun --oversubscribe -np 2";
-  const auto count = [](const std::string &text, const std::string &part) {
-    unsigned int n = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos;
-         at             = text.find(part, at + 1))
-      ++n;
-    return n;
-  };
   process.write("case.prm", std::string(sliding_as_swept) + sweep);
 
   const auto check = process.run({"check", "case.prm"}, mpirun);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 /// The real program, started in a folder of its own.
@@ -97,14 +98,6 @@ private:
     for (const char c : text)
       result += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return result + "'";
-  }
-
-  static std::string content(const std::filesystem::path &file)
-  {
-    std::ifstream      in(file);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
   }
 
   const TemporaryFolder       temporary;

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
+#include <string>
 
 #include "tests/experiment/point_run.h"
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -51,9 +51,8 @@ TEST(RunPoint, StepsTooLongForTheEnergyAreWarnedOf)
   EXPECT_NE(result_table(parameters, runs).find("a run: warning: "),
             std::string::npos);
   write_report(options.output, parameters, runs);
-  std::ostringstream page;
-  page << std::ifstream(options.output / "report.html").rdbuf();
-  EXPECT_NE(page.str().find(" % of the work is neither"), std::string::npos);
+  EXPECT_TRUE(contains(content(options.output / "report.html"),
+                       " % of the work is neither"));
 
   parameters.set("Time stepping/Tolerance", "5e-5", "here");
   EXPECT_NE(warnings("Time stepping/Equal steps per statement", "1")

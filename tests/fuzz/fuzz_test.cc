@@ -287,9 +287,8 @@ TEST_F(Fuzz, MeasuredTests)
 
 TEST_F(Fuzz, ImportMaps)
 {
-  const std::string map =
-    BackgroundRun::content(std::string(SLIPSTEP_SOURCE_DIR) +
-                           "/prm/reciprocating_tribometer/import.prm");
+  const std::string map = content(std::string(SLIPSTEP_SOURCE_DIR) +
+                                  "/prm/reciprocating_tribometer/import.prm");
   ASSERT_FALSE(map.empty());
   process.write("raw.csv", test_rows);
   for (unsigned int n = 0; n < n_runs; ++n)

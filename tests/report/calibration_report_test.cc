@@ -25,11 +25,6 @@ namespace
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  bool has_program(const std::string &call)
-  {
-    return std::system((call + " > /dev/null 2>&1").c_str()) == 0;
-  }
-
   /// Every tag that is opened is closed, in order. (Tags without content are
   /// closed in SVG and are a known few in HTML.)
   std::string unbalanced_tag(const std::string &page)
@@ -120,7 +115,7 @@ TEST(CalibrationReport, ThePageIsCompleteInItself)
       EXPECT_TRUE(
         std::filesystem::exists(test_folder() / "report" / (name + end)))
         << name + end;
-  if (!has_program("gnuplot --version"))
+  if (!has_gnuplot())
     GTEST_SKIP() << "gnuplot is not installed";
   EXPECT_TRUE(warnings.empty()) << warnings[0];
   for (const std::string name :
@@ -209,7 +204,7 @@ TEST(CalibrationReport, DegenerateResultsDoNotBreakThePage)
   EXPECT_TRUE(contains(page, "at bound"));
   EXPECT_TRUE(contains(page, ">open<"));
   EXPECT_TRUE(contains(page, ">unknown<"));
-  if (has_program("gnuplot --version"))
+  if (has_gnuplot())
     {
       EXPECT_TRUE(warnings.empty()) << warnings[0];
     }

@@ -17,6 +17,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/file_text.h"
+
 /// The real program at work, to be disturbed.
 class BackgroundRun
 {
@@ -139,14 +141,6 @@ public:
       if (line.find("ORTE_ERROR_LOG") == std::string::npos)
         own += line + '\n';
     return own;
-  }
-
-  static std::string content(const std::filesystem::path &file)
-  {
-    std::ifstream      in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
   }
 
 private:

@@ -46,12 +46,12 @@ namespace
       process.write(file, text.replace(at, from.size(), to));
     }
 
-    std::map<std::string, std::string> content(const std::string &folder) const
+    std::map<std::string, std::string> contents(const std::string &folder) const
     {
       std::map<std::string, std::string> files;
       for (const auto &entry : fs::recursive_directory_iterator(path(folder)))
         if (entry.is_regular_file() && entry.path().filename() != ".slipstep")
-          files[entry.path().string()] = BackgroundRun::content(entry.path());
+          files[entry.path().string()] = content(entry.path());
       return files;
     }
 
@@ -60,14 +60,14 @@ namespace
                         const std::vector<std::string> &more,
                         const std::vector<std::string> &words)
     {
-      const auto before = content(output);
+      const auto before = contents(output);
       const auto result = run(output, more);
       EXPECT_EQ(result.exit_code, 2) << result.err;
       EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
       for (const std::string &word : words)
         EXPECT_NE(result.err.find(word), std::string::npos)
           << "  \"" << word << "\" is not in: " << result.err;
-      EXPECT_TRUE(content(output) == before);
+      EXPECT_TRUE(contents(output) == before);
     }
   };
 } // namespace
