@@ -94,22 +94,23 @@ namespace SlipStep
 
 
     // "1 cm" is "10 mm", "0.10" is "0.1", "a, b" is "a,b".
-    bool is_same_value(const Parameters::Entry &entry, const std::string &other)
+    bool is_same_value(const dealii::Patterns::PatternBase *pattern,
+                       const std::string                   &value,
+                       const std::string                   &other)
     {
       const auto without_blanks = [](std::string text) {
         boost::erase_all(text, " ");
         return text;
       };
-      if (without_blanks(entry.value) == without_blanks(other))
+      if (without_blanks(value) == without_blanks(other))
         return true;
-      const auto *pattern = entry.pattern.get();
       if (const auto *quantity = dynamic_cast<const Quantity *>(pattern))
         return quantity->match(other) &&
-               quantity->value(entry.value) == quantity->value(other);
+               quantity->value(value) == quantity->value(other);
       return dynamic_cast<const dealii::Patterns::Double *>(pattern) !=
                nullptr &&
              pattern->match(other) &&
-             dealii::Utilities::string_to_double(entry.value) ==
+             dealii::Utilities::string_to_double(value) ==
                dealii::Utilities::string_to_double(other);
     }
   } // namespace
@@ -164,7 +165,9 @@ namespace SlipStep
         programme_text = value.second;
       else if (value.first == "Loading/Speed")
         speed = value.second;
-      else if (!is_same_value(parameters.entry(value.first), value.second))
+      else if (!is_same_value(parameters.entry(value.first).pattern.get(),
+                              parameters.text(value.first),
+                              value.second))
         refuse(value.first, value.second);
 
     if (checksum_of(parse_programme(parameters)) == programme)

@@ -63,15 +63,15 @@ namespace SlipStep
                            const std::set<std::string> &disabled_sections)
     {
       bool is_first = true;
-      for (const Parameters::Entry *entry : section.entries)
+      for (const auto &[entry, value] : section.parameters)
         {
           out << (is_first ? "" : "\n");
           is_first = false;
           print_comment(out,
                         indent,
-                        entry->documentation + " [" +
-                          allowed_in_words(*entry->pattern) + "]");
-          print_setting(out, indent, key_of(entry->path), entry->value);
+                        entry.documentation + " [" +
+                          allowed_in_words(*entry.pattern) + "]");
+          print_setting(out, indent, key_of(entry.path), value);
         }
       for (const ParameterSection &child : section.subsections)
         {
@@ -93,12 +93,12 @@ namespace SlipStep
     nlohmann::ordered_json json_section(const ParameterSection &section)
     {
       nlohmann::ordered_json object = nlohmann::ordered_json::object();
-      for (const Parameters::Entry *entry : section.entries)
-        object[key_of(entry->path)] = {{"value", entry->value},
-                                       {"default", entry->default_value},
-                                       {"documentation", entry->documentation},
-                                       {"allowed",
-                                        allowed_in_words(*entry->pattern)}};
+      for (const auto &[entry, value] : section.parameters)
+        object[key_of(entry.path)] = {{"value", value},
+                                      {"default", entry.default_value},
+                                      {"documentation", entry.documentation},
+                                      {"allowed",
+                                       allowed_in_words(*entry.pattern)}};
       for (const ParameterSection &child : section.subsections)
         object[child.name] = json_section(child);
       return object;
@@ -118,17 +118,17 @@ namespace SlipStep
 
 
   ParameterSection
-  parameter_tree(const std::vector<const Parameters::Entry *> &entries)
+  parameter_tree(const std::vector<PrintedParameter> &parameters)
   {
     ParameterSection root;
-    for (const Parameters::Entry *entry : entries)
+    for (const PrintedParameter &parameter : parameters)
       {
         ParameterSection *section = &root;
         const auto        names =
-          dealii::Utilities::split_string_list(entry->path, '/');
+          dealii::Utilities::split_string_list(parameter.entry.path, '/');
         for (std::size_t i = 0; i + 1 < names.size(); ++i)
           section = &subsection(*section, names[i]);
-        section->entries.push_back(entry);
+        section->parameters.push_back(parameter);
       }
     return root;
   }
@@ -165,19 +165,19 @@ namespace SlipStep
 
   void print_markdown(std::ostream &out, const ParameterSection &root)
   {
-    if (!root.entries.empty())
+    if (!root.parameters.empty())
       {
         if (!root.path.empty())
           out << "## " << root.path << "\n\n";
         out << "| Key | Default | Allowed | Meaning |\n"
             << "| --- | --- | --- | --- |\n";
-        for (const Parameters::Entry *entry : root.entries)
-          out << "| " << cell(key_of(entry->path)) << " | "
-              << (entry->default_value.empty() ?
+        for (const auto &[entry, value] : root.parameters)
+          out << "| " << cell(key_of(entry.path)) << " | "
+              << (entry.default_value.empty() ?
                     "" :
-                    "`" + cell(entry->default_value) + "`")
-              << " | " << cell(allowed_in_words(*entry->pattern)) << " | "
-              << cell(entry->documentation) << " |\n";
+                    "`" + cell(entry.default_value) + "`")
+              << " | " << cell(allowed_in_words(*entry.pattern)) << " | "
+              << cell(entry.documentation) << " |\n";
         out << '\n';
       }
     for (const ParameterSection &child : root.subsections)

@@ -53,6 +53,16 @@ namespace SlipStep
 
 
 
+    std::vector<std::string> section_names(const std::string &path)
+    {
+      std::vector<std::string> names =
+        dealii::Utilities::split_string_list(path, '/');
+      names.pop_back();
+      return names;
+    }
+
+
+
     // The paths that end in @p path, capitals ignored.
     std::vector<std::string> endings(const std::string              &path,
                                      const std::vector<std::string> &candidates)
@@ -136,9 +146,65 @@ namespace SlipStep
        trim(default_value),
        std::shared_ptr<const dealii::Patterns::PatternBase>(pattern.clone()),
        documentation,
-       trim(default_value),
        "",
        0});
+    in_section(path, [&](const std::string &key) {
+      values->declare_entry(key, trim(default_value), pattern, documentation);
+    });
+  }
+
+
+
+  Parameters::Parameters(const Parameters &other)
+    : entries(other.entries)
+    , index_of_path(other.index_of_path)
+    , file_read(other.file_read)
+    , variant_list(other.variant_list)
+    , n_layers(other.n_layers)
+  {
+    for (const Entry &entry : entries)
+      in_section(entry.path, [&](const std::string &key) {
+        values->declare_entry(key,
+                              entry.default_value,
+                              *entry.pattern,
+                              entry.documentation);
+        values->set(key, other.text(entry.path));
+      });
+  }
+
+
+
+  Parameters &Parameters::operator=(const Parameters &other)
+  {
+    return *this = Parameters(other);
+  }
+
+
+
+  const dealii::ParameterHandler &Parameters::handler() const
+  {
+    return *values;
+  }
+
+
+
+  void
+  Parameters::in_section(const std::string                              &path,
+                         const std::function<void(const std::string &)> &action)
+  {
+    const std::vector<std::string> sections = section_names(path);
+    for (const std::string &section : sections)
+      values->enter_subsection(section);
+    action(last_name(path));
+    for (std::size_t i = 0; i < sections.size(); ++i)
+      values->leave_subsection();
+  }
+
+
+
+  void Parameters::set_value(const std::string &path, const std::string &value)
+  {
+    in_section(path, [&](const std::string &key) { values->set(key, value); });
   }
 
 
@@ -149,7 +215,7 @@ namespace SlipStep
     for (const Assignment &assignment : text.assignments)
       {
         Entry &entry = entries[index_of_path.at(assignment.path)];
-        entry.value  = as_meant(*entry.pattern, assignment.value);
+        set_value(entry.path, as_meant(*entry.pattern, assignment.value));
         entry.origin = assignment.origin;
         entry.layer  = n_layers + assignment.layer;
       }
@@ -228,7 +294,7 @@ namespace SlipStep
     const std::string trimmed = trim(value);
     check(path, trimmed, origin);
     Entry &entry = entries[index_of_path.at(path)];
-    entry.value  = as_meant(*entry.pattern, trimmed);
+    set_value(path, as_meant(*entry.pattern, trimmed));
     entry.origin = origin;
     entry.layer  = ++n_layers;
 
@@ -266,7 +332,8 @@ namespace SlipStep
 
   std::string Parameters::text(const std::string &path) const
   {
-    return entry(path).value;
+    entry(path);
+    return values->get(section_names(path), last_name(path));
   }
 
 
@@ -276,15 +343,15 @@ namespace SlipStep
     const Entry &found = entry(path);
     if (const auto quantity =
           dynamic_cast<const Quantity *>(found.pattern.get()))
-      return quantity->value(found.value);
-    return dealii::Utilities::string_to_double(found.value);
+      return quantity->value(text(path));
+    return dealii::Utilities::string_to_double(text(path));
   }
 
 
 
   int Parameters::integer(const std::string &path) const
   {
-    return dealii::Utilities::string_to_int(entry(path).value);
+    return dealii::Utilities::string_to_int(text(path));
   }
 
 
@@ -294,15 +361,14 @@ namespace SlipStep
     Assert(dynamic_cast<const dealii::Patterns::Bool *>(
              entry(path).pattern.get()),
            dealii::ExcMessage("Not declared as true or false: " + path));
-    const std::string value = entry(path).value;
-    return value == "true" || value == "yes";
+    return values->get_bool(section_names(path), last_name(path));
   }
 
 
 
   std::vector<std::string> Parameters::list(const std::string &path) const
   {
-    return dealii::Utilities::split_string_list(entry(path).value, ',');
+    return dealii::Utilities::split_string_list(text(path), ',');
   }
 
 
@@ -345,14 +411,15 @@ namespace SlipStep
   void Parameters::reject(const std::string &path, const std::string &why) const
   {
     const Entry      &found = entry(path);
-    const std::string hint  = decimal_comma_hint(found.value);
+    const std::string value = text(path);
+    const std::string hint  = decimal_comma_hint(value);
     // Of lists nobody knows; a marked column comes last.
     const bool is_comma_told =
       !hint.empty() && why.find_first_of("\n") == std::string::npos &&
       why.find("decimals begin with a point") == std::string::npos &&
       dynamic_cast<const dealii::Patterns::Anything *>(found.pattern.get());
-    throw InputError(origin(path) + " =" + (found.value.empty() ? "" : " ") +
-                     excerpt(found.value) +
+    throw InputError(origin(path) + " =" + (value.empty() ? "" : " ") +
+                     excerpt(value) +
                      (found.layer > 0 ? "" : " (the default)") + ": " + why +
                      (is_comma_told ? "; " + hint : ""));
   }
@@ -395,8 +462,7 @@ namespace SlipStep
     const std::string                                     &path,
     const std::function<std::string(const std::string &)> &rewritten)
   {
-    Entry &changed = entries[index_of_path.at(path)];
-    changed.value  = rewritten(changed.value);
+    set_value(path, rewritten(text(path)));
     for (Variant &variant : variant_list)
       for (Variant::Override &setting : variant.overrides)
         if (setting.path == path)
@@ -410,7 +476,7 @@ namespace SlipStep
                          const std::set<std::string> &omitted_sections,
                          const std::set<std::string> &disabled_sections) const
   {
-    std::vector<const Entry *> shown;
+    std::vector<PrintedParameter> shown;
     for (const Entry &entry : entries)
       if (std::none_of(omitted_sections.begin(),
                        omitted_sections.end(),
@@ -418,7 +484,7 @@ namespace SlipStep
                          return boost::algorithm::starts_with(entry.path,
                                                               section + "/");
                        }))
-        shown.push_back(&entry);
+        shown.push_back({entry, text(entry.path)});
     const ParameterSection root = parameter_tree(shown);
     switch (format)
       {

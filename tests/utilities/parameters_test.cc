@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/utilities.h>
+
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/parameters.h>
 #include <slipstep/utilities/pattern_words.h>
@@ -513,6 +515,75 @@ TEST_F(ParametersTest, PrintedPrmReadsBackTheSame)
   p.print(shorter, Parameters::Format::prm, {"Friction/healing"});
   EXPECT_EQ(shorter.str().find("subsection healing"), std::string::npos);
   EXPECT_NE(shorter.str().find("subsection softening"), std::string::npos);
+}
+
+
+
+namespace
+{
+  // The sections of a path, and its key.
+  std::pair<std::vector<std::string>, std::string>
+  split(const std::string &path)
+  {
+    auto              names = dealii::Utilities::split_string_list(path, '/');
+    const std::string key   = names.back();
+    names.pop_back();
+    return {names, key};
+  }
+} // namespace
+
+
+
+TEST_F(ParametersTest, AParameterHandlerHoldsAndReadsTheSame)
+{
+  const Parameters p = read("set Title = a, b\n"
+                            "subsection Friction\n"
+                            "  subsection softening\n"
+                            "    set Rate = 0.06 1/mm\n"
+                            "  end\n"
+                            "end\n"
+                            "subsection Block\n"
+                            "  set Degree = 2\n"
+                            "  set Curved = true\n"
+                            "end\n");
+  EXPECT_EQ(p.handler().get("Title"), "a, b");
+  EXPECT_EQ(p.handler().get({"Friction", "softening"}, "Rate"), "0.06 1/mm");
+  EXPECT_EQ(p.handler().get_integer({"Block"}, "Degree"), 2);
+  EXPECT_TRUE(p.handler().get_bool({"Block"}, "Curved"));
+
+  std::ostringstream printed;
+  p.print(printed, Parameters::Format::prm);
+  dealii::ParameterHandler reader;
+  for (const std::string &path : p.paths())
+    {
+      const auto &[sections, key] = split(path);
+      for (const std::string &section : sections)
+        reader.enter_subsection(section);
+      reader.declare_entry(key,
+                           p.entry(path).default_value,
+                           *p.entry(path).pattern);
+      for (std::size_t i = 0; i < sections.size(); ++i)
+        reader.leave_subsection();
+    }
+  reader.parse_input_from_string(printed.str());
+  for (const std::string &path : p.paths())
+    EXPECT_EQ(reader.get(split(path).first, split(path).second), p.text(path));
+}
+
+
+
+TEST_F(ParametersTest, CopiesGoTheirOwnWays)
+{
+  Parameters first = declared();
+  first.set("Block/Degree", "2", "--set");
+  Parameters second = first;
+  second.set("Block/Degree", "1", "--set");
+  EXPECT_EQ(first.integer("Block/Degree"), 2);
+  EXPECT_EQ(second.integer("Block/Degree"), 1);
+  first = second;
+  EXPECT_EQ(first.integer("Block/Degree"), 1);
+  second = std::move(first);
+  EXPECT_EQ(second.text("Loading/Speed"), "1 mm/min");
 }
 
 

@@ -10,18 +10,25 @@
 
 namespace SlipStep
 {
+  /// A parameter and its present value.
+  struct PrintedParameter
+  {
+    Parameters::Entry entry;
+    std::string       value;
+  };
+
   /// The tree of sections that a list of paths spans; sections in the order in
   /// which they were first met.
   struct ParameterSection
   {
-    std::string                            name; ///< "" for the whole
-    std::string                            path;
-    std::vector<const Parameters::Entry *> entries;
-    std::vector<ParameterSection>          subsections;
+    std::string                   name; ///< "" for the whole
+    std::string                   path;
+    std::vector<PrintedParameter> parameters;
+    std::vector<ParameterSection> subsections;
   };
 
   ParameterSection
-  parameter_tree(const std::vector<const Parameters::Entry *> &entries);
+  parameter_tree(const std::vector<PrintedParameter> &parameters);
 
   /// A .prm file which Parameters::read() reads back, with some sections
   /// disabled by a "#" before each of their lines.

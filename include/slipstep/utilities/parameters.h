@@ -42,10 +42,10 @@ namespace SlipStep
   /// All parameters of a case: declared by the rooms that use them, read from a
   /// .prm file, overridden by variants and by `--set`.
   ///
-  /// Patterns and the file format are those of dealii::ParameterHandler. The
-  /// class itself is not used: a user needs what it does not keep, namely the
-  /// file and line of every value, keys given twice, the nearest known key, and
-  /// includes relative to the file.
+  /// Declarations and values are held by a dealii::ParameterHandler, and a file
+  /// has its format. This class is the front that a user meets: it knows the
+  /// file and line of every value, tells keys given twice and the nearest known
+  /// key, reads includes relative to the file, and has the sweep.
   ///
   /// A parameter is named by its path, e.g. "Friction/softening/Rate".
   class Parameters
@@ -58,18 +58,30 @@ namespace SlipStep
       markdown
     };
 
-    /// A declared parameter and its present value.
+    /// What a ParameterHandler does not tell of a parameter.
     struct Entry
     {
       std::string                                          path;
       std::string                                          default_value;
       std::shared_ptr<const dealii::Patterns::PatternBase> pattern;
       std::string                                          documentation;
-      std::string                                          value;
       /// "file:line", "--set"; "" while the value is the default.
       std::string  origin;
       unsigned int layer = 0;
     };
+
+    Parameters() = default;
+
+    Parameters(const Parameters &other);
+
+    Parameters &operator=(const Parameters &other);
+
+    Parameters(Parameters &&other) = default;
+
+    Parameters &operator=(Parameters &&other) = default;
+
+    /// For code that reads its parameters from a ParameterHandler.
+    const dealii::ParameterHandler &handler() const;
 
     /// Declare a parameter. The documentation gives meaning, formula or
     /// reference, range and unit. Declared order is printed order.
@@ -174,11 +186,20 @@ namespace SlipStep
                const std::set<std::string> &disabled_sections = {}) const;
 
   private:
+    /// It cannot be copied.
+    std::unique_ptr<dealii::ParameterHandler> values =
+      std::make_unique<dealii::ParameterHandler>();
     std::vector<Entry>                 entries;
     std::map<std::string, std::size_t> index_of_path;
     std::filesystem::path              file_read;
     std::vector<Variant>               variant_list;
     unsigned int                       n_layers = 0;
+
+    /// Call what is given with the name of the key, inside of its sections.
+    void in_section(const std::string                              &path,
+                    const std::function<void(const std::string &)> &action);
+
+    void set_value(const std::string &path, const std::string &value);
   };
 } // namespace SlipStep
 
