@@ -97,15 +97,6 @@ namespace SlipStep
              note("In units of mm, s, N, MPa, rad.");
     }
 
-    std::string pictures_section(const std::vector<Picture> &pictures)
-    {
-      std::string html;
-      for (const Picture &picture : pictures)
-        if (!picture.svg.empty())
-          html += figure_element(picture);
-      return html;
-    }
-
     /// Blue for negative, orange for positive, both pale enough for the number
     /// on them.
     std::string correlation_colour(const double correlation)
@@ -294,8 +285,12 @@ namespace SlipStep
     const std::filesystem::path picture_folder = folder / "report";
     std::filesystem::create_directories(picture_folder);
     std::vector<std::string> warnings;
-    const auto curves   = draw_curves(picture_folder, calibration, warnings);
-    const auto profiles = draw_profiles(picture_folder, calibration, warnings);
+    std::string              curves;
+    for (const Gallery &gallery :
+         draw_curves(picture_folder, calibration, warnings))
+      curves += gallery_section(gallery);
+    const Gallery profiles =
+      draw_fitted_profiles(picture_folder, calibration, warnings);
 
     std::string content;
     for (const std::string &warning : calibration.warnings)
@@ -303,8 +298,8 @@ namespace SlipStep
     for (const std::string &warning : warnings)
       content += problem_box(warning);
     content += weak_section(calibration) + parameter_section(calibration) +
-               derived_section(calibration) + pictures_section(curves) +
-               pictures_section(profiles) + correlation_section(calibration) +
+               derived_section(calibration) + curves +
+               gallery_section(profiles) + correlation_section(calibration) +
                tests_section(calibration) + starts_section(calibration) +
                cost_section(calibration) +
                repeat_section("calibrate", parameters);

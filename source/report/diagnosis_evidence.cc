@@ -5,6 +5,7 @@
 
 #include <slipstep/report/diagnosis_figures.h>
 #include <slipstep/report/diagnosis_text.h>
+#include <slipstep/report/profile_curves.h>
 
 #include <boost/math/distributions/normal.hpp>
 
@@ -105,65 +106,6 @@ namespace SlipStep
                    y,
                    is_logarithmic);
     }
-
-    double threshold_of(const Diagnosis &diagnosis)
-    {
-      const double quantile =
-        boost::math::quantile(boost::math::normal(),
-                              0.5 * (1. + diagnosis.confidence));
-      return quantile * quantile;
-    }
-
-    const LegendLine
-      profile_line   = {"increase of the objective", Colour::after},
-      threshold_line = {"threshold", "#222222"},
-      end_line   = {"end of the interval", Colour::before, LegendLine::dashed},
-      value_line = {"fitted value", Colour::before, LegendLine::points};
-
-    void draw_profile(SmallPicture             &picture,
-                      const DiagnosedParameter &parameter,
-                      const double              threshold)
-    {
-      const double highest = 2.5 * threshold;
-      Range        x;
-      x.add(parameter.value);
-      Rows rows;
-      for (const auto &[value, increase] : parameter.profile)
-        if (std::isfinite(value) && std::isfinite(increase))
-          {
-            rows.push_back({value, increase});
-            if (increase <= highest)
-              x.add(value);
-          }
-      std::sort(rows.begin(), rows.end());
-      const auto upright = [&](const double value) {
-        x.add(value);
-        picture.script() << "set arrow nohead from first " << value
-                         << ", graph 0 to first " << value << ", graph 1 "
-                         << end_line.style(1.8) << '\n';
-      };
-      picture.script().precision(12);
-      if (!parameter.is_lower_open && std::isfinite(parameter.lower))
-        upright(parameter.lower);
-      if (!parameter.is_upper_open && std::isfinite(parameter.upper))
-        upright(parameter.upper);
-      const bool is_logarithmic = x.lower > 0. && x.upper > 10. * x.lower;
-      picture.plot_level(threshold, threshold_line.style(1.));
-      picture.plot("profile",
-                   {parameter.name, "increase"},
-                   rows,
-                   "with linespoints pt 7 ps 0.3 " + profile_line.style());
-      picture.plot("fitted",
-                   {parameter.name, "increase"},
-                   {{parameter.value, 0.}},
-                   "with points pt 7 ps 0.9 lc rgb '" + value_line.colour +
-                     "'");
-      picture.axes(with_unit(parameter.name, parameter.unit),
-                   x,
-                   "Increase of objective  [–]",
-                   {0., highest},
-                   is_logarithmic);
-    }
   } // namespace
 
 
@@ -212,29 +154,30 @@ namespace SlipStep
                               const Diagnosis             &diagnosis,
                               std::vector<std::string>    &warnings)
   {
-    const double threshold = threshold_of(diagnosis);
-    Gallery      gallery{"How sharply the new parameters are determined",
-                    "Increase of the objective when one parameter is held and "
-                         "all others are fitted again. Where it exceeds " +
-                      std::to_string(threshold).substr(0, 4) +
-                      ", the tests contradict the value (" +
-                      interval_name(diagnosis) +
-                      "); a flat curve says that they do not care.",
-                    {profile_line, threshold_line, end_line, value_line},
-                    {}};
-    std::string  warning;
-    std::size_t  n = 0;
+    const double quantile =
+      boost::math::quantile(boost::math::normal(),
+                            0.5 * (1. + diagnosis.confidence));
+    std::vector<DrawnProfile> profiles;
     for (const DiagnosedParameter &parameter : named_parameters(diagnosis))
-      if (parameter.profile.size() > 1)
-        {
-          SmallPicture picture(folder,
-                               "profile_" + std::to_string(++n),
-                               label_text(parameter));
-          draw_profile(picture, parameter, threshold);
-          picture.finish(gallery, warning);
-        }
-    if (!warning.empty())
-      warnings.push_back(warning);
-    return gallery;
+      {
+        DrawnProfile drawn;
+        drawn.name          = label_text(parameter);
+        drawn.unit          = parameter.unit;
+        drawn.value         = parameter.value;
+        drawn.lower         = parameter.lower;
+        drawn.upper         = parameter.upper;
+        drawn.is_lower_open = parameter.is_lower_open;
+        drawn.is_upper_open = parameter.is_upper_open;
+        for (const auto &[value, increase] : parameter.profile)
+          if (std::isfinite(value) && std::isfinite(increase))
+            drawn.points.emplace_back(value, increase / (quantile * quantile));
+        std::sort(drawn.points.begin(), drawn.points.end());
+        profiles.push_back(drawn);
+      }
+    return draw_profiles(folder,
+                         "How sharply the new parameters are determined",
+                         profiles,
+                         interval_name(diagnosis),
+                         warnings);
   }
 } // namespace SlipStep

@@ -21,31 +21,6 @@ namespace SlipStep
              "%";
     }
 
-    std::string legend_html(const std::vector<LegendLine> &legend)
-    {
-      std::string html = "<p class='legend'>";
-      for (const LegendLine &line : legend)
-        {
-          const std::string kind = line.kind == LegendLine::area   ? "area" :
-                                   line.kind == LegendLine::points ? "dot" :
-                                   line.kind == LegendLine::dashed ? "dashed" :
-                                                                     "line";
-          html += "<span><i class='" + kind + "' style='color:" + line.colour +
-                  "'></i>" + html_text(line.text) + "</span> ";
-        }
-      return html + "</p>\n";
-    }
-
-    std::string figures_html(const Gallery &gallery)
-    {
-      std::string html =
-        legend_html(gallery.legend) + "<div class='gallery'>\n";
-      for (const Picture &picture : gallery.pictures)
-        html += "<figure><figcaption>" + html_text(picture.title) +
-                "</figcaption>\n" + picture.svg + "</figure>\n";
-      return html + "</div>\n";
-    }
-
     /// Of the objective, without decimals that mean nothing.
     std::string gain_text(const double gain)
     {
@@ -141,19 +116,6 @@ namespace SlipStep
 .card { border: 1px solid #ccc; border-radius: .3em; padding: .6em .8em; }
 .card h2 { font-size: .85em; color: #555; margin: 0 0 .4em; border: 0; }
 .card p { margin: .3em 0; } .big { font-size: 1.15em; font-weight: 600; }
-.gallery { display: grid; gap: .6em 1em;
-  grid-template-columns: repeat(auto-fill, minmax(min(100%, 320px), 1fr)); }
-.gallery figure { margin: 0; max-width: 470px; min-width: 0; }
-.gallery figcaption { color: #222; font-weight: 600; text-align: center;
-  overflow-wrap: anywhere; }
-.legend { font-size: .85em; margin: .4em 0; }
-.legend span { display: inline-block; margin-right: 1.2em; }
-.legend i { display: inline-block; vertical-align: middle; width: 2em;
-  margin-right: .5em; border-top: 3px solid; }
-.legend i.dashed { border-top-style: dashed; }
-.legend i.area { border-top-width: .9em; }
-.legend i.dot { width: .6em; height: .6em; border: 0; border-radius: 50%;
-  background: currentColor; }
 .bar { display: grid; grid-template-columns: minmax(0, 13em) 1fr 4.5em;
   gap: .6em; align-items: center; margin: .35em 0; font-size: .85em; }
 .card .bar { grid-template-columns: 5em 1fr 4.3em; }
@@ -202,8 +164,6 @@ figure svg { max-width: 100%; }
 @media print { * { print-color-adjust: exact;
     -webkit-print-color-adjust: exact; }
   .cards { grid-template-columns: 1fr 1fr 1fr; }
-  .gallery { grid-template-columns: 1fr 1fr; }
-  .legend { break-after: avoid; }
   .bar, .card, .maps > div { break-inside: avoid; } }
 </style>
 )";
@@ -231,16 +191,6 @@ figure svg { max-width: 100%; }
         "<i class='floor' style='" + css("left", noise / largest) + "'></i>";
     return html + "</span><span class='number'>" + percent_text(value) +
            "</span></div>\n";
-  }
-
-
-
-  std::string gallery_section(const Gallery &gallery)
-  {
-    if (gallery.pictures.empty())
-      return "";
-    return heading(gallery.title) + figures_html(gallery) +
-           note(gallery.caption);
   }
 
 

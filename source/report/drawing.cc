@@ -44,4 +44,35 @@ namespace SlipStep
       warnings.push_back(warning);
     return {title, caption, figure.inline_svg()};
   }
+
+
+  std::string few_tics(const char   axis,
+                       const double lower,
+                       const double upper,
+                       const bool   is_logarithmic)
+  {
+    std::ostringstream text;
+    text << "set " << axis << "tics ";
+    if (!is_logarithmic)
+      {
+        text << round_up((upper - lower) / 4.) << '\n';
+        return text.str();
+      }
+    const double n_decades = std::log10(upper / lower);
+    const int    stride    = std::max(1, static_cast<int>(n_decades / 4.));
+    const char  *separator = "(";
+    for (int e = std::floor(std::log10(lower)); e <= std::log10(upper);
+         e += stride)
+      for (const double factor : {1., 2., 5.})
+        {
+          const double tic = factor * std::pow(10., e);
+          if (tic < lower || tic > upper || (factor > 1. && n_decades > 1.7))
+            continue;
+          // The text as well: gnuplot would write 0.000010.
+          text << separator << '"' << tic << "\" " << tic;
+          separator = ", ";
+        }
+    text << (*separator == '(' ? "autofreq\n" : ")\n");
+    return text.str();
+  }
 } // namespace SlipStep

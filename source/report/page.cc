@@ -38,10 +38,25 @@ figure { margin: 0 0 1.5em; break-inside: avoid; }
 figcaption { color: #555; font-size: .85em; }
 svg { width: 100%; height: auto; display: block; }
 .map svg path, .map svg polygon { shape-rendering: crispEdges; }
+.gallery { display: grid; gap: .6em 1em;
+  grid-template-columns: repeat(auto-fill, minmax(min(100%, 320px), 1fr)); }
+.gallery figure { margin: 0; max-width: 470px; min-width: 0; }
+.gallery figcaption { color: #222; font-weight: 600; text-align: center;
+  overflow-wrap: anywhere; }
+.legend { font-size: .85em; margin: .4em 0; }
+.legend span { display: inline-block; margin-right: 1.2em; }
+.legend i { display: inline-block; vertical-align: middle; width: 2em;
+  margin-right: .5em; border-top: 3px solid; }
+.legend i.dashed { border-top-style: dashed; }
+.legend i.area { border-top-width: .9em; }
+.legend i.dot { width: .6em; height: .6em; border: 0; border-radius: 50%;
+  background: currentColor; }
 summary { cursor: pointer; color: #0072B2; margin: 1em 0; }
 pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
   font-size: .85em; }
 @media print { body { margin: 0; max-width: none; font-size: 11pt; }
+  .gallery { grid-template-columns: 1fr 1fr; }
+  .legend { break-after: avoid; print-color-adjust: exact; }
   .scroll { overflow: visible; } h2 { break-after: avoid; }
   tr { break-inside: avoid; } pre { white-space: pre-wrap; } }
 )";

@@ -4,8 +4,7 @@
 
 #include <slipstep/diagnosis/diagnosis.h>
 
-#include <slipstep/report/drawing.h>
-#include <slipstep/report/run_figures.h>
+#include <slipstep/report/gallery.h>
 
 #include <filesystem>
 #include <string>
@@ -13,81 +12,6 @@
 
 namespace SlipStep
 {
-  /// What a line of a picture means.
-  struct LegendLine
-  {
-    enum Kind
-    {
-      line,
-      dashed,
-      points,
-      area
-    };
-
-    std::string text;
-    std::string colour; ///< "#0072B2"
-    Kind        kind = line;
-
-    /// As gnuplot has it, for `plot ... with lines`.
-    std::string style(const double width = 2.) const;
-  };
-
-  /// Small pictures under one heading, which stand side by side where there is
-  /// room, and the legend that they share.
-  struct Gallery
-  {
-    std::string             title;
-    std::string             caption;
-    std::vector<LegendLine> legend;
-    std::vector<Picture>    pictures; ///< those that were drawn
-  };
-
-  /// A small picture: its frame is the same in all galleries.
-  class SmallPicture
-  {
-  public:
-    /// @param name of its files
-    SmallPicture(const std::filesystem::path &folder,
-                 const std::string           &name,
-                 const std::string           &title);
-
-    /// Axes; a range of no width is widened.
-    void axes(const std::string &x_label,
-              Range              x,
-              const std::string &y_label,
-              Range              y,
-              const bool         is_x_logarithmic = false);
-
-    /// A block of data, "using" and style of which follow.
-    void plot(const std::string              &title,
-              const std::vector<std::string> &columns,
-              const Rows                     &rows,
-              const std::string              &style);
-
-    /// A line all across the picture at this height.
-    void plot_level(const double level, const std::string &style);
-
-    std::ostream &script();
-
-    /// Draw; nothing is added to the gallery if gnuplot is missing, and only
-    /// the first warning is kept.
-    void finish(Gallery &gallery, std::string &warning);
-
-  private:
-    std::string title;
-    Figure      figure;
-    std::string plots;
-  };
-
-  /// Colours that colour-blind readers tell apart, the same in all pictures.
-  namespace Colour
-  {
-    extern const char *const measured;
-    extern const char *const before;
-    extern const char *const after;
-    extern const char *const band;
-  } // namespace Colour
-
   /// Friction as measured, before and after with the noise, one picture per
   /// condition.
   Gallery draw_tests(const std::filesystem::path &folder,

@@ -19,9 +19,6 @@ namespace SlipStep
   /// Verdict, where, what and how far, for whoever reads no further.
   std::string first_screen(const Diagnosis &diagnosis);
 
-  /// Pictures with their legend; of no pictures nothing.
-  std::string gallery_section(const Gallery &gallery);
-
   /// Tests by phases, before and after.
   std::string heat_map_section(const Diagnosis &diagnosis);
 

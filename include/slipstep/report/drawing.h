@@ -44,6 +44,13 @@ namespace SlipStep
   /// The next of 1, 2, 5, 10, ...
   double round_up(const double value);
 
+  /// A gnuplot command with some four round numbers on the axis, so that their
+  /// texts keep apart: powers of ten and their 2 and 5 on a logarithmic one.
+  std::string few_tics(const char   axis,
+                       const double lower,
+                       const double upper,
+                       const bool   is_logarithmic);
+
   /// What legends call a run.
   std::string legend(const RunResults &run);
 

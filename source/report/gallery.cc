@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// The frame that all pictures of a diagnosis have in common.
-
-#include <slipstep/report/panel_grid.h>
-#include <slipstep/report/diagnosis_figures.h>
+#include <slipstep/report/gallery.h>
+#include <slipstep/report/page.h>
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/text.h>
 
@@ -30,6 +28,20 @@ namespace SlipStep
     {
       return "[" + exact_text(range.lower) + ":" + exact_text(range.upper) +
              "]\n";
+    }
+    std::string legend_html(const std::vector<LegendLine> &legend)
+    {
+      std::string html = "<p class='legend'>";
+      for (const LegendLine &line : legend)
+        {
+          const std::string kind = line.kind == LegendLine::area   ? "area" :
+                                   line.kind == LegendLine::points ? "dot" :
+                                   line.kind == LegendLine::dashed ? "dashed" :
+                                                                     "line";
+          html += "<span><i class='" + kind + "' style='color:" + line.colour +
+                  "'></i>" + html_text(line.text) + "</span> ";
+        }
+      return html + "</p>\n";
     }
   } // namespace
 
@@ -128,5 +140,25 @@ namespace SlipStep
       gallery.pictures.push_back(picture);
     if (warning.empty() && !warnings.empty())
       warning = warnings[0];
+  }
+
+
+  std::string figures_html(const Gallery &gallery)
+  {
+    std::string html = legend_html(gallery.legend) + "<div class='gallery'>\n";
+    for (const Picture &picture : gallery.pictures)
+      html += "<figure><figcaption>" + html_text(picture.title) +
+              "</figcaption>\n" + picture.svg + "</figure>\n";
+    return html + "</div>\n";
+  }
+
+
+
+  std::string gallery_section(const Gallery &gallery)
+  {
+    if (gallery.pictures.empty())
+      return "";
+    return heading(gallery.title) + figures_html(gallery) +
+           note(gallery.caption);
   }
 } // namespace SlipStep

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef slipstep_report_profile_curves_h
+#define slipstep_report_profile_curves_h
+
+#include <slipstep/report/gallery.h>
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace SlipStep
+{
+  /// The profile likelihood of a parameter, as pictures show it; values in its
+  /// unit.
+  struct DrawnProfile
+  {
+    std::string name, unit;
+    double      value         = 0.;
+    double      lower         = 0.; ///< of the interval
+    double      upper         = 0.;
+    bool        is_lower_open = false;
+    bool        is_upper_open = false;
+    /// (value, increase of the misfit over the threshold)
+    std::vector<std::pair<double, double>> points;
+    /// Whether the parameter is fitted by its logarithm.
+    bool is_logarithmic = false;
+    /// Where the search ends.
+    double lower_bound = -std::numeric_limits<double>::infinity();
+    double upper_bound = std::numeric_limits<double>::infinity();
+    /// Distance to the threshold by the curvature alone, of the value or of its
+    /// logarithm; infinite if unknown.
+    double distance = std::numeric_limits<double>::infinity();
+  };
+
+  /// How the misfit grows when one parameter is held at other values and the
+  /// others are fitted again; profiles of one point are left out.
+  Gallery draw_profiles(const std::filesystem::path     &folder,
+                        const std::string               &title,
+                        const std::vector<DrawnProfile> &profiles,
+                        const std::string               &interval_name,
+                        std::vector<std::string>        &warnings);
+} // namespace SlipStep
+
+#endif

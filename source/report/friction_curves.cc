@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/report/friction_curves.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace SlipStep
+{
+  namespace
+  {
+    constexpr std::size_t most_frames = 12;
+
+    /// Points of a curve that are kept, at four per column of pixels: many
+    /// curves share what a page may weigh.
+    std::size_t n_columns_of(const std::size_t n_tests)
+    {
+      return std::clamp<std::size_t>(10000 / std::max<std::size_t>(n_tests, 1),
+                                     60,
+                                     500);
+    }
+
+    /// Whether a motion comes back, noise aside, or there is none.
+    bool comes_back(const std::vector<double> &displacement)
+    {
+      Range  all;
+      double fall = 0., rise = 0.;
+      for (const double x : displacement)
+        {
+          all.add(x);
+          fall = std::max(fall, all.upper - x);
+          rise = std::max(rise, x - all.lower);
+        }
+      return std::min(fall, rise) > 0.01 * all.width() || !(all.width() > 0.);
+    }
+
+    /// First, last, lowest and highest point of every column of pixels: the
+    /// picture stays the same and the page small.
+    Rows extremes_per_column(const Rows       &points,
+                             const Range      &x,
+                             const std::size_t n_columns)
+    {
+      if (points.size() <= 4 * n_columns)
+        return points;
+      Rows       kept;
+      const bool is_backward = points.back()[0] < points.front()[0];
+      const auto column_of   = [&](const std::vector<double> &point) {
+        const double share = (point[0] - x.lower) / x.width();
+        return static_cast<std::size_t>(
+          std::clamp(is_backward ? 1. - share : share, 0., 1.) *
+          (n_columns - 1));
+      };
+      for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end)
+        {
+          // Noise of the displacement shall not open a column again.
+          const std::size_t column = column_of(points[begin]);
+          while (end < points.size() && column_of(points[end]) <= column)
+            ++end;
+          const auto range =
+            std::minmax_element(points.begin() + begin,
+                                points.begin() + end,
+                                [](const auto &a, const auto &b) {
+                                  return a[1] < b[1];
+                                });
+          std::array<std::size_t, 4> chosen = {
+            {begin,
+             static_cast<std::size_t>(range.first - points.begin()),
+             static_cast<std::size_t>(range.second - points.begin()),
+             end - 1}};
+          std::sort(chosen.begin(), chosen.end());
+          for (std::size_t i = 0; i < chosen.size(); ++i)
+            if (i == 0 || chosen[i] != chosen[i - 1])
+              kept.push_back(points[chosen[i]]);
+        }
+      return kept;
+    }
+
+    /// NaN where there is none.
+    double value_at(const std::vector<double> &curve, const std::size_t i)
+    {
+      return i < curve.size() ? curve[i] :
+                                std::numeric_limits<double>::quiet_NaN();
+    }
+
+    /// What the axis has to show. Flanks from zero would flatten a difference
+    /// that is elsewhere, so that only half of its surroundings is shown.
+    Range ordinate_of(const ConditionFrame &frame)
+    {
+      Range  all, sliding;
+      double on_flanks = 0., elsewhere = 0.;
+      for (const DrawnTest *const test : frame.tests)
+        for (std::size_t i = 0; i < test->measured.size(); ++i)
+          {
+            const double position = frame.abscissa(*test)[i];
+            if (position < frame.x.lower || position > frame.x.upper)
+              continue;
+            const double measured  = test->measured[i];
+            const double simulated = value_at(test->simulated, i);
+            const double first =
+              test->before.empty() ? simulated : value_at(test->before, i);
+            const bool is_steep =
+              i >= test->is_flank.size() || test->is_flank[i];
+            double &largest = is_steep ? on_flanks : elsewhere;
+            largest         = std::max(largest, std::abs(measured - first));
+            for (Range *const range : {&all, &sliding})
+              if (range == &all || !is_steep)
+                for (const double value : {measured,
+                                           first,
+                                           simulated - 2. * test->noise,
+                                           simulated + 2. * test->noise})
+                  range->add(value);
+          }
+      if (!(on_flanks < elsewhere) || !(sliding.width() > 0.))
+        return with_zero(all);
+      const double margin = 0.5 * sliding.width();
+      return {std::max(all.lower, sliding.lower - margin),
+              std::min(all.upper, sliding.upper + margin)};
+    }
+
+    void draw_frame(SmallPicture         &picture,
+                    const ConditionFrame &frame,
+                    const LegendLine     &simulated_line)
+    {
+      const std::string x_name =
+        frame.is_over_time ? "time_s" : "displacement_mm";
+      const DrawnTest &first = *frame.tests.front();
+      if (first.noise > 0.)
+        {
+          Rows band = frame.rows(first, first.simulated);
+          for (std::vector<double> &row : band)
+            row = {row[0],
+                   row[1] - 2. * first.noise,
+                   row[1] + 2. * first.noise};
+          picture.plot("band of the noise",
+                       {x_name, "lower", "upper"},
+                       band,
+                       "using 1:2:3 with filledcurves fillcolor rgb '" +
+                         noise_band_line.colour + "'");
+        }
+      const auto add = [&](const DrawnTest           &test,
+                           const std::string         &what,
+                           const std::vector<double> &values,
+                           const std::string         &style) {
+        picture.plot(test.name + ", " + what,
+                     {x_name, "friction"},
+                     frame.rows(test, values),
+                     "with lines " + style);
+      };
+      for (std::size_t i = frame.tests.size(); i-- > 0;)
+        add(*frame.tests[i],
+            "measured",
+            frame.tests[i]->measured,
+            (i == 0 ? measured_line : replicate_line).style(1.2));
+      for (const DrawnTest *const test : frame.tests)
+        {
+          if (!test->before.empty())
+            add(*test, "before", test->before, before_line.style());
+          add(*test,
+              simulated_line.text,
+              test->simulated,
+              simulated_line.style());
+        }
+      frame.axes(picture, "Friction  [–]", ordinate_of(frame));
+    }
+  } // namespace
+
+
+
+  const LegendLine measured_line  = {"measured", Colour::measured};
+  const LegendLine replicate_line = {"its replicates", "#a0a0a0"};
+  const LegendLine before_line = {"before", Colour::before, LegendLine::dashed};
+  const LegendLine noise_band_line = {"± twice the noise",
+                                      Colour::band,
+                                      LegendLine::area};
+
+
+
+  Range with_zero(Range y)
+  {
+    if (y.lower > 0. && y.lower < 0.5 * y.upper)
+      y.lower = 0.;
+    return y;
+  }
+
+
+
+  const std::vector<double> &
+  ConditionFrame::abscissa(const DrawnTest &test) const
+  {
+    return is_over_time ? test.time : test.displacement;
+  }
+
+
+
+  Rows ConditionFrame::rows(const DrawnTest           &test,
+                            const std::vector<double> &values) const
+  {
+    const std::vector<double> &position  = abscissa(test);
+    const auto                 is_inside = [&](const std::size_t i) {
+      return position[i] >= x.lower && position[i] <= x.upper;
+    };
+    Rows points;
+    for (std::size_t i = 0; i < std::min(position.size(), values.size()); ++i)
+      // One point beyond the border lets the curve run off the picture.
+      if ((is_inside(i) || (i > 0 && is_inside(i - 1)) ||
+           (i + 1 < position.size() && is_inside(i + 1))) &&
+          std::isfinite(position[i]) && std::isfinite(values[i]))
+        points.push_back({position[i], values[i]});
+    return extremes_per_column(points, x, n_columns);
+  }
+
+
+
+  void ConditionFrame::axes(SmallPicture      &picture,
+                            const std::string &label,
+                            const Range       &y) const
+  {
+    picture.axes(is_over_time ? "Time  [s]" : "Displacement  [mm]",
+                 x,
+                 label,
+                 y);
+  }
+
+
+
+  std::vector<ConditionFrame>
+  condition_frames(const std::vector<DrawnTest> &tests, std::size_t &n_left_out)
+  {
+    std::vector<ConditionFrame> frames;
+    for (const DrawnTest &test : tests)
+      {
+        if (test.measured.empty())
+          continue;
+        const std::string &title =
+          test.condition.empty() ? test.name : test.condition;
+        auto frame =
+          std::find_if(frames.begin(), frames.end(), [&](const auto &other) {
+            return other.title == title;
+          });
+        if (frame == frames.end())
+          {
+            frame        = frames.emplace(frame);
+            frame->title = title;
+          }
+        frame->tests.push_back(&test);
+        frame->is_over_time =
+          frame->is_over_time || comes_back(test.displacement);
+        frame->gap = std::max(frame->gap, test.gap);
+      }
+    for (n_left_out = 0; frames.size() > most_frames; ++n_left_out)
+      frames.erase(std::min_element(frames.begin(),
+                                    frames.end(),
+                                    [](const auto &a, const auto &b) {
+                                      return a.gap < b.gap;
+                                    }));
+    std::size_t n_tests = 0;
+    for (const ConditionFrame &frame : frames)
+      n_tests += frame.tests.size();
+    for (ConditionFrame &frame : frames)
+      {
+        frame.n_columns = n_columns_of(n_tests);
+        for (const DrawnTest *const test : frame.tests)
+          for (const double position : frame.abscissa(*test))
+            frame.x.add(position);
+      }
+    return frames;
+  }
+
+
+
+  std::string frames_caption(const std::vector<ConditionFrame> &frames,
+                             const std::size_t                  n_left_out)
+  {
+    std::string caption;
+    if (std::any_of(frames.begin(), frames.end(), [](const auto &frame) {
+          return frame.tests.size() > 1;
+        }))
+      caption = "Tests under the same condition share a picture. ";
+    if (n_left_out > 0)
+      caption += std::to_string(n_left_out) + " of " +
+                 std::to_string(n_left_out + frames.size()) +
+                 " conditions are left out: those met best. ";
+    return caption;
+  }
+
+
+
+  Gallery draw_friction(const std::filesystem::path       &folder,
+                        const std::string                 &name,
+                        const std::string                 &title,
+                        const std::vector<ConditionFrame> &frames,
+                        const std::string                 &simulated,
+                        std::vector<std::string>          &warnings)
+  {
+    const LegendLine simulated_line{simulated, Colour::after};
+    Gallery          gallery{title, "", {measured_line}, {}};
+    std::string      warning;
+    bool             has_replicates = false, has_before = false;
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      {
+        SmallPicture picture(folder,
+                             name + "_" + std::to_string(i + 1),
+                             frames[i].title);
+        draw_frame(picture, frames[i], simulated_line);
+        picture.finish(gallery, warning);
+        has_replicates = has_replicates || frames[i].tests.size() > 1;
+        has_before     = has_before || !frames[i].tests.front()->before.empty();
+      }
+    if (has_replicates)
+      gallery.legend.push_back(replicate_line);
+    if (has_before)
+      gallery.legend.push_back(before_line);
+    gallery.legend.push_back(simulated_line);
+    gallery.legend.push_back(noise_band_line);
+    if (!warning.empty())
+      warnings.push_back(warning);
+    return gallery;
+  }
+} // namespace SlipStep
