@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# The program, its man page, the cases and the papers that belong to them.
+# The program, its man page, the cases and the papers that belong to them; the law
+# for other programs.
 include(GNUInstallDirs)
 
 set(man_page "${PROJECT_BINARY_DIR}/slipstep.1")
@@ -17,3 +18,16 @@ install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md LICENSE
 install(DIRECTORY doc/guide DESTINATION "${CMAKE_INSTALL_DOCDIR}/doc")
 install(DIRECTORY prm DESTINATION "${CMAKE_INSTALL_DATADIR}/slipstep"
         PATTERN output EXCLUDE)
+
+# find_package(slipstep_friction) gives slipstep::friction.
+install(TARGETS slipstep_law_library EXPORT slipstep_friction
+        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(EXPORT slipstep_friction NAMESPACE slipstep::
+        FILE slipstep_friction-config.cmake
+        DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/slipstep_friction")
+install(FILES include/slipstep/law_library/slipstep_friction.h
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(FILES source/law_library/slipstep.py
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/slipstep/python")
+install(FILES source/law_library/fric.f
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/slipstep/abaqus")

@@ -12,6 +12,7 @@ declare -A below=(
   [utilities]=''
   [friction]='utilities'
   [measured_data]='utilities'
+  [law_library]='utilities friction'
   [synthetic_tests]='utilities measured_data'
   [experiment]='utilities friction measured_data'
   [calibration]='utilities friction measured_data experiment'

@@ -6,6 +6,7 @@
 #include <slipstep/commands/check.h>
 #include <slipstep/commands/commands.h>
 #include <slipstep/commands/diagnose.h>
+#include <slipstep/commands/export_law.h>
 #include <slipstep/commands/print_parameters.h>
 #include <slipstep/commands/run.h>
 #include <slipstep/friction/law.h>
@@ -52,6 +53,7 @@ namespace SlipStep
         {"calibrate", guarding(calibrate_case)},
         {"diagnose", guarding(diagnose_case)},
         {"import", guarding(import_tests)},
+        {"export", guarding(export_law)},
         {"plant", guarding(plant)},
         {"effects", guarding(list_effects)},
         {"parameters", guarding(print_parameters)}};

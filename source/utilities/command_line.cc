@@ -113,6 +113,17 @@ namespace SlipStep
          2,
          {"set", "output", "variant", "quiet"},
          {}},
+        {"export",
+         "CASE.prm",
+         "write the law of a case for other programs",
+         "Section Friction of the case alone, law.prm, for C, Fortran or Python\n"
+         "with libslipstep_friction. With --format abaqus the user subroutine\n"
+         "FRIC (fric.f), the law that it reads (slipstep.prm) and the lines of\n"
+         "the input file (interaction.inp).\n",
+         1,
+         1,
+         {"set", "output", "variant", "format", "quiet"},
+         {"law", "abaqus"}},
         {"plant",
          "FOLDER",
          "make measured tests with a hidden effect, as an exercise",
@@ -218,7 +229,7 @@ namespace SlipStep
         ("variant", po::value<std::string>()->value_name("NAME"),
          "only this member of the case's sweep")
         ("format", po::value<std::string>()->value_name("NAME"),
-         "of the list: prm, json, md (parameters); text, md (effects)")
+         "prm, json, md (parameters); text, md (effects); law, abaqus (export)")
         ("resume", "go on where an earlier run of the case was stopped")
         ("class", po::value<std::string>()->value_name("NAME"),
          "what is hidden: none, one, two, other_formula, outside, ablated, "

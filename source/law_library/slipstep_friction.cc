@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/friction/contact_point.h>
+#include <slipstep/friction/state_numbers.h>
+#include <slipstep/law_library/slipstep_friction.h>
+#include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/message_lines.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+struct slipstep_law
+{
+  explicit slipstep_law(const SlipStep::Parameters &parameters)
+    : law(parameters)
+    , numbers(law)
+  {}
+
+  const SlipStep::FrictionLaw  law;
+  const SlipStep::StateNumbers numbers;
+};
+
+namespace SlipStep
+{
+  namespace
+  {
+    void tell(const std::string &text, char *message, const std::size_t size)
+    {
+      if (message == nullptr || size == 0)
+        return;
+      const std::string line = essential_lines(text, 3);
+      std::strncpy(message, line.c_str(), size - 1);
+      message[size - 1] = '\0';
+    }
+
+    /// Both stages of a step.
+    ContactState step(const FrictionLaw          &law,
+                      const ContactState         &start,
+                      const dealii::Tensor<1, 2> &slip,
+                      const double                pressure,
+                      const double                time_step)
+    {
+      constexpr double share = TwoStages::gamma;
+      ContactPoint     point(start);
+      point.update(law,
+                   share * slip,
+                   (1. - share) * start.normal_traction + share * pressure,
+                   share * time_step);
+      point.begin_second_stage(law);
+      point.update(law, share * slip, pressure, share * time_step);
+      return point.trial();
+    }
+
+    /// Distances for differences: a millionth of what makes a difference.
+    constexpr double difference = 1e-6;
+
+    void differentiate(const slipstep_law         &law,
+                       const ContactState         &start,
+                       const dealii::Tensor<1, 2> &slip,
+                       const double                pressure,
+                       const double                time_step,
+                       const ContactState         &end,
+                       double                     *d_slip,
+                       double                     *d_pressure)
+    {
+      const auto traction = [&](const dealii::Tensor<1, 2> &at_slip,
+                                const double                at_pressure) {
+        return step(law.law, start, at_slip, at_pressure, time_step).traction;
+      };
+      if (d_slip != nullptr)
+        {
+          const double distance =
+            difference *
+            (slip.norm() + end.strength / law.law.tangential_stiffness());
+          for (unsigned int j = 0; j < 2; ++j)
+            {
+              dealii::Tensor<1, 2> change;
+              change[j]        = distance;
+              const auto slope = (traction(slip + change, pressure) -
+                                  traction(slip - change, pressure)) /
+                                 (2. * distance);
+              for (unsigned int i = 0; i < 2; ++i)
+                d_slip[2 * i + j] = slope[i];
+            }
+        }
+      if (d_pressure != nullptr)
+        {
+          const double distance = difference * pressure;
+          const auto   slope    = (traction(slip, pressure + distance) -
+                              traction(slip, pressure - distance)) /
+                             (2. * distance);
+          for (unsigned int i = 0; i < 2; ++i)
+            d_pressure[i] = slope[i];
+        }
+    }
+
+    slipstep_law *read(const std::filesystem::path &file,
+                       char                        *message,
+                       const std::size_t            size)
+    {
+      try
+        {
+          Parameters parameters;
+          FrictionLaw::declare_parameters(parameters);
+          parameters.read(file);
+          if (!parameters.variants().empty())
+            throw InputError(file.string() +
+                             ": a sweep has several laws; \"slipstep export\" "
+                             "writes one");
+          return new slipstep_law(parameters);
+        }
+      catch (const std::exception &error)
+        {
+          tell(error.what(), message, size);
+        }
+      return nullptr;
+    }
+  } // namespace
+} // namespace SlipStep
+
+using namespace SlipStep;
+
+slipstep_law *
+slipstep_law_read(const char *file, char *message, const size_t size)
+{
+  return read(file, message, size);
+}
+
+
+
+slipstep_law *
+slipstep_law_parse(const char *text, char *message, const size_t size)
+{
+  // A case is read from a file, which its messages name.
+  std::string name =
+    (std::filesystem::temp_directory_path() / "slipstep_law_XXXXXX.prm")
+      .string();
+  const int descriptor = mkstemps(name.data(), 4);
+  if (descriptor < 0)
+    {
+      tell("no temporary file can be written in " +
+             std::filesystem::temp_directory_path().string(),
+           message,
+           size);
+      return nullptr;
+    }
+  close(descriptor);
+  std::ofstream(name) << text;
+  slipstep_law *const law = read(name, message, size);
+  std::filesystem::remove(name);
+  return law;
+}
+
+
+
+slipstep_law *slipstep_law_named(const char  *folder,
+                                 const char  *name,
+                                 char *const  message,
+                                 const size_t size)
+{
+  static std::mutex                                           mutex;
+  static std::map<std::string, std::unique_ptr<slipstep_law>> laws;
+  const std::lock_guard<std::mutex>                           lock(mutex);
+  const std::string                                           file =
+    (std::filesystem::path(folder) /
+     (lower_case(dealii::Utilities::trim(name)) + ".prm"))
+      .string();
+  std::unique_ptr<slipstep_law> &law = laws[file];
+  if (law == nullptr)
+    law.reset(read(file, message, size));
+  return law.get();
+}
+
+
+
+void slipstep_law_free(slipstep_law *const law)
+{
+  delete law;
+}
+
+
+
+int slipstep_state_size(const slipstep_law *const law)
+{
+  return static_cast<int>(law->numbers.size());
+}
+
+
+
+const char *slipstep_state_name(const slipstep_law *const law, const int i)
+{
+  return i < 0 || i >= slipstep_state_size(law) ? "" : law->numbers.name(i);
+}
+
+
+
+void slipstep_initial_state(const slipstep_law *const law, double *const state)
+{
+  law->numbers.write(law->law.initial_state(), state);
+}
+
+
+
+double slipstep_tangential_stiffness(const slipstep_law *const law)
+{
+  return law->law.tangential_stiffness();
+}
+
+
+
+double slipstep_normal_stiffness(const slipstep_law *const law)
+{
+  return law->law.normal_stiffness();
+}
+
+
+
+int slipstep_step(const slipstep_law *const law,
+                  const double *const       start,
+                  const double              slip[2],
+                  const double              pressure,
+                  const double              time_step,
+                  double *const             end,
+                  double                    traction[2],
+                  double                    d_slip[4],
+                  double                    d_pressure[2],
+                  char *const               message,
+                  const size_t              size)
+{
+  try
+    {
+      const ContactState first = law->numbers.read(start);
+      if (!std::all_of(start,
+                       start + slipstep_state_size(law),
+                       [](const double x) { return std::isfinite(x); }))
+        throw InputError("the state has a number that is not finite");
+      if (!std::isfinite(slip[0]) || !std::isfinite(slip[1]) ||
+          !std::isfinite(pressure))
+        throw InputError("slip and pressure of a step have to be finite");
+      if (!(time_step > 0.) || !std::isfinite(time_step))
+        throw InputError("the time step has to be positive");
+      const dealii::Tensor<1, 2> increment({slip[0], slip[1]});
+      const ContactState         last =
+        step(law->law, first, increment, pressure, time_step);
+      double slopes[6] = {0., 0., 0., 0., 0., 0.};
+      if (pressure > 0. && (d_slip != nullptr || d_pressure != nullptr))
+        differentiate(*law,
+                      first,
+                      increment,
+                      pressure,
+                      time_step,
+                      last,
+                      d_slip == nullptr ? nullptr : slopes,
+                      d_pressure == nullptr ? nullptr : slopes + 4);
+      law->numbers.write(last, end);
+      for (unsigned int i = 0; i < 2; ++i)
+        traction[i] = last.traction[i];
+      if (d_slip != nullptr)
+        std::copy(slopes, slopes + 4, d_slip);
+      if (d_pressure != nullptr)
+        std::copy(slopes + 4, slopes + 6, d_pressure);
+      return 0;
+    }
+  catch (const std::exception &error)
+    {
+      tell(error.what(), message, size);
+      return 1;
+    }
+}

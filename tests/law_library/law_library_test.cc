@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/law_library/slipstep_friction.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/file_text.h"
+#include "tests/temporary_folder.h"
+
+namespace
+{
+  namespace fs = std::filesystem;
+
+  const std::string program = SLIPSTEP_BINARY;
+  const fs::path    cases   = fs::path(SLIPSTEP_SOURCE_DIR) / "prm";
+
+  /// An increment of the motion of a point, with the traction at its end.
+  struct Increment
+  {
+    double time_step, slip[2], pressure, traction[2];
+  };
+
+  int shell(const std::string &command)
+  {
+    return std::system((command + " > /dev/null").c_str());
+  }
+
+  /// What `slipstep point` makes of a case.
+  std::vector<Increment> point_history(const std::string &name,
+                                       const std::string &options)
+  {
+    const fs::path folder = test_folder() / "point";
+    const fs::path prm    = cases / name / (name + ".prm");
+    EXPECT_EQ(shell(program + " point " + prm.string() + " --output " +
+                    folder.string() + " --quiet " + options),
+              0);
+    fs::path file;
+    for (const auto &entry : fs::recursive_directory_iterator(folder))
+      if (entry.path().filename() == "history.csv")
+        file = entry.path();
+    std::ifstream            in(file);
+    std::string              line;
+    std::vector<std::string> names;
+    std::vector<Increment>   increments;
+    double                   last[3] = {0., 0., 0.};
+    while (std::getline(in, line))
+      {
+        if (line.empty() || line[0] == '#')
+          continue;
+        std::istringstream       cells(line);
+        std::vector<std::string> row;
+        for (std::string cell; std::getline(cells, cell, ',');)
+          row.push_back(cell);
+        if (names.empty())
+          {
+            names = row;
+            continue;
+          }
+        const auto value = [&](const std::string &column) {
+          for (std::size_t i = 0; i < names.size(); ++i)
+            if (names[i] == column)
+              return std::stod(row[i]);
+          ADD_FAILURE() << column;
+          return 0.;
+        };
+        const double now[3] = {value("time_s"),
+                               value("displacement_mm"),
+                               value("displacement_y_mm")};
+        const double p      = value("pressure_MPa");
+        increments.push_back(
+          {now[0] - last[0],
+           {now[1] - last[1], now[2] - last[2]},
+           p,
+           {p * value("friction"), p * value("friction_y")}});
+        std::copy(now, now + 3, last);
+      }
+    EXPECT_GT(increments.size(), 20u) << file;
+    return increments;
+  }
+
+  /// The law of a case, exported.
+  fs::path exported(const std::string &name,
+                    const std::string &options,
+                    const std::string &format)
+  {
+    const fs::path prm = cases / name / (name + ".prm");
+    EXPECT_EQ(shell(program + " export " + prm.string() + " --output " +
+                    (test_folder() / format).string() + " --format " + format +
+                    " " + options),
+              0);
+    fs::path file;
+    for (const auto &entry :
+         fs::recursive_directory_iterator(test_folder() / format))
+      if (entry.path().extension() == ".prm")
+        file = entry.path();
+    return file;
+  }
+
+  struct ShippedCase
+  {
+    std::string name, options;
+  };
+
+  class LawLibrary : public testing::TestWithParam<ShippedCase>
+  {
+  protected:
+    void SetUp() override
+    {
+      increments = point_history(GetParam().name, GetParam().options);
+    }
+
+    std::vector<Increment> increments;
+  };
+} // namespace
+
+
+
+TEST_P(LawLibrary, ItRepeatsThePoint)
+{
+  const fs::path file = exported(GetParam().name, GetParam().options, "law");
+  char           message[300] = "";
+  slipstep_law *law = slipstep_law_read(file.c_str(), message, sizeof(message));
+  ASSERT_NE(law, nullptr) << message;
+  std::vector<double> state(slipstep_state_size(law));
+  slipstep_initial_state(law, state.data());
+  double largest = 0.;
+  for (const Increment &increment : increments)
+    {
+      double traction[2];
+      ASSERT_EQ(slipstep_step(law,
+                              state.data(),
+                              increment.slip,
+                              increment.pressure,
+                              increment.time_step,
+                              state.data(),
+                              traction,
+                              nullptr,
+                              nullptr,
+                              message,
+                              sizeof(message)),
+                0)
+        << message;
+      EXPECT_EQ(traction[0], state[0]);
+      for (unsigned int i = 0; i < 2; ++i)
+        largest =
+          std::max(largest, std::abs(traction[i] - increment.traction[i]));
+    }
+  slipstep_law_free(law);
+  EXPECT_LT(largest, 1e-10);
+  std::cout << "largest difference " << largest << " MPa" << std::endl;
+}
+
+
+
+#ifdef SLIPSTEP_ABAQUS_DRIVER
+TEST_P(LawLibrary, TheUserSubroutineRepeatsThePoint)
+{
+  const fs::path file = exported(GetParam().name, GetParam().options, "abaqus");
+  const std::string lines = content(file.parent_path() / "interaction.inp");
+  EXPECT_TRUE(
+    contains(content(file.parent_path() / "fric.f"), "SUBROUTINE FRIC(LM,TAU"));
+  const std::size_t at = lines.find("DEPVAR=");
+  ASSERT_NE(at, std::string::npos) << lines;
+  const int      depvar = std::stoi(lines.substr(at + 7));
+  const fs::path input  = test_folder() / "increments";
+  {
+    std::ofstream out(input);
+    out.precision(17);
+    for (const Increment &increment : increments)
+      out << increment.time_step << ' ' << increment.slip[0] << ' '
+          << increment.slip[1] << ' ' << increment.pressure << '\n';
+  }
+  const std::string start = "cd " + test_folder().string() + " && " +
+                            SLIPSTEP_ABAQUS_DRIVER + " " +
+                            file.parent_path().string() + " SLIPSTEP ";
+  const fs::path output = test_folder() / "stresses";
+  ASSERT_EQ(std::system((start + std::to_string(depvar) + " 2 < " +
+                         input.string() + " > " + output.string())
+                          .c_str()),
+            0);
+  std::ifstream stresses(output);
+  double        largest = 0.;
+  for (const Increment &increment : increments)
+    {
+      double row[9];
+      for (double &value : row)
+        ASSERT_TRUE(stresses >> value);
+      for (unsigned int i = 0; i < 2; ++i)
+        largest = std::max(largest, std::abs(row[i] - increment.traction[i]));
+      EXPECT_GE(row[8], 0.);
+    }
+  EXPECT_LT(largest, 1e-10);
+  std::cout << "largest difference " << largest << " MPa" << std::endl;
+
+  // Too little room for the state ends the job.
+  EXPECT_NE(std::system((start + std::to_string(depvar - 1) + " 2 < " +
+                         input.string() + " > " + output.string())
+                          .c_str()),
+            0);
+  EXPECT_TRUE(contains(content(output), "the law needs DEPVAR="));
+}
+#endif
+
+INSTANTIATE_TEST_SUITE_P(
+  OfShippedCases,
+  LawLibrary,
+  testing::Values(ShippedCase{"velocity_step", ""},
+                  ShippedCase{"anisotropic_path", ""},
+                  ShippedCase{"slide_hold_slide", "--variant \"10 mm/min\""},
+                  ShippedCase{"flat_surface_test", "--variant \"200 mm/min\""}),
+  [](const auto &info) { return info.param.name; });
+
+
+
+TEST(LawLibraryExport, ItWritesOverItsOwnFilesOnly)
+{
+  const fs::path    folder = test_folder() / "job";
+  const std::string start =
+    program + " export " +
+    (cases / "velocity_step" / "velocity_step.prm").string() +
+    " --format abaqus --output " + folder.string() + " 2> " +
+    (test_folder() / "message").string();
+  EXPECT_EQ(shell(start), 0);
+  EXPECT_EQ(shell(start), 0);
+  for (const std::string file : {"fric.f", "slipstep.prm", "interaction.inp"})
+    {
+      const std::string text = content(folder / file);
+      std::ofstream(folder / file) << "C of mine\n" << text;
+      EXPECT_NE(shell(start), 0) << file;
+      EXPECT_TRUE(contains(content(test_folder() / "message"),
+                           file + " is there and was not written"));
+      EXPECT_TRUE(contains(content(folder / file), "C of mine"));
+      std::ofstream(folder / file) << text;
+    }
+}
+
+
+
+// Members that differ in speed have one law, those that differ in it have not.
+TEST(LawLibraryExport, OneLawIsAskedFor)
+{
+  const fs::path    message = test_folder() / "message";
+  const fs::path    laws    = test_folder() / "laws.prm";
+  const std::string end =
+    " --output " + (test_folder() / "law").string() + " 2> " + message.string();
+  const std::string speeds =
+    (cases / "slide_hold_slide" / "slide_hold_slide.prm").string();
+  EXPECT_EQ(shell(program + " export " + speeds + end), 0) << content(message);
+  std::ofstream(laws) << "include " << speeds
+                      << "\nsubsection Sweep\n"
+                         "  set Key = Friction/Static coefficient\n"
+                         "  set Values = 0.11, 0.12\nend\n";
+  EXPECT_NE(shell(program + " export " + laws.string() + end), 0);
+  EXPECT_TRUE(contains(content(message), "choose one with --variant"))
+    << content(message);
+  EXPECT_EQ(shell(program + " export " + laws.string() +
+                  " --variant \"Static coefficient 0.12\"" + end),
+            0)
+    << content(message);
+}
+
+
+
+// The tangent leads to where the step is, from wherever it is taken.
+TEST(LawLibraryStep, TangentsPredictNearbySteps)
+{
+  char          message[300] = "";
+  slipstep_law *law =
+    slipstep_law_parse("subsection Friction\n"
+                       "  set Effects = subloading, overstress, softening\n"
+                       "end\n",
+                       message,
+                       sizeof(message));
+  ASSERT_NE(law, nullptr) << message;
+  const double elastic = 1. / slipstep_tangential_stiffness(law);
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> random(-1., 1.);
+  std::vector<double>                    state(slipstep_state_size(law));
+  slipstep_initial_state(law, state.data());
+  for (unsigned int n = 0; n < 100; ++n)
+    {
+      const double slip[2]  = {elastic * random(generator),
+                               elastic * random(generator)};
+      const double pressure = 2. + random(generator);
+      double       traction[2], d_slip[4], d_pressure[2];
+      auto         end = state;
+      ASSERT_EQ(slipstep_step(law,
+                              state.data(),
+                              slip,
+                              pressure,
+                              0.1,
+                              end.data(),
+                              traction,
+                              d_slip,
+                              d_pressure,
+                              message,
+                              300),
+                0)
+        << message;
+      const double change[3] = {1e-4 * elastic * random(generator),
+                                1e-4 * elastic * random(generator),
+                                1e-4 * random(generator)};
+      const double moved[2]  = {slip[0] + change[0], slip[1] + change[1]};
+      double       nearby[2];
+      auto         ignored = state;
+      ASSERT_EQ(slipstep_step(law,
+                              state.data(),
+                              moved,
+                              pressure + change[2],
+                              0.1,
+                              ignored.data(),
+                              nearby,
+                              nullptr,
+                              nullptr,
+                              message,
+                              300),
+                0);
+      for (unsigned int i = 0; i < 2; ++i)
+        EXPECT_NEAR(nearby[i],
+                    traction[i] + d_slip[2 * i] * change[0] +
+                      d_slip[2 * i + 1] * change[1] + d_pressure[i] * change[2],
+                    2e-6);
+      state = end;
+    }
+  slipstep_law_free(law);
+}
+
+
+
+TEST(LawLibraryStep, WhatIsWrongIsToldAndChangesNothing)
+{
+  char message[300] = "";
+  EXPECT_EQ(slipstep_law_read("/nowhere/law.prm", message, 300), nullptr);
+  EXPECT_TRUE(contains(message, "no such file")) << message;
+  EXPECT_EQ(slipstep_law_parse("subsection Friction\n set Efects = x\nend\n",
+                               message,
+                               300),
+            nullptr);
+  EXPECT_TRUE(contains(message, "did you mean Friction/Effects")) << message;
+  EXPECT_EQ(slipstep_law_parse("subsection Loading\nend\n", message, 10),
+            nullptr);
+  EXPECT_EQ(std::string(message).size(), 9u);
+  EXPECT_EQ(slipstep_law_named(test_folder().c_str(), "NONE   ", message, 300),
+            nullptr);
+  EXPECT_TRUE(contains(message, "none.prm: no such file")) << message;
+
+  slipstep_law *law = slipstep_law_parse("", nullptr, 0);
+  ASSERT_NE(law, nullptr);
+  std::vector<double> state(slipstep_state_size(law));
+  slipstep_initial_state(law, state.data());
+  EXPECT_STREQ(slipstep_state_name(law, 0), "traction_1_MPa");
+  EXPECT_STREQ(slipstep_state_name(law, -1), "");
+  EXPECT_STREQ(slipstep_state_name(law, slipstep_state_size(law)), "");
+  const auto   before      = state;
+  double       traction[2] = {7., 7.};
+  const double nan         = std::nan("");
+  for (const auto &[slip, pressure, time_step] :
+       std::vector<std::array<double, 3>>{{{0., 1., 0.}},
+                                          {{0., 1., -1.}},
+                                          {{0., 1., nan}},
+                                          {{nan, 1., 1.}},
+                                          {{0., nan, 1.}}})
+    {
+      const double slips[2] = {slip, 0.};
+      EXPECT_EQ(slipstep_step(law,
+                              state.data(),
+                              slips,
+                              pressure,
+                              time_step,
+                              state.data(),
+                              traction,
+                              nullptr,
+                              nullptr,
+                              nullptr,
+                              0),
+                1);
+      EXPECT_EQ(state, before);
+      EXPECT_EQ(traction[0], 7.);
+    }
+  // Open: no traction, no tangent.
+  const double slips[2]  = {1., 0.};
+  double       d_slip[4] = {7., 7., 7., 7.};
+  EXPECT_EQ(slipstep_step(law,
+                          state.data(),
+                          slips,
+                          -1.,
+                          1.,
+                          state.data(),
+                          traction,
+                          d_slip,
+                          nullptr,
+                          nullptr,
+                          0),
+            0);
+  EXPECT_EQ(traction[0], 0.);
+  EXPECT_EQ(d_slip[0], 0.);
+  slipstep_law_free(law);
+}
