@@ -193,6 +193,9 @@ namespace SlipStep
         multiply(result.factor, effect->strength_factor(step));
         add(result.sum, effect->additive_strength(step));
       }
+    const Strength place{step.start.strength_factor, 0., 0., {}};
+    multiply(result.factor, place);
+    multiply(result.sum, place);
     return result;
   }
 
@@ -207,9 +210,10 @@ namespace SlipStep
     Strength    &d = local.d_strength;
     if (strength_effects.empty())
       {
-        local.strength = f_n * mu;
-        d.d_slip       = f_n * local.d_coefficient;
-        d.d_normal     = mu;
+        const double place = local.start.strength_factor;
+        local.strength     = place * f_n * mu;
+        d.d_slip           = place * f_n * local.d_coefficient;
+        d.d_normal         = place * mu;
         return;
       }
 

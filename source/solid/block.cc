@@ -242,6 +242,8 @@ namespace SlipStep
     Vector update(right_hand_side);
 
     double norm = compute_residual();
+    if (bring_to_touch())
+      norm = compute_residual();
     for (unsigned int n = 0;; ++n)
       {
         residual_norms.push_back(norm / force_scale);
@@ -370,6 +372,7 @@ namespace SlipStep
       force_scale =
         std::max(force_scale,
                  std::abs(load_factors[k]) * load_cases[k].force.l2_norm());
+    force_scale = std::max(force_scale, least_force_scale());
 
     right_hand_side = 0.;
     right_hand_side.add(-1., unbalanced);

@@ -93,22 +93,28 @@ namespace SlipStep
   // @sect3{When it goes wrong}
 
   // A block without contact is free to move, so there is nothing left to
-  // compute.
+  // compute, unless it is held and has yet to touch.
   template <int dim>
   void Block<dim>::check_contact(const ContactTotals &totals)
   {
     largest_normal_load = std::max(largest_normal_load, totals.normal_load);
     contact_share       = totals.area / parameters.nominal_contact_area();
-    if (contact_share < smallest_contact_share)
+    if (contact_share < smallest_contact_share &&
+        !parameters.surface.is_curved())
       {
         smallest_contact_share = contact_share;
         time_of_opening        = control.time();
       }
-    if (totals.normal_load <= 1e-6 * largest_normal_load)
+    const bool has_yet_to_touch =
+      parameters.surface.is_curved() && parameters.is_held_along_normal() &&
+      largest_normal_load == 0. && !control.is_finished();
+    if (totals.normal_load <= 1e-6 * largest_normal_load && !has_yet_to_touch)
       {
         std::ostringstream message;
         message << "no contact pressure is left at t = " << control.time()
-                << " s: the block has come off the plane";
+                << (largest_normal_load > 0. ?
+                      " s: the block has come off the plane" :
+                      " s: the block has not touched the plane");
         throw RunError(message.str());
       }
 
@@ -143,7 +149,8 @@ namespace SlipStep
   std::string Block<dim>::reason_of_failure() const
   {
     std::ostringstream message;
-    if (largest_normal_load > 0. && contact_share < 0.6)
+    if (largest_normal_load > 0. && contact_share < 0.6 &&
+        !parameters.surface.is_curved())
       message << "the block tips over: only "
               << std::round(100. * contact_share)
               << " % of its face is still in contact (" << failure << ")";

@@ -92,26 +92,40 @@ namespace SlipStep
     // ranks.
     struct FaceField
     {
-      std::string                                 name;
-      std::function<double(const ContactState &)> value;
+      std::string name;
+      // Of the state and the distance from the plane [mm].
+      std::function<double(const ContactState &, const double)> value;
     };
 
-    std::vector<FaceField> face_fields(const FrictionLaw &law)
+    std::vector<FaceField> face_fields(const FrictionLaw    &law,
+                                       const ContactSurface &surface)
     {
       using State                   = ContactState;
       std::vector<FaceField> fields = {
-        {"pressure_MPa", [](const State &s) { return s.normal_traction; }},
-        {"traction_x_MPa", [](const State &s) { return s.traction[0]; }},
-        {"traction_y_MPa", [](const State &s) { return s.traction[1]; }},
-        {"slip_mm", [](const State &s) { return s.slip_path; }},
-        {"r", [](const State &s) { return s.loading_ratio; }},
-        {"r_s", [](const State &s) { return s.normal_ratio; }},
-        {"mu", [](const State &s) { return s.coefficient; }},
+        {"pressure_MPa",
+         [](const State &s, const double) { return s.normal_traction; }},
+        {"traction_x_MPa",
+         [](const State &s, const double) { return s.traction[0]; }},
+        {"traction_y_MPa",
+         [](const State &s, const double) { return s.traction[1]; }},
+        {"slip_mm", [](const State &s, const double) { return s.slip_path; }},
+        {"r", [](const State &s, const double) { return s.loading_ratio; }},
+        {"r_s", [](const State &s, const double) { return s.normal_ratio; }},
+        {"mu", [](const State &s, const double) { return s.coefficient; }},
         {"dissipated_energy_Nmm_per_mm2",
-         [](const State &s) { return s.dissipation; }}};
+         [](const State &s, const double) { return s.dissipation; }}};
       for (const ContactMemory &memory : law.memories())
-        fields.push_back(
-          {memory.name, [memory](const State &s) { return s.*memory.value; }});
+        fields.push_back({memory.name, [memory](const State &s, const double) {
+                            return s.*memory.value;
+                          }});
+      if (surface.has_map_of_strength())
+        fields.push_back({"strength_factor", [](const State &s, const double) {
+                            return s.strength_factor;
+                          }});
+      if (surface.is_curved())
+        fields.push_back({"gap_mm", [](const State &, const double distance) {
+                            return std::max(0., distance);
+                          }});
       return fields;
     }
 
@@ -128,10 +142,11 @@ namespace SlipStep
     {
     public:
       ContactPatches(const ContactFace<dim>       &contact,
+                     const ContactSurface         &surface,
                      const dealii::Vector<double> &squared_errors)
         : names({"slips", squared_error})
       {
-        const auto fields = face_fields(contact.friction_law());
+        const auto fields = face_fields(contact.friction_law(), surface);
         for (const FaceField &field : fields)
           names.push_back(field.name);
         const FE_DGQ<dim - 1> corners(1);
@@ -162,7 +177,8 @@ namespace SlipStep
                     patch.data(0, v) += point.slips ? weight : 0.;
                     for (unsigned int i = 0; i < fields.size(); ++i)
                       patch.data(2 + i, v) +=
-                        weight * fields[i].value(point.point.committed());
+                        weight * fields[i].value(point.point.committed(),
+                                                 point.distance);
                   }
               }
             patches.push_back(patch);
@@ -280,7 +296,9 @@ namespace SlipStep
                                   const dealii::Vector<double> &squared_errors,
                                   const double                  time)
   {
-    const ContactPatches<dim> patches(contact, squared_errors);
+    const ContactPatches<dim> patches(contact,
+                                      parameters.surface,
+                                      squared_errors);
     const bool                has_cells = !contact.cell_faces().empty();
     write_patches("contact", patches, has_cells, contact_files, time);
   }
@@ -368,8 +386,8 @@ namespace SlipStep
   BlockOutput<dim>::write_contact_table(const ContactFace<dim> &contact) const
   {
     // Position, sizes and area of a cell, then its averages.
-    using Row               = std::vector<double>;
-    const auto       fields = face_fields(contact.friction_law());
+    using Row         = std::vector<double>;
+    const auto fields = face_fields(contact.friction_law(), parameters.surface);
     std::vector<Row> rows;
     for (const auto &cell_face : contact.cell_faces())
       {
@@ -387,7 +405,8 @@ namespace SlipStep
         for (const auto &point : cell_face.points)
           for (unsigned int i = 0; i < fields.size(); ++i)
             row[5 + i] +=
-              fields[i].value(point.point.committed()) * point.JxW / row[4];
+              fields[i].value(point.point.committed(), point.distance) *
+              point.JxW / row[4];
         rows.push_back(row);
       }
 

@@ -259,6 +259,42 @@ namespace SlipStep
                                     " is prescribed, so a load along it "
                                     "changes nothing: remove one of the two");
     }
+
+
+
+    void read_surface(BlockParameters &block, const Parameters &parameters)
+    {
+      std::vector<unsigned int> axes;
+      for (unsigned int i = 0; i + 1 < block.dimension; ++i)
+        axes.push_back(block.tangential_axis(i));
+      block.surface = ContactSurface(parameters,
+                                     axes,
+                                     block.size,
+                                     !block.is_held_along_normal());
+
+      // What is moved without a load goes as far as it is moved.
+      double farthest = 0.;
+      for (const FaceConditions &face : block.faces)
+        {
+          double motion = 0.;
+          for (unsigned int k = 0; k < n_load_parts; ++k)
+            {
+              if (face.tractions[k] != dealii::Tensor<1, 3>())
+                return;
+              motion += block.outward_sign() *
+                        face.displacements[k][block.normal_axis()];
+            }
+          farthest = std::max(farthest, motion);
+        }
+      if (block.surface.is_curved() && block.surface.least_gap() >= farthest)
+        {
+          std::ostringstream message;
+          message << "is " << block.surface.least_gap()
+                  << " mm or more everywhere, but the block is moved by "
+                  << farthest << " mm towards the plane: it never touches";
+          parameters.reject("Contact/Gap", message.str());
+        }
+    }
   } // namespace
 
 
@@ -350,6 +386,7 @@ namespace SlipStep
                        "Iterations after which the time step is cut. 2 or "
                        "more.");
     FieldSchedule::declare_parameters(parameters);
+    ContactSurface::declare_parameters(parameters);
   }
 
 
@@ -486,6 +523,8 @@ namespace SlipStep
           "the plane" :
           "no contact pressure: nothing presses the block on the plane; begin "
           "with e.g. 'press 5.8 MPa in 1 s'");
+
+    read_surface(*this, parameters);
 
     const std::string solver_name = parameters.text("Block/Solver");
     solver = (solver_name == "direct"    ? SolverType::direct :

@@ -25,7 +25,7 @@ namespace SlipStep
   {
     is_marked = false;
     if (parameters.refinement.type != RefinementType::adaptive ||
-        !is_time_to_check())
+        contact_forces.l2_norm() == 0. || !is_time_to_check())
       return false;
     const MarkedCells marked = mark_cells();
     if (!mesh_changes.empty() && std::isnan(mesh_changes.back().error))

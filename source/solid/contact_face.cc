@@ -48,9 +48,13 @@ namespace SlipStep
           for (const unsigned int q : fe_values.quadrature_point_indices())
             {
               QuadraturePoint point;
-              point.point    = ContactPoint(law);
-              point.position = fe_values.quadrature_point(q);
-              point.JxW      = fe_values.JxW(q);
+              point.position                    = fe_values.quadrature_point(q);
+              const ContactSurface::Place place = place_of(point.position);
+              point.gap                         = parameters.surface.gap(place);
+              ContactState state                = law.initial_state();
+              state.strength_factor = parameters.surface.strength(place);
+              point.point           = ContactPoint(state);
+              point.JxW             = fe_values.JxW(q);
               cell_face.points.push_back(point);
             }
           faces.push_back(std::move(cell_face));
@@ -125,41 +129,95 @@ namespace SlipStep
         interpolate(old_displacement, dofs, old_values);
         for (unsigned int q = 0; q < values.size(); ++q)
           {
-            QuadraturePoint &point       = cell_face.points[q];
-            const double     penetration = sign * values[q][normal];
-            const double     f_n         = law.normal_stiffness() * penetration;
-            Tensor<1, 2>     slip;
+            QuadraturePoint &point = cell_face.points[q];
+            point.distance         = point.gap - sign * values[q][normal];
+            if (!is_second_stage)
+              point.distance_at_start =
+                point.point.committed().normal_traction > 0. ?
+                  0. :
+                  std::max(0., point.gap - sign * old_values[q][normal]);
+            Tensor<1, 2> slip;
             for (unsigned int i = 0; i < dim - 1; ++i)
               slip[i] =
                 (values[q] - old_values[q])[parameters.tangential_axis(i)] +
                 frame_increment[i];
 
-            const ContactResponse response =
-              point.point.update(law, slip, f_n, time_step);
-            point.slips   = response.slips;
-            point.force   = Tensor<1, dim>();
-            point.tangent = Tensor<2, dim>();
-
-            // A point just touching counts as closed, and as sticking:
-            // otherwise the first load would meet no resistance.
-            if (penetration < 0.)
-              continue;
-            const Tensor<2, 2> d_slip =
-              penetration > 0. ? response.d_slip : law.elastic_tangent();
-            point.force[normal]           = sign * f_n;
-            point.tangent[normal][normal] = law.normal_stiffness();
-            for (unsigned int i = 0; i < dim - 1; ++i)
-              {
-                const unsigned int row = parameters.tangential_axis(i);
-                point.force[row]       = response.traction[i];
-                point.tangent[row][normal] =
-                  response.d_normal[i] * sign * law.normal_stiffness();
-                for (unsigned int j = 0; j < dim - 1; ++j)
-                  point.tangent[row][parameters.tangential_axis(j)] =
-                    d_slip[i][j];
-              }
+            respond(point, slip, time_step);
           }
       }
+  }
+
+
+
+  // A point that was off the plane when the step began slips from when it
+  // touches, @f$1/\xi@f$ of the way of the step,
+  // @f$\xi = g / (g + g_0)@f$ for a penetration g and a distance g_0 at the
+  // beginning. Both stages start from there, since what the first tells of one
+  // that touches later than at its end says nothing of the second: it is one
+  // step of backward Euler, and every point makes such a step once.
+
+  template <int dim>
+  void ContactFace<dim>::respond(QuadraturePoint    &point,
+                                 const Tensor<1, 2> &slip,
+                                 const double        time_step)
+  {
+    const unsigned int normal      = parameters.normal_axis();
+    const double       sign        = parameters.outward_sign();
+    const double       alpha_n     = law.normal_stiffness();
+    const double       penetration = -point.distance;
+    point.slip_of_stage            = slip;
+    point.time_of_stage            = time_step;
+    point.force                    = Tensor<1, dim>();
+    point.tangent                  = Tensor<2, dim>();
+
+    const bool         was_off  = point.distance_at_start > 0.;
+    const Tensor<1, 2> all_slip = slip + point.slip_before;
+    double             share = 1., d_share = 0.;
+    if (point.closes())
+      {
+        const double way = penetration + point.distance_at_start;
+        share            = penetration / way;
+        d_share          = point.distance_at_start / (way * way);
+      }
+    const ContactResponse response =
+      point.point.update(law,
+                         was_off ? share * all_slip : slip,
+                         alpha_n * penetration,
+                         was_off ? time_step + point.time_before : time_step);
+    point.slips = response.slips;
+
+    // A point just touching counts as closed, and as sticking: otherwise the
+    // first load would meet no resistance.
+    if (penetration < 0.)
+      return;
+    const Tensor<2, 2> d_slip =
+      penetration > 0. ? share * response.d_slip : law.elastic_tangent();
+    const Tensor<1, 2> d_penetration =
+      alpha_n * response.d_normal + d_share * (response.d_slip * all_slip);
+    point.force[normal]           = sign * alpha_n * penetration;
+    point.tangent[normal][normal] = alpha_n;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      {
+        const unsigned int row     = parameters.tangential_axis(i);
+        point.force[row]           = response.traction[i];
+        point.tangent[row][normal] = sign * d_penetration[i];
+        for (unsigned int j = 0; j < dim - 1; ++j)
+          point.tangent[row][parameters.tangential_axis(j)] = d_slip[i][j];
+      }
+  }
+
+
+
+  template <int dim>
+  void ContactFace<dim>::begin_first_stage()
+  {
+    is_second_stage = false;
+    for (CellFace &cell_face : faces)
+      for (QuadraturePoint &point : cell_face.points)
+        {
+          point.slip_before = Tensor<1, 2>();
+          point.time_before = 0.;
+        }
   }
 
 
@@ -167,9 +225,73 @@ namespace SlipStep
   template <int dim>
   void ContactFace<dim>::begin_second_stage()
   {
+    is_second_stage = true;
     for (CellFace &cell_face : faces)
       for (QuadraturePoint &point : cell_face.points)
-        point.point.begin_second_stage(law);
+        if (point.distance_at_start > 0.)
+          {
+            point.slip_before = TwoStages::carry * point.slip_of_stage;
+            point.time_before = TwoStages::carry * point.time_of_stage;
+          }
+        else
+          point.point.begin_second_stage(law);
+  }
+
+
+
+  template <int dim>
+  ContactSurface::Place
+  ContactFace<dim>::place_of(const Point<dim> &point) const
+  {
+    ContactSurface::Place place;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      place.push_back(point[parameters.tangential_axis(i)]);
+    return place;
+  }
+
+
+
+  // @sect3{First touch}
+  //
+  // Of a face that is not flat no point may touch, and there is no answer that
+  // Newton's method could start from. As a rigid body the block sinks in by d
+  // until @f$\sum \alpha_n \langle d - g\rangle w@f$ is the load: convex, so
+  // Newton's method is monotone from where all is closed.
+
+  template <int dim>
+  double ContactFace<dim>::rigid_approach(const double    normal_load,
+                                          const MPI_Comm &communicator) const
+  {
+    double farthest = std::numeric_limits<double>::lowest(), area = 0.;
+    for (const CellFace &cell_face : faces)
+      for (const QuadraturePoint &point : cell_face.points)
+        {
+          farthest = std::max(farthest, point.distance);
+          area += point.JxW;
+        }
+    farthest        = Utilities::MPI::max(farthest, communicator);
+    area            = Utilities::MPI::sum(area, communicator);
+    double approach = farthest + normal_load / (law.normal_stiffness() * area);
+    for (unsigned int iteration = 0; iteration < 100; ++iteration)
+      {
+        std::array<double, 2> sums{}; // load and stiffness
+        for (const CellFace &cell_face : faces)
+          for (const QuadraturePoint &point : cell_face.points)
+            if (approach > point.distance)
+              {
+                sums[0] += law.normal_stiffness() * point.JxW *
+                           (approach - point.distance);
+                sums[1] += law.normal_stiffness() * point.JxW;
+              }
+        Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                            communicator,
+                            ArrayView<double>(sums.data(), sums.size()));
+        const double too_much = sums[0] - normal_load;
+        if (!(too_much > 1e-10 * normal_load))
+          break;
+        approach -= too_much / sums[1];
+      }
+    return approach;
   }
 
 
@@ -198,7 +320,8 @@ namespace SlipStep
       for (const QuadraturePoint &point : cell_face.points)
         {
           const double    weight = point.JxW * strength_of(point);
-          const StepError error  = point.point.error(law);
+          const StepError error =
+            point.distance_at_start > 0. ? StepError() : point.point.error(law);
           errors_at_end.push_back(error.at_end);
           sums[0] += weight * error.at_end;
           sums[1] += weight * error.of_line;
@@ -230,6 +353,7 @@ namespace SlipStep
   template <int dim>
   void ContactFace<dim>::commit()
   {
+    begin_first_stage();
     for (CellFace &cell_face : faces)
       for (QuadraturePoint &point : cell_face.points)
         point.point.commit();
@@ -240,6 +364,7 @@ namespace SlipStep
   template <int dim>
   void ContactFace<dim>::revert()
   {
+    begin_first_stage();
     for (CellFace &cell_face : faces)
       for (QuadraturePoint &point : cell_face.points)
         point.point.revert();
@@ -256,6 +381,7 @@ namespace SlipStep
     QuadraturePoint  changed = earlier;
     changed.position         = point.position;
     changed.JxW              = point.JxW;
+    changed.gap              = point.gap;
     point                    = changed;
   }
 
@@ -268,7 +394,13 @@ namespace SlipStep
     AssertIndexRange(index, faces.size());
     AssertDimension(states.size(), faces[index].points.size());
     for (unsigned int q = 0; q < states.size(); ++q)
-      faces[index].points[q].point = ContactPoint(states[q]);
+      {
+        QuadraturePoint &point = faces[index].points[q];
+        ContactState     state = states[q];
+        state.strength_factor =
+          parameters.surface.strength(place_of(point.position));
+        point.point = ContactPoint(state);
+      }
   }
 
 

@@ -65,7 +65,7 @@ namespace SlipStep
     double on_contact_face(const typename ContactFace<dim>::CellFace &face)
     {
       return factor / parameters.young_modulus * contact_misfit(face) +
-             stick_slip_border(face);
+             stick_slip_border(face) + edge_of_contact(face);
     }
 
   private:
@@ -195,6 +195,24 @@ namespace SlipStep
       for (unsigned int q = 0; q < own.size(); ++q)
         sum += (own[q] + face.points[q].force).norm_square() * own_face.JxW(q);
       return face.cell->face(face.face)->diameter() * sum;
+    }
+
+    // Where a cell is in contact in part, its pressure ends somewhere in it.
+    double
+    edge_of_contact(const typename ContactFace<dim>::CellFace &face) const
+    {
+      double area = 0., closed_area = 0., square = 0.;
+      for (const auto &point : face.points)
+        {
+          const double pressure = point.point.trial().normal_traction;
+          area += point.JxW;
+          closed_area += pressure > 0. ? point.JxW : 0.;
+          square += point.JxW * pressure * pressure;
+        }
+      const double share = closed_area / area;
+      return factor / parameters.young_modulus *
+             face.cell->face(face.face)->diameter() * share * (1. - share) *
+             square;
     }
 
     double

@@ -15,8 +15,8 @@ namespace SlipStep
 {
   struct ParsedFormula::Content
   {
-    double     x = 0.;
-    mu::Parser parser;
+    std::vector<double> values;
+    mu::Parser          parser;
   };
 
 
@@ -114,14 +114,24 @@ namespace SlipStep
 
   ParsedFormula::ParsedFormula(const std::string &text,
                                const std::string &variable)
+    : ParsedFormula(text,
+                    variable.empty() ? std::vector<std::string>() :
+                                       std::vector<std::string>{variable})
+  {}
+
+
+
+  ParsedFormula::ParsedFormula(const std::string              &text,
+                               const std::vector<std::string> &variables)
     : content(std::make_shared<Content>())
   {
     check_formula(text);
     try
       {
         define_functions(content->parser);
-        if (!variable.empty())
-          content->parser.DefineVar(variable, &content->x);
+        content->values.resize(variables.size());
+        for (std::size_t i = 0; i < variables.size(); ++i)
+          content->parser.DefineVar(variables[i], &content->values[i]);
         content->parser.SetExpr(text);
         // Parsing happens at the first evaluation.
         content->parser.Eval();
@@ -141,7 +151,18 @@ namespace SlipStep
 
   double ParsedFormula::operator()(const double x) const
   {
-    content->x = x;
+    if (!content->values.empty())
+      content->values[0] = x;
+    return content->parser.Eval();
+  }
+
+
+
+  double ParsedFormula::operator()(const std::vector<double> &values) const
+  {
+    std::copy_n(values.begin(),
+                content->values.size(),
+                content->values.begin());
     return content->parser.Eval();
   }
 } // namespace SlipStep

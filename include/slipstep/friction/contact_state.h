@@ -42,6 +42,9 @@ namespace SlipStep
     /// Energy dissipated per area [MPa mm].
     double dissipation = 0.;
 
+    /// Factor of the strength at this place of the face, which stays.
+    double strength_factor = 1.;
+
     // What single effects remember, 0 while they are off. None is negative; a
     // change of the mesh averages them.
 
@@ -66,7 +69,7 @@ namespace SlipStep
     void serialize(Archive &archive, const unsigned int)
     {
       archive &traction &normal_traction &strength &loading_ratio &normal_ratio
-        &coefficient &slip_path &slip_rate &dissipation;
+        &coefficient &slip_path &slip_rate &dissipation &strength_factor;
       for (const auto memory : memories())
         archive &(this->*memory.value);
     }

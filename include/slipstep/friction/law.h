@@ -17,14 +17,14 @@ namespace SlipStep
   ///
   /// The contact traction has a normal part f_n and a tangential part f_t,
   /// bounded by the yield level
-  /// \f[ \tau_y = f_n\,\mu\,G_1 G_2\cdots + c_1 + c_2 + \cdots, \qquad
+  /// \f[ \tau_y = s\,(f_n\,\mu\,G_1 G_2\cdots + c_1 + c_2 + \cdots), \qquad
   ///     r = |f_t| / \tau_y, \f]
-  /// and changes with the elastic part of the sliding velocity,
-  /// \f$\dot f_t = \alpha_t (V - \lambda f_t/|f_t|)\f$. The viscoplastic slip
-  /// rate \f$\lambda\f$ follows from the flow rule (Overstress; without it
-  /// r = r_s), the normal ratio r_s grows with slip (Subloading; without it
-  /// r_s = 1) and falls with r, and mu evolves with slip and time (Softening,
-  /// Healing).
+  /// where s, ContactState::strength_factor, is 1 unless the face has a map,
+  /// and changes with the elastic part of the sliding velocity, \f$\dot f_t =
+  /// \alpha_t (V - \lambda f_t/|f_t|)\f$. The viscoplastic slip rate
+  /// \f$\lambda\f$ follows from the flow rule (Overstress; without it r = r_s),
+  /// the normal ratio r_s grows with slip (Subloading; without it r_s = 1) and
+  /// falls with r, and mu evolves with slip and time (Softening, Healing).
   ///
   /// update() makes one implicit stage (TwoStages) by backward Euler: the
   /// traction stays along its elastic trial, which leaves one scalar unknown,
@@ -161,7 +161,7 @@ namespace SlipStep
     struct LocalSystem;
 
     /// What the active effects make of the strength f_n mu: their factors, and
-    /// what they add.
+    /// what they add, times ContactState::strength_factor.
     struct Contributions
     {
       Strength factor{1., 0., 0., {}}, sum;

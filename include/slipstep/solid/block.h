@@ -199,10 +199,12 @@ namespace SlipStep
     void        begin_stage(const double end_time, const double time_step);
     bool        finish_stage(const double weight);
     void        predict();
+    bool        bring_to_touch();
     void        add_loads(const double factor, Vector &vector) const;
     void        impose_displacements();
     bool        solve_stage();
     double      compute_residual();
+    double      least_force_scale() const;
     bool        only_round_off_is_left() const;
     double      linear_tolerance(const double norm) const;
     double      line_search(const Vector &update, const double old_norm);

@@ -5,11 +5,13 @@
 #include <deal.II/base/tensor.h>
 
 #include <slipstep/experiment/programme.h>
+#include <slipstep/solid/contact_surface.h>
 #include <slipstep/solid/field_schedule.h>
 #include <slipstep/solid/loads.h>
 #include <slipstep/solid/refinement_parameters.h>
 #include <slipstep/utilities/parameters.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -82,7 +84,8 @@ namespace SlipStep
     /// right, bottom, top in 2-D.
     std::array<FaceConditions, 6> faces;
     unsigned int                  contact_face = 0;
-    SolverType                    solver       = SolverType::automatic;
+    ContactSurface                surface; ///< of that face
+    SolverType                    solver = SolverType::automatic;
     double                        newton_tolerance;
     unsigned int                  newton_iterations;
     FieldSchedule                 fields; ///< when they are written
@@ -121,6 +124,17 @@ namespace SlipStep
     unsigned int tangential_axis(const unsigned int i) const
     {
       return i < normal_axis() ? i : i + 1;
+    }
+
+    /// Whether a displacement along the normal of the contact plane is
+    /// prescribed somewhere.
+    bool is_held_along_normal() const
+    {
+      return std::any_of(faces.begin(),
+                         faces.end(),
+                         [this](const FaceConditions &face) {
+                           return face.is_prescribed[normal_axis()];
+                         });
     }
 
     /// Number of cells at the beginning.

@@ -41,10 +41,10 @@ namespace SlipStep
   /// The face of the block that touches the rigid plane: a contact point with
   /// its history at every quadrature point.
   ///
-  /// The plane lies where the face is in the undeformed block. A point pushed
-  /// into it by g gives the normal traction f_n = alpha_n g; its slip is its
-  /// displacement along the plane plus that of the frame that moves with the
-  /// drive.
+  /// The plane lies where the face is in the undeformed block, or as far from
+  /// it as the ContactSurface says. A point pushed into it by g gives the
+  /// normal traction f_n = alpha_n g; its slip is its displacement along the
+  /// plane plus that of the frame that moves with the drive, since it touches.
   template <int dim>
   class ContactFace
   {
@@ -59,12 +59,27 @@ namespace SlipStep
       dealii::Tensor<1, dim> force;    ///< per area [MPa]
       dealii::Tensor<2, dim> tangent;  ///< d force / d displacement [MPa/mm]
       bool                   slips = false;
+      double                 gap   = 0.; ///< before loading [mm]
+      double distance = 0.; ///< from the plane, negative if pushed in [mm]
 
-      /// All but position and weight, for boost::serialization.
+      /// Of a point that was off the plane when the step began: how far [mm],
+      /// else 0.
+      double distance_at_start = 0.;
+      /// In the step before the present stage, and in the stage [mm].
+      dealii::Tensor<1, 2> slip_before, slip_of_stage;
+      double               time_before = 0., time_of_stage = 0.; ///< [s]
+
+      bool closes() const
+      {
+        return distance_at_start > 0. && distance < 0.;
+      }
+
+      /// What is not known from position and displacement, for
+      /// boost::serialization.
       template <class Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &point &force &tangent &slips;
+        archive &point &force &tangent &slips &distance;
       }
     };
 
@@ -98,6 +113,11 @@ namespace SlipStep
     /// that of the worst point among those that bear a load, so that a narrow
     /// front counts, too.
     double step_error(const MPI_Comm &communicator) const;
+
+    /// How far the block has to go towards the plane, as a rigid body, to bear
+    /// a normal load [N] > 0, from where it was in the last update [mm].
+    double rigid_approach(const double    normal_load,
+                          const MPI_Comm &communicator) const;
 
     void commit();
 
@@ -152,6 +172,12 @@ namespace SlipStep
       std::vector<double> values; // at the quadrature points
     };
 
+    void                  respond(QuadraturePoint            &point,
+                                  const dealii::Tensor<1, 2> &slip,
+                                  const double                time_step);
+    void                  begin_first_stage();
+    ContactSurface::Place place_of(const dealii::Point<dim> &point) const;
+
     void find_shape_functions(const dealii::FEFaceValues<dim> &fe_values);
     void interpolate(const Vector &displacement,
                      const std::vector<dealii::types::global_dof_index> &dofs,
@@ -163,6 +189,7 @@ namespace SlipStep
     const dealii::DoFHandler<dim> *dof_handler = nullptr;
     std::vector<ShapeFunction>     shape_functions;
     std::vector<CellFace>          faces;
+    bool                           is_second_stage = false;
   };
 } // namespace SlipStep
 

@@ -4,13 +4,14 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 
 namespace SlipStep
 {
-  /// A formula of at most one variable out of a case file, as muParser reads
-  /// it: + - * / ^, comparisons, a ? b : c, exp, log and ln (both natural),
-  /// log10, sqrt, abs, min, max, pow and the like; and pi.
+  /// A formula out of a case file, of one variable or several, as muParser
+  /// reads it: + - * / ^, comparisons, a ? b : c, exp, log and ln (both
+  /// natural), log10, sqrt, abs, min, max, pow and the like; and pi.
   class ParsedFormula
   {
   public:
@@ -19,8 +20,15 @@ namespace SlipStep
     explicit ParsedFormula(const std::string &text,
                            const std::string &variable = "");
 
+    /// @param variables their names
+    ParsedFormula(const std::string              &text,
+                  const std::vector<std::string> &variables);
+
     /// @param x value of the variable
     double operator()(const double x = 0.) const;
+
+    /// @param values of the variables, in the order of their names
+    double operator()(const std::vector<double> &values) const;
 
   private:
     // muParser keeps the place of the variable, which must not move.
