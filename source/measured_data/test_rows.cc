@@ -360,32 +360,102 @@ namespace SlipStep
 
   namespace
   {
-    // How far values that are mostly constant have been rounded; 0 if they are
-    // constant, or ramps and jumps between constants. Rounding makes small
-    // steps that stand alone or go back.
-    double rounding(const std::vector<double> &values)
+    /// The steps of values that are mostly constant.
+    struct Steps
     {
-      constexpr double  largest_share = 0.1; // of the largest value
-      const std::size_t least_number  = 4 + values.size() / 50;
-      const auto        step          = [&](const std::size_t i) {
+      explicit Steps(const std::vector<double> &values);
+
+      std::vector<std::size_t> rows;  ///< of all that are not 0
+      std::vector<double>      sizes; ///< with their signs
+      std::vector<double>      alone; ///< without sign: no neighbour goes on
+      std::size_t              n_back  = 0;  ///< that take back one just made
+      double                   largest = 0.; ///< of the values, without sign
+    };
+
+
+
+    Steps::Steps(const std::vector<double> &values)
+    {
+      constexpr std::size_t just = 3; // rows
+
+      const auto step = [&](const std::size_t i) {
         return i > 0 && i < values.size() ? values[i] - values[i - 1] : 0.;
       };
-      std::vector<double> alone;
-      std::size_t         n_steps = 0;
-      double              largest = 0.;
       for (std::size_t i = 1; i < values.size(); ++i)
         {
           largest = std::max(largest, std::abs(values[i]));
           if (step(i) == 0.)
             continue;
-          ++n_steps;
+          n_back += !rows.empty() && i - rows.back() <= just &&
+                    sizes.back() * step(i) < 0.;
+          rows.push_back(i);
+          sizes.push_back(step(i));
           if (step(i - 1) * step(i) <= 0. && step(i) * step(i + 1) <= 0.)
             alone.push_back(std::abs(step(i)));
         }
-      if (alone.size() < least_number || 2 * alone.size() < n_steps)
+    }
+
+
+
+    // Of equal steps in one direction, one after the other about as long.
+    std::size_t
+    longest_stairs(const Steps &steps, const double size, const double unlike)
+    {
+      constexpr double about = 4.;
+
+      const auto rest = [&](const std::size_t i) {
+        return static_cast<double>(steps.rows[i] - steps.rows[i - 1]);
+      };
+      std::size_t longest = 0, n = 0;
+      for (std::size_t i = 0; i < steps.sizes.size(); ++i)
+        {
+          const bool is_equal =
+            std::abs(std::abs(steps.sizes[i]) - size) <= unlike * size;
+          const bool goes_on =
+            n == 0 || (steps.sizes[i] * steps.sizes[i - 1] > 0. &&
+                       (n == 1 || (rest(i) <= about * rest(i - 1) &&
+                                   rest(i - 1) <= about * rest(i))));
+          n       = !is_equal ? 0 : goes_on ? n + 1 : 1;
+          longest = std::max(longest, n);
+        }
+      return longest;
+    }
+
+
+
+    // How far values that are mostly constant have been rounded; 0 if they are
+    // constant, or ramps and jumps between constants. Rounding makes steps that
+    // stand alone: small ones, or of one size and its multiples that are just
+    // taken back or make long stairs. A ramp that is passed in one row, or in a
+    // few of a slow controller, has wide ones.
+    double rounding(const std::vector<double> &values)
+    {
+      constexpr double largest_share = 0.1; // of the largest value
+      constexpr double small_share   = 0.01;
+      // Digits of another unit have been rounded once more.
+      constexpr double      unlike      = 0.35;
+      constexpr std::size_t many_stairs = 20;
+
+      const std::size_t least_number = 4 + values.size() / 50;
+      const Steps       steps(values);
+      const std::size_t n = steps.sizes.size();
+      if (steps.alone.size() < least_number || 2 * steps.alone.size() < n)
         return 0.;
-      const double size = median(std::move(alone));
-      return size <= largest_share * largest ? size : 0.;
+      const double size       = median(steps.alone);
+      const auto   is_regular = [&](const double step) {
+        const double ratio = std::abs(step) / size;
+        return std::abs(ratio - std::max(1., std::round(ratio))) <= unlike;
+      };
+      const std::size_t n_regular =
+        std::count_if(steps.sizes.begin(), steps.sizes.end(), is_regular);
+      const bool has_digits =
+        10 * n_regular >= 9 * n &&
+        (2 * steps.n_back >= least_number ||
+         longest_stairs(steps, size, unlike) >= many_stairs);
+      return size <= small_share * steps.largest ||
+                 (has_digits && size <= largest_share * steps.largest) ?
+               size :
+               0.;
     }
   } // namespace
 
@@ -393,14 +463,26 @@ namespace SlipStep
 
   double noise_level(const std::vector<double> &values)
   {
-    std::vector<double> bends;
-    for (std::size_t i = 1; i + 1 < values.size(); ++i)
-      bends.push_back(std::abs(values[i - 1] - 2. * values[i] + values[i + 1]));
+    // Second differences leave what a signal bends within three rows, fourth
+    // ones hardly any of it: where they say far less, it is signal.
+    constexpr double far_less = 0.5;
 
-    // For normal deviates the median of the absolute value is 0.6745 sigma, and
-    // the second difference has the variance 6 sigma^2.
+    std::vector<double> bends, fourth;
+    for (std::size_t i = 1; i + 1 < values.size(); ++i)
+      bends.push_back(values[i - 1] - 2. * values[i] + values[i + 1]);
+    for (std::size_t i = 1; i + 1 < bends.size(); ++i)
+      fourth.push_back(std::abs(bends[i - 1] - 2. * bends[i] + bends[i + 1]));
+    for (double &bend : bends)
+      bend = std::abs(bend);
+
+    // For normal deviates the median of the absolute value is 0.6745 sigma; the
+    // second difference has the variance 6 sigma^2, the fourth 70 sigma^2.
     const double from_bends = median(std::move(bends)) / 0.6745 / std::sqrt(6.);
+    const double from_fourth =
+      median(std::move(fourth)) / 0.6745 / std::sqrt(70.);
     // Rounded to steps, values are uniformly distributed within one.
-    return from_bends > 0. ? from_bends : rounding(values) / std::sqrt(12.);
+    return from_bends > 0. ?
+             (from_fourth < far_less * from_bends ? from_fourth : from_bends) :
+             rounding(values) / std::sqrt(12.);
   }
 } // namespace SlipStep

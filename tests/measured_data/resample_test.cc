@@ -208,3 +208,25 @@ TEST(Resample, PublishedRecordsKeepPeaksAndWork)
                 result.friction_tolerance * (1. + 1e-9));
     }
 }
+
+
+
+// A pressure that is constant but for ramps, each passed in few rows, is led as
+// it was recorded.
+TEST(Resample, ACleanPressureIsKept)
+{
+  MeasuredTest test   = loop(3e-4);
+  double       wanted = 6.;
+  for (std::size_t i = 0; i < test.time.size(); ++i)
+    {
+      if (i % 1000 == 0)
+        wanted = i % 2000 == 0 ? 6. : 12.;
+      // The controller acts every tenth row.
+      const double last = i == 0 ? 6. : test.pressure[i - 1];
+      test.pressure[i] =
+        i % 10 == 0 ? last + std::clamp(wanted - last, -0.6, 0.6) : last;
+    }
+  const ResampledTest result = resample(test);
+  EXPECT_NEAR(result.pressure_tolerance, 0.012, 1e-9);
+  EXPECT_LE(largest_distance(test, result, &MeasuredTest::pressure), 0.012);
+}

@@ -162,3 +162,88 @@ TEST(TestRows, NoiseIsMeasuredUnderASignal)
                          7.;
   EXPECT_EQ(noise_level(clean), 0.);
 }
+
+
+
+namespace
+{
+  // Constant but for ramps, each passed in some rows with rests between.
+  std::vector<double> ladder(const std::vector<double> &levels,
+                             const unsigned int         n_rows,
+                             const unsigned int         n_steps,
+                             const unsigned int         n_rest)
+  {
+    std::vector<double> values(n_rows, levels.front());
+    for (std::size_t l = 1; l < levels.size(); ++l)
+      {
+        for (unsigned int s = 1; s <= n_steps; ++s)
+          values.insert(values.end(),
+                        s < n_steps ? n_rest : n_rows,
+                        levels[l - 1] +
+                          (levels[l] - levels[l - 1]) * s / n_steps);
+      }
+    return values;
+  }
+} // namespace
+
+
+
+// A pressure that a controller leads in few steps is no rounded one.
+TEST(TestRows, CleanRampsAreNoRounding)
+{
+  const std::vector<double> levels = {
+    4., 7.1, 10.2, 13.3, 10.2, 7.1, 4., 7.1, 10.2};
+  for (const unsigned int n_steps : {1, 2, 5, 12})
+    for (const unsigned int n_rest : {2, 3})
+      EXPECT_EQ(noise_level(ladder(levels, 40, n_steps, n_rest)), 0.)
+        << n_steps << ", " << n_rest;
+  // One step as wide as another, up and down, for long.
+  EXPECT_EQ(noise_level(
+              ladder({5., 5.4, 5., 5.4, 5., 5.4, 5., 5.4, 5.4, 5.}, 15, 1, 1)),
+            0.);
+}
+
+
+
+TEST(TestRows, RoundedValuesAreKnownByTheirSteps)
+{
+  const auto rounded = [](const double size, const auto &value) {
+    std::vector<double> values;
+    for (int i = 0; i < 2000; ++i)
+      values.push_back(size * std::round(value(i) / size));
+    return values;
+  };
+  std::mt19937                     random(5);
+  std::normal_distribution<double> noise(0., 0.2);
+  // An even motion: stairs.
+  EXPECT_NEAR(noise_level(rounded(0.02, [](int i) { return 5e-4 * i; })),
+              0.02 / std::sqrt(12.),
+              1e-12);
+  // A pressure that trembles between digits.
+  EXPECT_NEAR(noise_level(
+                rounded(0.5, [&](int) { return 5.6 + noise(random) / 2.; })),
+              0.5 / std::sqrt(12.),
+              1e-12);
+  // A slow drift, recorded finely.
+  EXPECT_NEAR(noise_level(rounded(
+                0.01, [](int i) { return 5. + 0.1 * std::sin(i / 300.); })),
+              0.01 / std::sqrt(12.),
+              1e-12);
+}
+
+
+
+// A wave that bends within few rows is signal.
+TEST(TestRows, ACleanWaveIsNoNoise)
+{
+  std::mt19937                     random(6);
+  std::normal_distribution<double> noise(0., 0.01);
+  std::vector<double>              clean, noisy;
+  for (int i = 0; i < 600; ++i)
+    {
+      clean.push_back(7. + 2. * std::sin(0.2 * i));
+      noisy.push_back(clean.back() + noise(random));
+    }
+  EXPECT_LT(noise_level(clean), 1e-3);
+  EXPECT_NEAR(noise_level(noisy), 0.01, 0.002);
+}
