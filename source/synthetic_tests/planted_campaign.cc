@@ -354,6 +354,10 @@ namespace SlipStep
                    campaign.contact.coefficient.static_coefficient,
                    noise,
                    test);
+            if (options.noise == NoiseKind::rounded_motion)
+              for (auto *positions :
+                   {&test.measured.displacement, &test.measured.displacement_y})
+                round_motion(*positions);
             campaign.tests.push_back(std::move(test));
           }
         campaign.contact.progress = 0.;

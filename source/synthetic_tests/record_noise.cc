@@ -5,34 +5,57 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <cmath>
+#include <utility>
 
 namespace SlipStep
 {
   namespace Planting
   {
+    namespace
+    {
+      const std::vector<std::pair<NoiseKind, std::string>> kind_names = {
+        {NoiseKind::normal, "normal"},
+        {NoiseKind::heavy_tails, "heavy_tails"},
+        {NoiseKind::two_drifts, "two_drifts"},
+        {NoiseKind::correlated_rows, "correlated_rows"},
+        {NoiseKind::drift_in_seconds, "drift_in_seconds"},
+        {NoiseKind::rounded_motion, "rounded_motion"}};
+    } // namespace
+
+
+
     std::string to_string(const NoiseKind kind)
     {
-      return kind == NoiseKind::heavy_tails ? "heavy_tails" :
-             kind == NoiseKind::two_drifts  ? "two_drifts" :
-                                              "normal";
+      for (const auto &[one, name] : kind_names)
+        if (one == kind)
+          return name;
+      return "";
     }
 
 
 
-    NoiseKind noise_kind(const std::string &name)
+    std::vector<std::string> noise_names()
     {
-      const std::vector<std::string> names = {"normal",
-                                              "heavy_tails",
-                                              "two_drifts"};
-      for (const NoiseKind kind :
-           {NoiseKind::normal, NoiseKind::heavy_tails, NoiseKind::two_drifts})
-        if (name == to_string(kind))
+      std::vector<std::string> names;
+      for (const auto &one : kind_names)
+        names.push_back(one.second);
+      return names;
+    }
+
+
+
+    NoiseKind noise_kind(const std::string &wanted)
+    {
+      for (const auto &[kind, name] : kind_names)
+        if (name == wanted)
           return kind;
-      throw InputError("noise \"" + name +
-                       "\": allowed is one of: normal, heavy_tails, "
-                       "two_drifts" +
-                       did_you_mean(name, names));
+      const std::vector<std::string> names = noise_names();
+      throw InputError("noise \"" + wanted + "\": allowed is one of: " +
+                       boost::algorithm::join(names, ", ") +
+                       did_you_mean(wanted, names));
     }
 
 
@@ -48,6 +71,8 @@ namespace SlipStep
       if (kind == NoiseKind::two_drifts)
         levels.correlation_times = {uniform(random, 0.02, 0.06),
                                     uniform(random, 0.2, 0.5)};
+      else if (kind == NoiseKind::drift_in_seconds)
+        levels.correlation_times = {10.};
       else
         levels.correlation_times = {uniform(random, 0.05, 0.3)};
       return levels;
@@ -70,8 +95,10 @@ namespace SlipStep
 
 
     std::vector<double>
-    white_noise(const std::size_t n, const NoiseKind kind, Random &random)
+    row_noise(const std::size_t n, const NoiseKind kind, Random &random)
     {
+      constexpr double kept = 0.8;
+
       std::normal_distribution<double>    normal;
       std::student_t_distribution<double> student(3.);
       std::vector<double>                 values(n);
@@ -80,6 +107,10 @@ namespace SlipStep
         value = kind == NoiseKind::heavy_tails ?
                   student(random) / std::sqrt(3.) :
                   normal(random);
+      if (kind == NoiseKind::correlated_rows)
+        for (std::size_t i = 1; i < n; ++i)
+          values[i] =
+            kept * values[i - 1] + std::sqrt(1. - kept * kept) * values[i];
       return values;
     }
 
@@ -112,9 +143,11 @@ namespace SlipStep
                                      const NoiseLevels         &levels,
                                      Random                    &random)
     {
-      const double        duration = times.back() - times.front();
+      const double duration = levels.kind == NoiseKind::drift_in_seconds ?
+                                1. :
+                                times.back() - times.front();
       std::vector<double> record =
-        white_noise(friction.size(), levels.kind, random);
+        row_noise(friction.size(), levels.kind, random);
       for (std::size_t i = 0; i < record.size(); ++i)
         record[i] =
           (1. + gain) * friction[i] + offset + levels.white * mean * record[i];
@@ -129,6 +162,14 @@ namespace SlipStep
             record[i] += share * drift[i];
         }
       return record;
+    }
+
+
+
+    void round_motion(std::vector<double> &displacement, const double step)
+    {
+      for (double &value : displacement)
+        value = step * std::round(value / step);
     }
   } // namespace Planting
 } // namespace SlipStep

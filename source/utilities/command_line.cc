@@ -242,7 +242,8 @@ namespace SlipStep
          "number of tests, 20 unless given")
         ("no-replicates", "every test under a condition of its own")
         ("noise", po::value<std::string>()->value_name("NAME"),
-         "normal, heavy_tails, two_drifts")
+         "normal, heavy_tails, two_drifts, correlated_rows, drift_in_seconds, "
+         "rounded_motion")
         ("noise-factor", po::value<std::string>()->value_name("F"),
          "so many times the usual noise")
         ("amplitude", po::value<std::string>()->value_name("A"),

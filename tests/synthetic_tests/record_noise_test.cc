@@ -31,17 +31,68 @@ TEST(RecordNoise, White)
 {
   Random            random(1);
   const std::size_t n = 200000;
-  EXPECT_NEAR(mean_of_squares(white_noise(n, NoiseKind::normal, random)),
+  EXPECT_NEAR(mean_of_squares(row_noise(n, NoiseKind::normal, random)),
               1.,
               5. * std::sqrt(2. / n));
   // The fourth moment of Student's t is infinite: compare a quantile. The
   // chance of more than 3 standard deviations is 0.0138, normally 0.0027.
   unsigned int beyond = 0;
-  for (const double value : white_noise(n, NoiseKind::heavy_tails, random))
+  for (const double value : row_noise(n, NoiseKind::heavy_tails, random))
     beyond += std::abs(value) > 3.;
   EXPECT_NEAR(beyond / static_cast<double>(n),
               0.0138,
               5. * std::sqrt(0.0138 / n));
+}
+
+
+
+// Lags of 1, 2 and 5 rows.
+TEST(RecordNoise, CorrelatedRows)
+{
+  Random            random(7);
+  const std::size_t n      = 200000;
+  const auto        values = row_noise(n, NoiseKind::correlated_rows, random);
+  EXPECT_NEAR(mean_of_squares(values), 1., 5. * std::sqrt(2. * 4.6 / n));
+  for (const std::size_t lag : {1, 2, 5})
+    EXPECT_NEAR(std::inner_product(
+                  values.begin() + lag, values.end(), values.begin(), 0.) /
+                  n,
+                std::pow(0.8, lag),
+                5. * std::sqrt(9. / n));
+}
+
+
+
+// Two records of 20 s and 2000 s, of drift only.
+TEST(RecordNoise, DriftInSeconds)
+{
+  Random      random(8);
+  NoiseLevels levels = draw_levels(NoiseKind::drift_in_seconds, 1., random);
+  levels.white       = 0.;
+  for (const double duration : {20., 2000.})
+    {
+      const std::vector<double> times = {0., 5., duration};
+      const std::size_t         n     = 20000;
+      double                    sum   = 0.;
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          const auto record =
+            noisy_record(times, {0., 0., 0.}, 1., 0., 0., levels, random);
+          sum += record[0] * record[1] / std::pow(levels.drift, 2);
+        }
+      EXPECT_NEAR(sum / n, std::exp(-0.5), 5. * std::sqrt(1.4 / n));
+    }
+}
+
+
+
+TEST(RecordNoise, RoundedMotion)
+{
+  std::vector<double> values = {0., 0.0149, 0.0151, -3.337};
+  round_motion(values, 0.01);
+  EXPECT_DOUBLE_EQ(values[1], 0.01);
+  EXPECT_DOUBLE_EQ(values[2], 0.02);
+  EXPECT_DOUBLE_EQ(values[3], -3.34);
 }
 
 

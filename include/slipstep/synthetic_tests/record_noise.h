@@ -16,8 +16,17 @@ namespace SlipStep
     {
       normal,
       heavy_tails, ///< white noise is Student's t with three degrees of freedom
-      two_drifts   ///< one drift is quick, another slow
+      two_drifts,  ///< one drift is quick, another slow
+      /// Rows hang together: 0.8 of each is what the row before it had.
+      correlated_rows,
+      /// The drift forgets within 10 s, however long a test is.
+      drift_in_seconds,
+      /// Positions are recorded to 0.01 mm.
+      rounded_motion
     };
+
+    /// What all kinds are called.
+    std::vector<std::string> noise_names();
 
     /// "heavy_tails"
     std::string to_string(const NoiseKind kind);
@@ -34,7 +43,8 @@ namespace SlipStep
       double    drift = 0.005; ///< Ornstein-Uhlenbeck, of all drifts together
       double    gain  = 0.006; ///< of a test, factor on its friction
       double offset = 0.002; ///< of a test, relative to the static coefficient
-      /// Correlation times of the drifts over the duration of a test.
+      /// Correlation times of the drifts over the duration of a test; in
+      /// seconds of kind drift_in_seconds.
       std::vector<double> correlation_times;
     };
 
@@ -53,9 +63,10 @@ namespace SlipStep
                                   const double       static_coefficient,
                                   Random            &random);
 
-    /// White noise of standard deviation 1.
+    /// Noise of rows, of standard deviation 1: white but for kind
+    /// correlated_rows.
     std::vector<double>
-    white_noise(const std::size_t n, const NoiseKind kind, Random &random);
+    row_noise(const std::size_t n, const NoiseKind kind, Random &random);
 
     /// A stationary Ornstein-Uhlenbeck process of standard deviation 1 at given
     /// times [s].
@@ -72,6 +83,11 @@ namespace SlipStep
                                      const double               offset,
                                      const NoiseLevels         &levels,
                                      Random                    &random);
+
+    /// Positions as an instrument with few digits records them.
+    /// @param step [mm]
+    void round_motion(std::vector<double> &displacement,
+                      const double         step = 0.01);
   } // namespace Planting
 } // namespace SlipStep
 
