@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/correction.h>
+#include <slipstep/diagnosis/ingest.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <Eigen/Dense>
@@ -171,6 +172,29 @@ namespace SlipStep
                        0.;
       return result;
     }
+    // What names have to show, and no worse in per cent of friction either.
+    bool is_an_improvement(const Workspace &workspace,
+                           const Model     &base,
+                           const Model     &corrected)
+    {
+      if (!is_needed(base.objective - corrected.objective,
+                     left_out_gain(workspace, base, corrected)))
+        return false;
+      const Comparison &comparison = workspace.comparison;
+      const auto        rms        = [&](const Model &model) {
+        return relative_rms(comparison,
+                            comparison.difference(*model.simulator,
+                                                  model.scaled));
+      };
+      const auto left_out_rms = [&](const Model &model) {
+        Eigen::VectorXd differences;
+        left_out_squares(workspace, model, &differences);
+        return relative_rms(comparison, differences);
+      };
+      return rms(corrected) < rms(base) &&
+             (comparison.conditions.size() < 2 ||
+              left_out_rms(corrected) < left_out_rms(base));
+    }
   } // namespace
 
 
@@ -193,7 +217,10 @@ namespace SlipStep
         const std::optional<Correction> correction =
           correct_along(workspace, base, judgement, place.covariate);
         if (correction.has_value())
-          return correction->share >= least_share ? correction : std::nullopt;
+          return correction->share >= least_share &&
+                     is_an_improvement(workspace, base, correction->model) ?
+                   correction :
+                   std::nullopt;
       }
     return {};
   }

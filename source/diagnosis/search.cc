@@ -172,6 +172,45 @@ namespace SlipStep
 
 
 
+  double level_of_round(const Workspace &workspace, const std::size_t round)
+  {
+    // Halves, and in the last round what is left.
+    const std::size_t last = std::max(1u, workspace.most_effects) - 1;
+    return workspace.level *
+           std::pow(0.5, std::min(round, last) + (round < last ? 1. : 0.));
+  }
+
+
+
+  bool is_evident(const CandidateView &seen, const double level)
+  {
+    return !seen.ways.empty() && seen.score.value > 0. && seen.p <= level &&
+           seen.minimum_detectable <= largest_hidden_change;
+  }
+
+
+
+  double left_out_gain(const Workspace &workspace,
+                       const Model     &less,
+                       const Model     &more)
+  {
+    const auto sum = [&](const Model &model) {
+      const std::vector<double> squares = left_out_squares(workspace, model);
+      return std::accumulate(squares.begin(), squares.end(), 0.);
+    };
+    return sum(less) - sum(more);
+  }
+
+
+
+  bool is_needed(const double cost, const double left_out_gain)
+  {
+    return std::isnan(left_out_gain) ? cost >= sure_cost :
+                                       cost >= least_cost && left_out_gain > 0.;
+  }
+
+
+
   namespace
   {
     // The same without one of its parts, fitted again.
@@ -210,6 +249,8 @@ namespace SlipStep
     private:
       bool add();
 
+      double level() const;
+
       bool exchange_and_prune();
 
       bool is_soaking_up(const unsigned int n_allowed);
@@ -236,18 +277,28 @@ namespace SlipStep
 
 
 
-    // The best of those that chance does not explain.
+    // What is left of the level for the part added last, or its rivals.
+    double Searcher::level() const
+    {
+      return level_of_round(
+        workspace, std::max<std::size_t>(1, result.model.parts.size()) - 1);
+    }
+
+
+
+    // The best of those that chance does not explain, and that predict
+    // conditions left out better than without them.
     bool Searcher::add()
     {
       constexpr unsigned int most_tried = 5;
 
-      const View           view = score_candidates(workspace, result.model);
-      std::optional<Model> best;
-      unsigned int         n_tried = 0;
+      const double level = level_of_round(workspace, result.model.parts.size());
+      const View   view  = score_candidates(workspace, result.model);
+      std::vector<Model> found;
+      unsigned int       n_tried = 0;
       for (const CandidateView &seen : view.candidates)
         {
-          if (seen.ways.empty() || seen.p > workspace.level ||
-              n_tried == most_tried)
+          if (!is_evident(seen, level) || n_tried == most_tried)
             continue;
           ++n_tried;
           const std::optional<Model> tried =
@@ -259,17 +310,25 @@ namespace SlipStep
             result.gains.emplace_back(seen.candidate.name,
                                       result.model.objective -
                                         tried->objective);
-          if (!is_at_bound(*tried) &&
-              (!best.has_value() || penalised(*tried) < penalised(*best)))
-            best = tried;
+          if (!is_at_bound(*tried))
+            found.push_back(*tried);
         }
-      if (!best.has_value() ||
-          best->objective > result.model.objective - least_cost)
-        return false;
-      result.model = *best;
-      settle(workspace, result.model);
-      tell("added " + result.model.parts.back().name);
-      return true;
+      std::stable_sort(found.begin(),
+                       found.end(),
+                       [](const Model &a, const Model &b) {
+                         return penalised(a) < penalised(b);
+                       });
+      for (Model &best : found)
+        {
+          if (!is_needed(result.model.objective - best.objective,
+                         left_out_gain(workspace, result.model, best)))
+            continue;
+          result.model = best;
+          settle(workspace, result.model);
+          tell("added " + result.model.parts.back().name);
+          return true;
+        }
+      return false;
     }
 
 
@@ -288,19 +347,14 @@ namespace SlipStep
           return false;
         }
       const double cost = less->objective - result.model.objective;
-      const auto   sum  = [](const std::vector<double> &values) {
-        return std::accumulate(values.begin(), values.end(), 0.);
-      };
-      const double left_out_gain =
-        sum(left_out_squares(workspace, *less)) -
-        sum(left_out_squares(workspace, result.model));
-      if (cost < least_cost || (cost < sure_cost && !(left_out_gain > 0.)))
+      const double gain = left_out_gain(workspace, *less, result.model);
+      if (!is_needed(cost, gain))
         {
           result.model = *less;
           return true;
         }
       result.costs.push_back(cost);
-      result.left_out_gains.push_back(left_out_gain);
+      result.left_out_gains.push_back(gain);
       return try_rivals(*less, name, cost);
     }
 
@@ -319,8 +373,7 @@ namespace SlipStep
         {
           const double promised =
             std::pow(seen.score.strength * seen.score.free_length, 2);
-          if (seen.ways.empty() || seen.candidate.name == name ||
-              !(seen.score.value > 0.) ||
+          if (!is_evident(seen, level()) || seen.candidate.name == name ||
               promised < promising_share * cost - promising_slack ||
               n_tried == most_rivals)
             continue;
@@ -329,15 +382,18 @@ namespace SlipStep
           if (!tried.has_value() || is_at_bound(*tried))
             continue;
           const double distance = penalised(*tried) - penalised(result.model);
+          if (distance >= rival_distance ||
+              !is_needed(less.objective - tried->objective,
+                         left_out_gain(workspace, less, *tried)))
+            continue;
           if (distance < -sure_gain)
             {
               result.model = *tried;
               settle(workspace, result.model);
               return true;
             }
-          if (distance < rival_distance)
-            result.rivals.push_back(
-              {seen.candidate.name, name, distance, *tried});
+          result.rivals.push_back(
+            {seen.candidate.name, name, distance, *tried});
         }
       return false;
     }

@@ -75,7 +75,8 @@ namespace SlipStep
     if ((is_significant && result.explained_share < sufficient_share) ||
         result.remainder.excess >
           (1. - least_share) * result.gap.excess + sure_excess ||
-        rms(result.found.model) > rms(base))
+        rms(result.found.model) > rms(base) ||
+        left_out_gain(workspace, base, result.found.model) <= 0.)
       withdraw(result, base);
     return result;
   }

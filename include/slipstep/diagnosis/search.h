@@ -15,9 +15,9 @@ namespace SlipStep
   ///@{
   /// What every parameter has to gain.
   constexpr double cost_of_parameter = 4.;
-  /// A name whose removal costs less is dropped ...
+  /// A name whose removal costs less is dropped.
   constexpr double least_cost = 15.;
-  /// ... and below this, unless left-out conditions gain by it, too.
+  /// The same where there is but one condition, so that none can be left out.
   constexpr double sure_cost = 30.;
   /// 2 ln 20: nearer than this, a rival explains the tests as well.
   constexpr double rival_distance = 6.;
@@ -49,6 +49,23 @@ namespace SlipStep
 
   /// The objective with the price of the parameters.
   double penalised(const Model &model);
+
+  /// What may be spent of Diagnosis/Level on the effect of a round, counted
+  /// from 0: halves of what is left, so that all rounds together spend it once.
+  double level_of_round(const Workspace &workspace, const std::size_t round);
+
+  /// Whether these tests can tell an effect, and chance among all candidates
+  /// does not explain its score.
+  bool is_evident(const CandidateView &seen, const double level);
+
+  /// By how much the squares of whitened differences on left-out conditions are
+  /// less with more effects; NaN for tests of a single condition.
+  double left_out_gain(const Workspace &workspace,
+                       const Model     &less,
+                       const Model     &more);
+
+  /// Whether an addition lowers the fitted and the left-out differences enough.
+  bool is_needed(const double cost, const double left_out_gain);
 
   /// A rival of a named effect: with it in the place of the name the tests are
   /// explained as well.

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What an effect has to show before it is named, kept as a rival, or added as a
+// correction.
+
+#include <slipstep/diagnosis/search.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace SlipStep;
+
+namespace
+{
+  Workspace workspace_for(const unsigned int most_effects)
+  {
+    return {Parameters(),
+            {},
+            Comparison({}),
+            {},
+            {},
+            {},
+            RowMatrix(),
+            0.04,
+            most_effects,
+            0,
+            {}};
+  }
+
+  CandidateView seen(const double p, const double minimum_detectable)
+  {
+    CandidateView result;
+    result.ways.emplace_back();
+    result.score.value        = 5.;
+    result.p                  = p;
+    result.minimum_detectable = minimum_detectable;
+    return result;
+  }
+} // namespace
+
+
+
+// However many rounds there are, the level is spent once, and never by less in
+// an earlier one.
+TEST(Evidence, RoundsSpendTheLevelOnce)
+{
+  for (const unsigned int n : {1, 2, 4, 7})
+    {
+      const Workspace workspace = workspace_for(n);
+      double          sum       = 0.;
+      for (unsigned int round = 0; round < n; ++round)
+        {
+          sum += level_of_round(workspace, round);
+          if (round > 0)
+            EXPECT_LE(level_of_round(workspace, round),
+                      level_of_round(workspace, round - 1));
+        }
+      EXPECT_NEAR(sum, 0.04, 1e-15);
+    }
+  EXPECT_DOUBLE_EQ(level_of_round(workspace_for(4), 0), 0.02);
+  EXPECT_DOUBLE_EQ(level_of_round(workspace_for(4), 3), 0.005);
+}
+
+
+
+TEST(Evidence, IsSignificantAndTestable)
+{
+  EXPECT_TRUE(is_evident(seen(0.01, 0.05), 0.02));
+  // An anisotropy on a record of one axis.
+  EXPECT_FALSE(is_evident(seen(0.84, 2.42), 0.02));
+  EXPECT_FALSE(is_evident(seen(0.01, 2.42), 0.02));
+  EXPECT_FALSE(is_evident(seen(0.03, 0.05), 0.02));
+  CandidateView nothing = seen(0.01, 0.05);
+  nothing.ways.clear();
+  EXPECT_FALSE(is_evident(nothing, 0.02));
+}
+
+
+
+TEST(Evidence, LowersFittedAndLeftOutDifferences)
+{
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(is_needed(16., 0.1));
+  EXPECT_FALSE(is_needed(14., 20.));
+  EXPECT_FALSE(is_needed(1000., -1.));
+  EXPECT_FALSE(is_needed(1000., 0.));
+  // One condition: nothing can be left out.
+  EXPECT_TRUE(is_needed(31., none));
+  EXPECT_FALSE(is_needed(29., none));
+}
