@@ -2,6 +2,7 @@
 #include <slipstep/calibration/fit.h>
 #include <slipstep/calibration/uncertainty.h>
 #include <slipstep/measured_data/resample.h>
+#include <slipstep/measured_data/row_noise.h>
 
 #include <boost/math/distributions/fisher_f.hpp>
 
@@ -152,6 +153,49 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // How many neighbouring rows of every record hang together by its scatter
+    // on several scales, which a fit takes less off than off autocorrelations.
+    std::vector<double> lengths_by_scatter(const Campaign &campaign,
+                                           const double   *residuals)
+    {
+      // Drifts within a record hang together, too.
+      constexpr double drift = 1e-6, drift_time = 0.1;
+
+      RowNoiseFit              fit(drift, drift_time);
+      std::vector<std::size_t> n_rows;
+      for (const CampaignTest &test : campaign.tests)
+        {
+          const std::vector<double> &time = test.rows.time;
+          std::vector<double>        shares;
+          for (const double t : time)
+            shares.push_back((t - time.front()) / (time.back() - time.front()));
+          const double level =
+            root_mean_square(test.rows.friction.data(), time.size()) /
+            test.noise;
+          for (unsigned int axis = 0; axis < (test.has_two_axes() ? 2 : 1);
+               ++axis, residuals += time.size())
+            {
+              fit.add(
+                {residuals, residuals + time.size()}, shares, 1., 1., level);
+              n_rows.push_back(time.size());
+            }
+        }
+      const RowNoiseFit::Result found = fit.solve();
+      std::vector<double>       lengths;
+      for (std::size_t i = 0; i < n_rows.size(); ++i)
+        {
+          RowNoise unit  = found.records[i];
+          unit.deviation = 1.;
+          lengths.push_back(n_rows[i] * unit.variance_of_mean(n_rows[i]));
+        }
+      return lengths;
+    }
+  } // namespace
+
+
+
   double Linearisation::threshold(const double confidence) const
   {
     const double freedom =
@@ -192,8 +236,11 @@ namespace SlipStep
                  .topRows(n_parameters)
                  .triangularView<Eigen::Upper>();
 
-    double        together = 0.;
-    const double *part     = residuals.data();
+    double                    together = 0.;
+    const double             *part     = residuals.data();
+    const std::vector<double> by_scatter =
+      lengths_by_scatter(campaign, residuals.data());
+    auto least = by_scatter.begin();
     tests.clear();
     for (std::size_t i = 0; i < campaign.tests.size(); ++i)
       {
@@ -204,7 +251,8 @@ namespace SlipStep
         for (const double *end = part + test.n_residuals(); part != end;
              part += n_rows)
           {
-            const double length = correlation_length(part, n_rows);
+            const double length =
+              std::max(correlation_length(part, n_rows), *least++);
             together +=
               length * std::inner_product(part, part + n_rows, part, 0.);
             result.n_effective += n_rows / length;

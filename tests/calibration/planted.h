@@ -30,14 +30,15 @@ namespace SlipStep
 
     /// A slide from rest under 5.8 MPa, as it would be recorded at equal
     /// distances, or, with a power above 1, at shorter ones in the beginning:
-    /// the law's friction, and noise.
+    /// the law's friction, and noise, of which a row keeps a share.
     inline MeasuredTest planted_test(const Parameters  &truth,
                                      const double       speed,  // [mm/s]
                                      const double       length, // [mm]
                                      const unsigned int n_rows,
                                      const double       noise,
                                      std::mt19937      &random,
-                                     const double       power = 1.)
+                                     const double       power = 1.,
+                                     const double       kept  = 0.)
     {
       MeasuredTest test;
       test.name = "planted, " + std::to_string(60. * speed) + " mm per min";
@@ -64,8 +65,14 @@ namespace SlipStep
       for (unsigned int i = 0; i < n_rows; ++i)
         test.friction[i] += test.friction[i] - coarse.friction[i];
       std::normal_distribution<double> normal(0., 1.);
-      for (double &value : test.friction)
-        value += noise * normal(random);
+      double                           own = 0.;
+      for (unsigned int i = 0; i < n_rows; ++i)
+        {
+          const double fresh = noise * normal(random);
+          own =
+            i == 0 ? fresh : kept * own + std::sqrt(1. - kept * kept) * fresh;
+          test.friction[i] += own;
+        }
       return test;
     }
 
@@ -79,15 +86,21 @@ namespace SlipStep
                       const double                 noise,
                       const unsigned int           seed,
                       const double                 length = 100.,
-                      const double                 power  = 1.)
+                      const double                 power  = 1.,
+                      const double                 kept   = 0.)
     {
       std::filesystem::create_directories(folder);
       std::mt19937 random(seed);
       for (std::size_t i = 0; i < speeds.size(); ++i)
-        write_measured_test(
-          folder / ("test_" + std::to_string(i) + ".csv"),
-          planted_test(
-            truth, speeds[i] / 60., length, n_rows, noise, random, power));
+        write_measured_test(folder / ("test_" + std::to_string(i) + ".csv"),
+                            planted_test(truth,
+                                         speeds[i] / 60.,
+                                         length,
+                                         n_rows,
+                                         noise,
+                                         random,
+                                         power,
+                                         kept));
     }
   } // namespace Testing
 } // namespace SlipStep
