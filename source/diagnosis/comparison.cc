@@ -100,6 +100,7 @@ namespace SlipStep
         compared.condition = found.first->second;
         tests.push_back(compared);
       }
+    find_durations(campaign_tests);
     measured.resize(n);
     for (std::size_t i = 0; i < tests.size(); ++i)
       {
@@ -112,6 +113,50 @@ namespace SlipStep
               return (s == 0 ? rows.friction : rows.friction_y)[row];
             },
             out + s * tests[i].n_bins());
+      }
+  }
+
+
+
+  // Against the geometric mean.
+  void
+  Comparison::find_durations(const std::vector<CampaignTest> &campaign_tests)
+  {
+    const auto duration = [&](const std::size_t i) {
+      const std::vector<double> &time = campaign_tests[i].rows.time;
+      return time.back() - time.front();
+    };
+    double sum = 0.;
+    for (std::size_t i = 0; i < tests.size(); ++i)
+      sum += std::log(duration(i));
+    usual_duration = tests.empty() ? 1. : std::exp(sum / tests.size());
+    for (std::size_t i = 0; i < tests.size(); ++i)
+      for (Series &series : tests[i].series)
+        series.duration = duration(i) / usual_duration;
+  }
+
+
+
+  void Comparison::set_row_noise(const std::size_t test, const RowNoise &noise)
+  {
+    const std::vector<std::size_t> &borders = tests[test].borders;
+    const double                    usual =
+      static_cast<double>(borders.back()) / tests[test].n_bins();
+    // Means of rows that hang together do so less, and more like an
+    // autoregression the longer they are.
+    const double variance   = noise.variance_of_mean(usual);
+    const double covariance = noise.covariance_of_means(usual);
+    const double power      = std::pow(noise.decay, usual);
+    const bool   has_white  = covariance < power * variance;
+    for (Series &series : tests[test].series)
+      {
+        series.row_decay = has_white ? power : covariance / variance;
+        series.row_share = noise.share == 0. ? 0. :
+                           has_white         ? covariance / (power * variance) :
+                                               1.;
+        for (std::size_t i = 0; i < series.row_noise.size(); ++i)
+          series.row_noise[i] =
+            std::sqrt(noise.variance_of_mean(borders[i + 1] - borders[i]));
       }
   }
 

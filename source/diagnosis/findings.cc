@@ -54,10 +54,14 @@ namespace SlipStep
 
 
     // Variance of the rows of a test by the noise, as a share of its friction:
-    // of rows by themselves, and of what they share.
-    std::pair<double, double> noise_variances(const ComparedTest &test,
-                                              const Noise        &noise)
+    // of rows by themselves, and of what they share. A single record cannot
+    // show what whole tests differ by: it is not in what noise leaves of it.
+    std::pair<double, double> noise_variances(const Comparison   &comparison,
+                                              const ComparedTest &test)
     {
+      Noise noise = comparison.noise();
+      if (comparison.tests.size() == 1)
+        noise.gain = noise.offset = noise.slope = 0.;
       double      own = 0., gain = 0.;
       std::size_t n = 0;
       for (const Series &series : test.series)
@@ -99,20 +103,24 @@ namespace SlipStep
     static const std::vector<std::pair<std::string, std::string>> names = {
       {"white", "of the scatter between neighbouring rows"},
       {"drift", "of friction"},
-      {"drift time", "of a test's duration"},
+      {"drift time", "of the duration of a usual test"},
       {"gain", "of friction"},
       {"offset", "of friction"},
-      {"slope", "of friction"}};
+      {"slope", "of friction"},
+      {"drift by seconds", "0: goes with the duration, 1: the same seconds"}};
     const Noise::Logarithms logarithms = workspace.noise.noise.logarithms();
     for (std::size_t i = 0; i < names.size(); ++i)
       {
         const double   deviation = std::sqrt(workspace.noise.covariance(i, i));
         NoiseComponent component;
-        component.name  = names[i].first;
-        component.unit  = names[i].second;
-        component.value = std::exp(logarithms(i));
-        component.lower = std::exp(logarithms(i) - 1.96 * deviation);
-        component.upper = std::exp(logarithms(i) + 1.96 * deviation);
+        component.name         = names[i].first;
+        component.unit         = names[i].second;
+        const auto in_its_unit = [&](const double value) {
+          return i + 1 < names.size() ? std::exp(value) : value;
+        };
+        component.value = in_its_unit(logarithms(i));
+        component.lower = in_its_unit(logarithms(i) - 1.96 * deviation);
+        component.upper = in_its_unit(logarithms(i) + 1.96 * deviation);
         component.source =
           workspace.noise.n_contrasts > 0 ? "replicates" : "stated";
         diagnosis.noise.push_back(component);
@@ -167,7 +175,7 @@ namespace SlipStep
           test.before_y   = part_of(before, compared, 1);
           test.after_y    = part_of(after, compared, 1);
         }
-      const auto variances = noise_variances(compared, comparison.noise());
+      const auto variances = noise_variances(comparison, compared);
       test.noise =
         compared.level * std::sqrt(variances.first + variances.second);
       const auto rms = [&](const Eigen::VectorXd &values) {
@@ -272,7 +280,7 @@ namespace SlipStep
     std::size_t       n          = 0;
     for (const ComparedTest &test : comparison.tests)
       {
-        const auto variances = noise_variances(test, comparison.noise());
+        const auto variances = noise_variances(comparison, test);
         sum += test.n_bins() * (variances.first + variances.second);
         n += test.n_bins();
       }

@@ -177,6 +177,8 @@ namespace SlipStep
 
       void calibrate();
 
+      double judge_rows(const Eigen::VectorXd &difference);
+
       void drop_copies(std::vector<CampaignTest> &tests);
 
       std::vector<std::pair<double, std::size_t>>
@@ -187,6 +189,8 @@ namespace SlipStep
       void judge_chance();
 
       void warn();
+
+      void warn_of_rows();
 
       const Stage      stage;
       const Parameters start;
@@ -256,6 +260,38 @@ namespace SlipStep
 
 
 
+    // What the rows of every test scatter by on several scales. Returns how
+    // well that is known, 0 if they do not hang together.
+    double Preparer::judge_rows(const Eigen::VectorXd &difference)
+    {
+      Comparison              &comparison = result.workspace->comparison;
+      RowNoiseFit              fit(stated.drift, stated.drift_time);
+      std::vector<std::size_t> which;
+      for (std::size_t t = 0; t < comparison.tests.size(); ++t)
+        {
+          const CampaignTest &test     = result.workspace->tests[t];
+          const ComparedTest &compared = comparison.tests[t];
+          if (test.noise_is_stated)
+            continue;
+          const double *begin = difference.data() + compared.begin;
+          fit.add({begin, begin + compared.n_bins()},
+                  compared.series[0].time,
+                  static_cast<double>(compared.borders.back()) /
+                    compared.n_bins(),
+                  test.noise,
+                  compared.level);
+          which.push_back(t);
+        }
+      const RowNoiseFit::Result found = fit.solve();
+      if (!found.is_correlated)
+        return 0.;
+      for (std::size_t i = 0; i < which.size(); ++i)
+        comparison.set_row_noise(which[i], found.records[i]);
+      return found.freedom;
+    }
+
+
+
     // Fit, noise, and again: what replicates differ by hardly depends on the
     // model, unless the first fit is far off.
     void Preparer::calibrate()
@@ -273,8 +309,10 @@ namespace SlipStep
             break;
           const Eigen::VectorXd difference =
             comparison.difference(simulator, result.base.scaled);
+          const double row_freedom = judge_rows(difference);
           workspace.noise =
             estimate_noise(comparison.contrasts(difference), stated);
+          workspace.noise.row_freedom = row_freedom;
           comparison.set_noise(workspace.noise.noise,
                                comparison.measured + difference);
         }
@@ -429,6 +467,30 @@ namespace SlipStep
 
 
 
+    void Preparer::warn_of_rows()
+    {
+      std::size_t n     = 0;
+      double      decay = 0.;
+      for (const ComparedTest &test : result.workspace->comparison.tests)
+        if (test.series[0].row_share > 0.)
+          {
+            ++n;
+            decay =
+              std::max(decay,
+                       test.series[0].row_share * test.series[0].row_decay);
+          }
+      if (n == 0)
+        return;
+      std::ostringstream words;
+      words << std::setprecision(2) << "The rows of " << n
+            << " test(s) hang together (correlation of neighbours up to "
+            << decay
+            << "): they tell as much as fewer rows would, and are weighed so.";
+      result.warnings.push_back(words.str());
+    }
+
+
+
     void Preparer::warn()
     {
       const Workspace &workspace = *result.workspace;
@@ -459,6 +521,7 @@ namespace SlipStep
                "differences cannot be trusted. Export more digits.";
           result.warnings.push_back(words.str());
         }
+      warn_of_rows();
       const Noise &noise = workspace.noise.noise;
       if (std::hypot(noise.gain, noise.offset, noise.drift) > rms)
         result.warnings.push_back(

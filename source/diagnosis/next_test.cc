@@ -98,6 +98,7 @@ namespace SlipStep
           series.time.push_back((motion.time[i] - motion.time.front()) /
                                 duration);
         series.row_noise.assign(n, median(noises));
+        series.duration = duration / workspace.comparison.usual_duration;
         std::vector<Series> all(friction.size() / n, series);
         for (std::size_t s = 0; s < all.size(); ++s)
           all[s].friction.assign(friction.data() + s * n,

@@ -16,7 +16,7 @@ namespace SlipStep
   {
     Logarithms result;
     result << std::log(white), std::log(drift), std::log(drift_time),
-      std::log(gain), std::log(offset), std::log(slope);
+      std::log(gain), std::log(offset), std::log(slope), by_seconds;
     return result;
   }
 
@@ -25,7 +25,20 @@ namespace SlipStep
   Noise Noise::from_logarithms(const Logarithms &logarithms)
   {
     const Logarithms values = logarithms.array().exp();
-    return {values(0), values(1), values(2), values(3), values(4), values(5)};
+    return {values(0),
+            values(1),
+            values(2),
+            values(3),
+            values(4),
+            values(5),
+            logarithms(6)};
+  }
+
+
+
+  double Series::drift_time(const Noise &noise) const
+  {
+    return noise.drift_time * std::pow(duration, -noise.by_seconds);
   }
 
 
@@ -69,27 +82,8 @@ namespace SlipStep
                      const double               level,
                      const Noise               &noise)
   {
-    const double stationary = std::pow(noise.drift * level, 2);
     for (const Series &one : series)
-      {
-        double variance = stationary;
-        for (std::size_t i = 0; i < one.time.size(); ++i)
-          {
-            begins.push_back(i == 0);
-            decay.push_back(i == 0 ? 0. :
-                                     std::exp((one.time[i - 1] - one.time[i]) /
-                                              noise.drift_time));
-            const double keep = decay.back() * decay.back();
-            if (i > 0)
-              variance = keep * variance + (1. - keep) * stationary;
-            const double total =
-              variance + std::pow(noise.white * one.row_noise[i], 2);
-            gains.push_back(variance / total);
-            inverse_deviation.push_back(1. / std::sqrt(total));
-            log_det += std::log(total);
-            variance *= 1. - gains.back();
-          }
-      }
+      add_steps(one, level, noise);
     common = common_columns(series, level, noise);
     filter(common);
     // I + U U^T, by the eigenvectors of U^T U.
@@ -104,18 +98,70 @@ namespace SlipStep
 
 
 
+  void Whitener::add_steps(const Series &series,
+                           const double  level,
+                           const Noise  &noise)
+  {
+    const double stationary = std::pow(noise.drift * level, 2);
+    const double drift_time = series.drift_time(noise);
+    // Covariance of the states.
+    double drift = stationary, both = 0., row = 1.;
+    for (std::size_t i = 0; i < series.time.size(); ++i)
+      {
+        Step step;
+        step.begins = i == 0;
+        if (i > 0)
+          {
+            step.drift_kept =
+              std::exp((series.time[i - 1] - series.time[i]) / drift_time);
+            step.row_kept   = series.row_decay;
+            const double kd = step.drift_kept, kr = step.row_kept;
+            drift = kd * kd * drift + (1. - kd * kd) * stationary;
+            both *= kd * kr;
+            row = kr * kr * row + 1. - kr * kr;
+          }
+        const double own        = noise.white * series.row_noise[i];
+        step.row_weight         = own * std::sqrt(series.row_share);
+        const double a          = step.row_weight;
+        const double drift_seen = drift + a * both, row_seen = both + a * row;
+        const double total =
+          drift_seen + a * row_seen + (1. - series.row_share) * own * own;
+        step.drift_gain        = drift_seen / total;
+        step.row_gain          = row_seen / total;
+        step.inverse_deviation = 1. / std::sqrt(total);
+        log_det += std::log(total);
+        drift -= step.drift_gain * drift_seen;
+        both -= step.drift_gain * row_seen;
+        row -= step.row_gain * row_seen;
+        steps.push_back(step);
+      }
+  }
+
+
+
   void Whitener::filter(Eigen::Ref<RowMatrix> columns) const
   {
-    Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(columns.cols());
+    Eigen::RowVectorXd drift = Eigen::RowVectorXd::Zero(columns.cols());
+    Eigen::RowVectorXd row   = drift;
     for (Eigen::Index i = 0; i < columns.rows(); ++i)
       {
-        if (begins[i])
-          state.setZero();
+        const Step &step = steps[i];
+        if (step.begins)
+          drift.setZero();
         else
-          state *= decay[i];
-        columns.row(i) -= state;
-        state += gains[i] * columns.row(i);
-        columns.row(i) *= inverse_deviation[i];
+          drift *= step.drift_kept;
+        columns.row(i) -= drift;
+        if (step.row_weight > 0.)
+          {
+            if (step.begins)
+              row.setZero();
+            else
+              row *= step.row_kept;
+            columns.row(i) -= step.row_weight * row;
+            row += step.row_gain * columns.row(i);
+          }
+        drift += step.drift_gain * columns.row(i);
+        columns.row(i) *= step.inverse_deviation;
       }
   }
 
@@ -145,19 +191,30 @@ namespace SlipStep
     Eigen::Index    row    = 0;
     for (const Series &one : series)
       {
-        double state = noise.drift * level * normal(random);
+        double       state      = noise.drift * level * normal(random);
+        const double drift_time = one.drift_time(noise);
+        double       together   = one.row_share > 0. ? normal(random) : 0.;
         for (std::size_t i = 0; i < one.time.size(); ++i, ++row)
           {
             if (i > 0)
               {
                 const double keep =
-                  std::exp((one.time[i - 1] - one.time[i]) / noise.drift_time);
+                  std::exp((one.time[i - 1] - one.time[i]) / drift_time);
                 state = keep * state + noise.drift * level *
                                          std::sqrt(1. - keep * keep) *
                                          normal(random);
               }
-            result(row) +=
-              state + noise.white * one.row_noise[i] * normal(random);
+            double own = normal(random);
+            if (one.row_share > 0.)
+              {
+                const double keep = one.row_decay;
+                if (i > 0)
+                  together = keep * together +
+                             std::sqrt(1. - keep * keep) * normal(random);
+                own = std::sqrt(1. - one.row_share) * own +
+                      std::sqrt(one.row_share) * together;
+              }
+            result(row) += state + noise.white * one.row_noise[i] * own;
           }
       }
     return result;
@@ -171,8 +228,11 @@ namespace SlipStep
     Noise::Logarithms                independent;
     for (double &value : independent)
       value = normal(random);
-    return Noise::from_logarithms(noise.logarithms() +
-                                  covariance.llt().matrixL() * independent);
+    Noise result = Noise::from_logarithms(
+      noise.logarithms() + covariance.llt().matrixL() * independent);
+    if (row_freedom > 0.)
+      result.white *= std::exp(normal(random) / std::sqrt(2. * row_freedom));
+    return result;
   }
 
 
@@ -180,7 +240,7 @@ namespace SlipStep
   Noise::Logarithms prior_deviations()
   {
     Noise::Logarithms result;
-    result << 0.2, 0.6, 0.5, 0.6, 0.6, 0.6;
+    result << 0.2, 0.6, 0.5, 0.6, 0.6, 0.6, 0.5;
     return result;
   }
 
@@ -320,7 +380,9 @@ namespace SlipStep
     result.noise = Noise::from_logarithms(at);
 
     // The curvature is at least that of the prior.
-    Eigen::Matrix<double, 6, 6> curvature;
+    using Square =
+      Eigen::Matrix<double, Noise::n_components, Noise::n_components>;
+    Square curvature;
     for (Eigen::Index i = 0; i < at.size(); ++i)
       {
         constexpr double step   = 0.02;
@@ -333,8 +395,7 @@ namespace SlipStep
         curvature.row(i) = (rise - fall).transpose() / (2. * step);
       }
     curvature = (curvature + curvature.transpose()).eval() / 2.;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(
-      curvature);
+    const Eigen::SelfAdjointEigenSolver<Square> eigen(curvature);
     result.covariance =
       eigen.eigenvectors() *
       eigen.eigenvalues().cwiseMax(1.).cwiseInverse().asDiagonal() *

@@ -53,15 +53,45 @@ namespace
                     std::pow(level * noise.drift, 2) *
                       std::exp(
                         -std::abs(series[s].time[i] - series[t].time[j]) /
-                        noise.drift_time) +
+                        (noise.drift_time *
+                         std::pow(series[s].duration, -noise.by_seconds))) +
                     std::pow(level * noise.offset, 2) +
                     std::pow(level * noise.slope, 2) *
                       (series[s].time[i] - 0.5) * (series[t].time[j] - 0.5);
+                const double rows = std::pow(noise.white, 2) *
+                                    series[s].row_noise[i] *
+                                    series[t].row_noise[j];
                 if (row == column)
-                  value += std::pow(noise.white * series[s].row_noise[i], 2);
+                  value += rows * (1. - series[s].row_share);
+                if (s == t)
+                  value += rows * series[s].row_share *
+                           std::pow(series[s].row_decay, i > j ? i - j : j - i);
                 result(row, column) = value;
               }
         }
+    return result;
+  }
+} // namespace
+
+
+
+namespace
+{
+  // White rows; rows that hang together, in part and wholly; drift that forgets
+  // within the same seconds.
+  std::vector<std::pair<Series, Noise>> kinds_of_noise(const std::size_t n)
+  {
+    std::vector<std::pair<Series, Noise>> result(4,
+                                                 {series_of(n, 0.001),
+                                                  usual_noise()});
+    result[1].first.row_share   = 0.6;
+    result[1].first.row_decay   = 0.8;
+    result[2].first.row_share   = 1.;
+    result[2].first.row_decay   = 0.5;
+    result[3].first.row_share   = 0.3;
+    result[3].first.row_decay   = 0.9;
+    result[3].first.duration    = 3.;
+    result[3].second.by_seconds = 0.8;
     return result;
   }
 } // namespace
@@ -72,46 +102,48 @@ namespace
 TEST(Whitener, MakesNoiseIndependent)
 {
   for (const std::size_t n_axes : {1, 2})
-    {
-      const std::vector<Series> series(n_axes, series_of(40, 0.001));
-      const Noise               noise = usual_noise();
-      const Whitener            whitener(series, 0.11, noise);
-      const Eigen::MatrixXd     C        = covariance(series, 0.11, noise);
-      const Eigen::MatrixXd     L        = C.llt().matrixL();
-      RowMatrix                 whitened = L;
-      whitener.apply(whitened);
-      const Eigen::MatrixXd unit = whitened * whitened.transpose();
-      EXPECT_LT((unit - Eigen::MatrixXd::Identity(unit.rows(), unit.cols()))
-                  .cwiseAbs()
-                  .maxCoeff(),
-                1e-9);
-      EXPECT_NEAR(whitener.log_determinant(),
-                  2. * L.diagonal().array().log().sum(),
-                  1e-8);
-    }
+    for (const auto &[one, noise] : kinds_of_noise(40))
+      {
+        const std::vector<Series> series(n_axes, one);
+        const Whitener            whitener(series, 0.11, noise);
+        const Eigen::MatrixXd     C        = covariance(series, 0.11, noise);
+        const Eigen::MatrixXd     L        = C.llt().matrixL();
+        RowMatrix                 whitened = L;
+        whitener.apply(whitened);
+        const Eigen::MatrixXd unit = whitened * whitened.transpose();
+        EXPECT_LT((unit - Eigen::MatrixXd::Identity(unit.rows(), unit.cols()))
+                    .cwiseAbs()
+                    .maxCoeff(),
+                  1e-9);
+        EXPECT_NEAR(whitener.log_determinant(),
+                    2. * L.diagonal().array().log().sum(),
+                    1e-8);
+      }
 }
 
 
 
 TEST(SampleNoise, HasTheCovarianceThatIsWhitened)
 {
-  const std::vector<Series> series(1, series_of(30, 0.001));
-  const Noise               noise = usual_noise();
-  const Whitener            whitener(series, 0.11, noise);
-  std::mt19937_64           random(3);
-  constexpr unsigned int    n_samples = 4000;
-  Eigen::MatrixXd           sum       = Eigen::MatrixXd::Zero(30, 30);
-  for (unsigned int i = 0; i < n_samples; ++i)
+  for (const auto &[one, noise] : kinds_of_noise(30))
     {
-      RowMatrix sample = sample_noise(series, 0.11, noise, random);
-      whitener.apply(sample);
-      sum += sample * sample.transpose();
+      const std::vector<Series> series(1, one);
+      const Whitener            whitener(series, 0.11, noise);
+      std::mt19937_64           random(3);
+      constexpr unsigned int    n_samples = 4000;
+      Eigen::MatrixXd           sum       = Eigen::MatrixXd::Zero(30, 30);
+      for (unsigned int i = 0; i < n_samples; ++i)
+        {
+          RowMatrix sample = sample_noise(series, 0.11, noise, random);
+          whitener.apply(sample);
+          sum += sample * sample.transpose();
+        }
+      sum /= n_samples;
+      // Standard deviation of an element: 1/sqrt(4000), of a diagonal one
+      // sqrt(2) times that; 900 of them.
+      EXPECT_LT((sum - Eigen::MatrixXd::Identity(30, 30)).cwiseAbs().maxCoeff(),
+                5. * std::sqrt(2. / n_samples));
     }
-  sum /= n_samples;
-  // Standard deviation of an element: 1/sqrt(4000), of a diagonal one sqrt(2)
-  // times that; 900 of them.
-  EXPECT_LT((sum - Eigen::MatrixXd::Identity(30, 30)).cwiseAbs().maxCoeff(),
-            5. * std::sqrt(2. / n_samples));
 }
 
 
@@ -154,7 +186,35 @@ TEST(EstimateNoise, IsThePriorWithoutReplicates)
   const NoiseEstimate found = estimate_noise({}, prior);
   EXPECT_EQ(found.n_contrasts, 0u);
   EXPECT_EQ((found.noise.logarithms() - prior.logarithms()).norm(), 0.);
-  for (Eigen::Index i = 0; i < 6; ++i)
+  for (Eigen::Index i = 0; i < 7; ++i)
     EXPECT_DOUBLE_EQ(found.covariance(i, i),
                      std::pow(prior_deviations()(i), 2));
+}
+
+
+
+// Replicates of 10 s and of 1000 s tell whether drift forgets within seconds.
+TEST(EstimateNoise, TellsSecondsFromShares)
+{
+  for (const double by_seconds : {0., 1.})
+    {
+      Noise truth      = usual_noise();
+      truth.by_seconds = by_seconds;
+      std::mt19937_64       random(8);
+      std::vector<Contrast> contrasts;
+      for (unsigned int i = 0; i < 12; ++i)
+        {
+          Contrast contrast;
+          contrast.series             = {series_of(200, 3e-4)};
+          contrast.series[0].duration = i % 2 == 0 ? 0.2 : 5.;
+          contrast.level              = 0.11;
+          contrast.values =
+            sample_noise(contrast.series, contrast.level, truth, random);
+          contrasts.push_back(contrast);
+        }
+      const NoiseEstimate found = estimate_noise(contrasts, usual_noise());
+      EXPECT_LT(std::abs(found.noise.by_seconds - by_seconds),
+                3. * std::sqrt(found.covariance(6, 6)));
+      EXPECT_LT(std::sqrt(found.covariance(6, 6)), 0.25);
+    }
 }

@@ -5,6 +5,7 @@
 #include <slipstep/calibration/campaign.h>
 #include <slipstep/diagnosis/candidates.h>
 #include <slipstep/diagnosis/noise.h>
+#include <slipstep/measured_data/row_noise.h>
 
 #include <slipstep/utilities/exceptions.h>
 
@@ -76,6 +77,10 @@ namespace SlipStep
     std::vector<ComparedTest> tests;
     std::vector<std::string>  conditions; ///< their names
     Eigen::VectorXd           measured;   ///< averaged, all tests in a row
+    double                    usual_duration = 1.; ///< of tests [s]
+
+    /// Take this for the noise of the rows of a test.
+    void set_row_noise(const std::size_t test, const RowNoise &noise);
 
     /// Weigh by this noise from now on; a gain multiplies @p friction.
     void set_noise(const Noise &noise, const Eigen::VectorXd &friction);
@@ -115,6 +120,8 @@ namespace SlipStep
     }
 
   private:
+    void find_durations(const std::vector<CampaignTest> &campaign_tests);
+
     Noise                 present_noise;
     std::vector<Whitener> whiteners;
   };

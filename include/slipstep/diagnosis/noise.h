@@ -26,14 +26,19 @@ namespace SlipStep
   {
     double white = 1.; ///< in units of the rows' own noise
     double drift = 0.;
-    /// Over which the drift forgets, as a share of the test's duration.
+    /// Over which the drift forgets, as a share of the duration of a test of
+    /// usual length.
     double drift_time = 0.1;
     double gain       = 0.;
     double offset     = 0.;
     double slope      = 0.; ///< of a straight line, from first to last row
+    /// Of a longer test the share is less by this power of its duration: 0 if
+    /// the drift goes with the test, 1 if it forgets within the same seconds.
+    double by_seconds = 0.;
 
-    static constexpr std::size_t n_components = 6;
+    static constexpr std::size_t n_components = 7;
 
+    /// The last of them is no logarithm, but by_seconds itself.
     using Logarithms = Eigen::Matrix<double, n_components, 1>;
 
     Logarithms logarithms() const;
@@ -49,6 +54,15 @@ namespace SlipStep
     std::vector<double> row_noise;
     /// Friction without noise: what a gain multiplies.
     std::vector<double> friction;
+    /// @name How rows hang together, see RowNoise: of their variance the share
+    ///   of an autoregressive process, and what is left of it in the next row.
+    ///@{
+    double row_share = 0., row_decay = 0.;
+    ///@}
+    double duration = 1.; ///< of the test, over the usual one
+
+    /// Over which drift forgets, a share of the test's own duration.
+    double drift_time(const Noise &noise) const;
   };
 
   /// Turns noise into independent numbers of variance one, and back, for one
@@ -75,15 +89,27 @@ namespace SlipStep
 
     std::size_t n_rows() const
     {
-      return gains.size();
+      return steps.size();
     }
 
   private:
+    /// One row of the Kalman filter, whose states are the drift and, of
+    /// variance 1, what rows have in common with their neighbours.
+    struct Step
+    {
+      bool   begins     = false; ///< a series
+      double drift_kept = 0., row_kept = 0.;
+      double row_weight = 0.; ///< of the second state in the row
+      double drift_gain = 0., row_gain = 0.;
+      double inverse_deviation = 1.;
+    };
+
+    void
+    add_steps(const Series &series, const double level, const Noise &noise);
+
     void filter(Eigen::Ref<RowMatrix> columns) const;
 
-    /// Rows at which a series begins.
-    std::vector<bool>   begins;
-    std::vector<double> decay, gains, inverse_deviation;
+    std::vector<Step> steps;
     /// Orthonormal columns of what is common to a test, filtered, and what is
     /// left of each (less 1).
     RowMatrix       common;
@@ -115,6 +141,9 @@ namespace SlipStep
     /// Of the logarithms of its components.
     Eigen::Matrix<double, Noise::n_components, Noise::n_components> covariance;
     std::size_t n_contrasts = 0;
+    /// How well the noise of rows is known where they hang together, as of so
+    /// many squares; 0: as well as the covariance says.
+    double row_freedom = 0.;
 
     /// One that is as plausible.
     Noise draw(std::mt19937_64 &random) const;

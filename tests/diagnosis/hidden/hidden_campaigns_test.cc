@@ -310,7 +310,7 @@ TEST_F(CampaignFolder, WaveAlongTheTrackIsTold)
   EXPECT_EQ(name_of(judgement.verdict), "unnamed");
   EXPECT_LE(judgement.gap.p_track, 0.002);
   const double level = ingested.workspace->level;
-  EXPECT_GT(1.5 * judgement.gap.p_smooth, level);
+  EXPECT_GT(judgement.gap.p_smooth, 5. * judgement.gap.p_track);
   for (const double other : {judgement.gap.p_waves,
                              judgement.gap.p_conditions,
                              judgement.gap.p_together,
