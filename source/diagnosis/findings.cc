@@ -333,6 +333,12 @@ namespace SlipStep
       {
         case Verdict::named:
         case Verdict::ambiguous:
+          if (diagnosis.remainder_p <= diagnosis.level)
+            doubts.push_back(
+              "What remains is more than noise: the formula of " +
+              diagnosis.effects.front() +
+              " is not quite right, or something weaker is "
+              "missing beside it.");
           doubts.push_back(
             "An effect that is not in the catalogue but changes friction in "
             "the same way under the conditions tested would be taken for " +
