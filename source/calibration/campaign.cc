@@ -259,8 +259,16 @@ namespace SlipStep
 
   Campaign::Campaign(const Parameters                &parameters,
                      const std::vector<CampaignTest> &tests)
+    : Campaign(parameters, read_fit_parameters(parameters), tests)
+  {}
+
+
+
+  Campaign::Campaign(const Parameters                &parameters,
+                     const std::vector<FitParameter> &fitted,
+                     const std::vector<CampaignTest> &tests)
     : parameters(parameters)
-    , fitted(read_fit_parameters(parameters))
+    , fitted(fitted)
     , derived(read_derived(parameters))
     , tests(tests)
     , search_tolerance(4. * parameters.number("Time stepping/Tolerance"))

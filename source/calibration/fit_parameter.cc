@@ -31,24 +31,6 @@ namespace SlipStep
       return at == std::string::npos ? path : path.substr(at + 1);
     }
 
-    void name_them(std::vector<FitParameter> &parameters)
-    {
-      for (FitParameter &parameter : parameters)
-        for (unsigned int n_parts = 1; n_parts < 4; ++n_parts)
-          {
-            parameter.name = last_part(parameter.path, n_parts);
-            if (std::count_if(parameters.begin(),
-                              parameters.end(),
-                              [&](const FitParameter &other) {
-                                return last_part(other.path, n_parts) ==
-                                       parameter.name;
-                              }) == 1)
-              break;
-          }
-    }
-
-
-
     /// "PATH from A to B [start C] [log|linear]"
     class Statement
     {
@@ -56,6 +38,12 @@ namespace SlipStep
       Statement(const std::string &text, const Parameters &parameters);
 
       FitParameter read();
+
+      /// Of a text that is but a path.
+      FitParameter of(const double lower,
+                      const double upper,
+                      const double start,
+                      const bool   is_logarithmic);
 
     private:
       [[noreturn]] void reject(const std::string &why) const;
@@ -194,6 +182,25 @@ namespace SlipStep
           " is outside of the bounds");
       return result;
     }
+
+
+
+    FitParameter Statement::of(const double lower,
+                               const double upper,
+                               const double start,
+                               const bool   is_logarithmic)
+    {
+      result.path = text;
+      read_dimension();
+      result.lower          = quantity(result.text(lower), "from");
+      result.upper          = quantity(result.text(upper), "to");
+      result.start          = quantity(result.text(start), "start");
+      result.is_logarithmic = is_logarithmic;
+      if (!(result.lower < result.upper) || result.start < result.lower ||
+          result.start > result.upper)
+        reject("the start has to lie between the bounds");
+      return result;
+    }
   } // namespace
 
 
@@ -254,6 +261,36 @@ namespace SlipStep
 
 
 
+  void name_apart(std::vector<FitParameter> &parameters)
+  {
+    for (FitParameter &parameter : parameters)
+      for (unsigned int n_parts = 1; n_parts < 4; ++n_parts)
+        {
+          parameter.name = last_part(parameter.path, n_parts);
+          if (std::count_if(parameters.begin(),
+                            parameters.end(),
+                            [&](const FitParameter &other) {
+                              return last_part(other.path, n_parts) ==
+                                     parameter.name;
+                            }) == 1)
+            break;
+        }
+  }
+
+
+
+  FitParameter make_fit_parameter(const Parameters  &parameters,
+                                  const std::string &path,
+                                  const double       lower,
+                                  const double       upper,
+                                  const double       start,
+                                  const bool         is_logarithmic)
+  {
+    return Statement(path, parameters).of(lower, upper, start, is_logarithmic);
+  }
+
+
+
   std::vector<FitParameter> read_fit_parameters(const Parameters &parameters)
   {
     std::vector<FitParameter> result;
@@ -272,7 +309,7 @@ namespace SlipStep
       parameters.reject(list_key,
                         "name at least one parameter, as in "
                         "\"Friction/softening/Rate from 0.01 to 1\"");
-    name_them(result);
+    name_apart(result);
     return result;
   }
 

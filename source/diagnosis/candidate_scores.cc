@@ -118,7 +118,9 @@ namespace SlipStep
     View find_directions(const Workspace &workspace, const Model &model)
     {
       const std::vector<Candidate> candidates =
-        make_candidates(model.simulator->with(model.scaled), workspace.range);
+        make_candidates(model.simulator->with(model.scaled),
+                        workspace.range,
+                        model.campaign->fitted);
       std::vector<std::vector<Direction>> found(candidates.size());
       std::vector<std::string>            failures(candidates.size());
       side_by_side(candidates.size(), [&](const std::size_t c) {

@@ -12,15 +12,28 @@ namespace SlipStep
   {
     const char *const compliance_name = "compliance";
 
+    bool lists(const std::vector<FitParameter> &fitted, const std::string &path)
+    {
+      return std::any_of(fitted.begin(),
+                         fitted.end(),
+                         [&](const FitParameter &parameter) {
+                           return parameter.path == path;
+                         });
+    }
+
+
+
     // A spring in series with the contact's own stiffness: for a contact point
     // the same as a smaller alpha_t, which the block understands, too.
-    Candidate compliance(const Circumstances &now)
+    Candidate compliance(const Circumstances             &now,
+                         const std::vector<FitParameter> &fitted)
     {
       const std::string stiffness = "Friction/Tangential stiffness";
       Candidate  candidate{compliance_name, "loading flanks only", {}, ""};
       const auto is_fitted = [&](const std::string &path) {
         return now.parameters.text("Calibration/Parameters").find(path + " ") !=
-               std::string::npos;
+                 std::string::npos ||
+               lists(fitted, path);
       };
       if (is_fitted(stiffness) || is_fitted("Loading/Machine stiffness"))
         {
@@ -122,8 +135,10 @@ namespace SlipStep
 
 
 
-  std::vector<Candidate> make_candidates(const Parameters  &parameters,
-                                         const TestedRange &range)
+  std::vector<Candidate>
+  make_candidates(const Parameters                &parameters,
+                  const TestedRange               &range,
+                  const std::vector<FitParameter> &fitted)
   {
     const Circumstances      now{parameters, range};
     std::vector<std::string> wanted = parameters.list("Diagnosis/Candidates");
@@ -133,7 +148,7 @@ namespace SlipStep
     for (const std::string &name : candidate_names())
       if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
         result.push_back(name == compliance_name ?
-                           compliance(now) :
+                           compliance(now, fitted) :
                            candidate_of(effect_registry().at(name), now));
     return result;
   }
@@ -158,57 +173,57 @@ namespace SlipStep
 
   namespace
   {
-    void add_part(const Part &part, const Values &values, Parameters &result)
+    void add_part(const Part &part, const Values &values, CaseToFit &result)
     {
-      const TrialFormula &formula = part.formula;
+      const TrialFormula &formula    = part.formula;
+      Parameters         &parameters = result.parameters;
       if (!formula.effect.empty())
         {
-          const std::string list = result.text("Friction/Effects");
-          result.set("Friction/Effects",
-                     list + (list.empty() ? "" : ", ") + formula.effect,
-                     "diagnosis");
+          const std::string list = parameters.text("Friction/Effects");
+          parameters.set("Friction/Effects",
+                         list + (list.empty() ? "" : ", ") + formula.effect,
+                         "diagnosis");
         }
       for (const auto &[path, value] : formula.settings)
-        result.set(path, quantity_text(result, path, value), "diagnosis");
+        parameters.set(path,
+                       quantity_text(parameters, path, value),
+                       "diagnosis");
       for (const auto &[path, text] : formula.texts)
-        result.set(path, text, "diagnosis");
-      std::string list = result.text("Calibration/Parameters");
+        parameters.set(path, text, "diagnosis");
       for (const CandidateParameter &parameter : formula.parameters)
-        if (list.find(parameter.path + " ") == std::string::npos)
-          {
-            const auto text = [&](const double value) {
-              return quantity_text(result, parameter.path, value);
-            };
-            const double value = std::clamp(values.at(parameter.path),
-                                            parameter.lower,
-                                            parameter.upper);
-            list += "; " + parameter.path + " from " + text(parameter.lower) +
-                    " to " + text(parameter.upper) + " start " + text(value) +
-                    (parameter.is_logarithmic ? " log" : " linear");
-          }
-      result.set("Calibration/Parameters", list, "diagnosis");
+        if (!lists(result.fitted, parameter.path))
+          result.fitted.push_back(
+            make_fit_parameter(parameters,
+                               parameter.path,
+                               parameter.lower,
+                               parameter.upper,
+                               std::clamp(values.at(parameter.path),
+                                          parameter.lower,
+                                          parameter.upper),
+                               parameter.is_logarithmic));
     }
   } // namespace
 
 
 
-  Parameters assemble(const Parameters        &start,
-                      const std::vector<Part> &parts,
-                      const Values            &values)
+  CaseToFit assemble(const Parameters        &start,
+                     const std::vector<Part> &parts,
+                     const Values            &values)
   {
-    Parameters result = start;
+    CaseToFit result{start, read_fit_parameters(start)};
     for (const Part &part : parts)
       add_part(part, values, result);
-    for (const FitParameter &parameter : read_fit_parameters(result))
+    name_apart(result.fitted);
+    for (const FitParameter &parameter : result.fitted)
       {
         const auto value = values.find(parameter.path);
         if (value != values.end())
-          result.set(parameter.path,
-                     parameter.text(std::clamp(value->second,
-                                               parameter.lower,
-                                               parameter.upper),
-                                    17),
-                     "diagnosis");
+          result.parameters.set(parameter.path,
+                                parameter.text(std::clamp(value->second,
+                                                          parameter.lower,
+                                                          parameter.upper),
+                                               17),
+                                "diagnosis");
       }
     return result;
   }

@@ -497,14 +497,15 @@ namespace SlipStep
                    const std::vector<CampaignTest> &tests,
                    const Model                     *like)
   {
-    Model            model;
-    const Parameters parameters = assemble(start, parts, values);
-    model.parts                 = parts;
-    model.campaign              = std::make_shared<Campaign>(parameters, tests);
-    model.simulator             = std::make_shared<Simulator>(*model.campaign);
+    Model           model;
+    const CaseToFit assembled = assemble(start, parts, values);
+    model.parts               = parts;
+    model.campaign =
+      std::make_shared<Campaign>(assembled.parameters, assembled.fitted, tests);
+    model.simulator = std::make_shared<Simulator>(*model.campaign);
     for (const FitParameter &parameter : model.campaign->fitted)
       model.scaled.push_back(std::clamp(
-        parameter.to_scaled(parameter.value_in(parameters)), 0., 1.));
+        parameter.to_scaled(parameter.value_in(assembled.parameters)), 0., 1.));
     model.simulator->plan(model.scaled,
                           like == nullptr ? nullptr : like->simulator.get());
     if (like != nullptr)

@@ -5,7 +5,7 @@ namespace SlipStep
 {
   Parameters case_of(const Parameters &start, const Model &model)
   {
-    Parameters  result = assemble(start, model.parts, model.values());
+    Parameters result = assemble(start, model.parts, model.values()).parameters;
     std::string list;
     for (const FitParameter &parameter : model.campaign->fitted)
       list += (list.empty() ? "" : "; ") + parameter.path + " from " +

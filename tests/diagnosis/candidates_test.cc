@@ -53,10 +53,10 @@ TEST(Candidates, MakeCasesThatTheLawTakes)
         for (const double strength : {0.01, 1., 30., 1000.})
           {
             SCOPED_TRACE(candidate.name + " " + std::to_string(strength));
-            const Parameters with =
+            const CaseToFit with =
               assemble(start, {{candidate.name, formula}}, shape(strength));
-            EXPECT_NO_THROW(FrictionLaw{with});
-            const std::vector<FitParameter> fitted = read_fit_parameters(with);
+            EXPECT_NO_THROW(FrictionLaw{with.parameters});
+            const std::vector<FitParameter> &fitted = with.fitted;
             for (const CandidateParameter &parameter : formula.parameters)
               EXPECT_TRUE(std::any_of(fitted.begin(),
                                       fitted.end(),

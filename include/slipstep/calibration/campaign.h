@@ -51,6 +51,11 @@ namespace SlipStep
     Campaign(const Parameters                &parameters,
              const std::vector<CampaignTest> &tests);
 
+    /// The same with these to be fitted, whatever the case lists.
+    Campaign(const Parameters                &parameters,
+             const std::vector<FitParameter> &fitted,
+             const std::vector<CampaignTest> &tests);
+
     const Parameters                parameters;
     const std::vector<FitParameter> fitted;
     const std::vector<Derived>      derived;

@@ -53,6 +53,19 @@ namespace SlipStep
   /// start outside of them, none at all
   std::vector<FitParameter> read_fit_parameters(const Parameters &parameters);
 
+  /// A parameter with bounds and start as they would stand in a case, to ten
+  /// digits; without a name yet, see name_apart().
+  /// @throws InputError for what the case does not allow
+  FitParameter make_fit_parameter(const Parameters  &parameters,
+                                  const std::string &path,
+                                  const double       lower,
+                                  const double       upper,
+                                  const double       start,
+                                  const bool         is_logarithmic);
+
+  /// Give parameters the names that tell them apart.
+  void name_apart(std::vector<FitParameter> &parameters);
+
   /// How the tables call a parameter.
   std::string label_of(const FitParameter &parameter);
 } // namespace SlipStep

@@ -2,6 +2,7 @@
 #ifndef slipstep_diagnosis_candidates_h
 #define slipstep_diagnosis_candidates_h
 
+#include <slipstep/calibration/fit_parameter.h>
 #include <slipstep/friction/effect_search.h>
 
 #include <string>
@@ -25,9 +26,12 @@ namespace SlipStep
   };
 
   /// The catalogue as seen from a case and its tests.
-  /// @param parameters the starting model with its fitted values
-  std::vector<Candidate> make_candidates(const Parameters  &parameters,
-                                         const TestedRange &range);
+  /// @param parameters the model with its fitted values
+  /// @param fitted what is fitted beside what the case lists
+  std::vector<Candidate>
+  make_candidates(const Parameters                &parameters,
+                  const TestedRange               &range,
+                  const std::vector<FitParameter> &fitted = {});
 
   /// Names that "Diagnosis/Candidates" may list: effects that are looked for,
   /// and the stiffness of the contact, which is none.
@@ -44,13 +48,21 @@ namespace SlipStep
     TrialFormula formula;
   };
 
-  /// The starting model with effects added, and all their parameters listed
-  /// to be fitted. Where a fit begins is what the case says; where a parameter
-  /// of the starting model is believed to be stays its start.
+  /// A case and all of its parameters that are to be fitted; it lists those of
+  /// the starting model only.
+  struct CaseToFit
+  {
+    Parameters                parameters;
+    std::vector<FitParameter> fitted;
+  };
+
+  /// The starting model with effects added. Where a fit begins is what the case
+  /// says; where a parameter of the starting model is believed to be stays its
+  /// start.
   /// @param values of any of the parameters; the others stay
-  Parameters assemble(const Parameters        &start,
-                      const std::vector<Part> &parts,
-                      const Values            &values);
+  CaseToFit assemble(const Parameters        &start,
+                     const std::vector<Part> &parts,
+                     const Values            &values);
 
   /// A number in base units as it stands in a case.
   std::string quantity_text(const Parameters  &parameters,
