@@ -79,17 +79,6 @@ namespace SlipStep
         number("slip_mm", &Row::slip)};
       return all;
     }
-
-    std::size_t index_of(const ContactMemory &memory)
-    {
-      const auto all = ContactState::memories();
-      return std::find_if(all.begin(),
-                          all.end(),
-                          [&memory](const ContactMemory &other) {
-                            return other.value == memory.value;
-                          }) -
-             all.begin();
-    }
   } // namespace
 
 
@@ -156,7 +145,7 @@ namespace SlipStep
                                 std::to_string(column.count(values));
       }
     for (const ContactMemory &memory : memories)
-      line += ',' + exact_text(row.memories[index_of(memory)]);
+      line += ',' + exact_text(row.memories[memory.slot]);
     for (const double probe : row.probes)
       line += ',' + exact_text(probe);
     out << line << '\n' << std::flush;
@@ -187,7 +176,7 @@ namespace SlipStep
     for (std::size_t i = 0; i < most_probes; ++i)
       probes.push_back(probe_name(i));
     std::vector<std::string> others = probes;
-    for (const ContactMemory &memory : ContactState::memories())
+    for (const ContactMemory &memory : contact_memories())
       others.emplace_back(memory.name);
     const CsvTable table(file, names, others);
 
@@ -196,10 +185,10 @@ namespace SlipStep
       if (table.has(probe))
         for (std::size_t row = 0; row < history.size(); ++row)
           history[row].probes.push_back(table[probe][row]);
-    for (const ContactMemory &memory : ContactState::memories())
+    for (const ContactMemory &memory : contact_memories())
       if (table.has(memory.name))
         for (std::size_t row = 0; row < history.size(); ++row)
-          history[row].memories[index_of(memory)] = table[memory.name][row];
+          history[row].memories[memory.slot] = table[memory.name][row];
     for (const Column &column : columns())
       {
         const std::vector<double> &values = table[column.name];

@@ -147,8 +147,7 @@ namespace SlipStep
         row.step_size         = time_step;
         row.newton_iterations = 1;
         row.slip              = state.slip_path;
-        for (std::size_t i = 0; i < row.memories.size(); ++i)
-          row.memories[i] = state.*ContactState::memories()[i].value;
+        row.memories          = state.memories;
         if (!machine.is_rigid())
           row.probes = Machine::probes(slider, to.pressure);
         observe(row);

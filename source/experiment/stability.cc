@@ -25,7 +25,7 @@ namespace SlipStep
     // What a point in steady sliding remembers: two components of the traction,
     // mu, and the memories of the effects. (r_s stays 1, the slip path is
     // beyond all that runs in.)
-    constexpr unsigned int n_memories = ContactState::memories().size();
+    constexpr unsigned int n_memories = ContactState::most_memories;
     constexpr unsigned int n_states   = 3 + n_memories;
 
     // Time step of the differences, times the angular frequency.
@@ -37,7 +37,7 @@ namespace SlipStep
         return state.traction[i];
       if (i == 2)
         return state.coefficient;
-      return state.*ContactState::memories()[i - 3].value;
+      return state.memories[i - 3];
     }
 
     std::array<double, n_states> components(ContactState state)
@@ -154,13 +154,18 @@ namespace SlipStep
             component(plus, j) += change;
             component(minus, j) -= change;
           }
+        // What nobody remembers stays as it is.
+        if (!(change > 0.))
+          {
+            matrix(j, j) = 1.;
+            continue;
+          }
         const bool is_slip = j == n_states;
         const auto upper   = step(plus, is_slip ? slip + change : slip);
         const auto lower   = step(minus, is_slip ? slip - change : slip);
         for (unsigned int i = 0; i < n_states; ++i)
           {
-            const double derivative =
-              change > 0. ? (upper[i] - lower[i]) / (2. * change) : 0.;
+            const double derivative = (upper[i] - lower[i]) / (2. * change);
             if (is_slip)
               right[i] = derivative * (1. - shift);
             else

@@ -685,8 +685,7 @@ namespace SlipStep
     end.slip_path     = start.slip_path + local.slip;
     end.slip_rate     = local.slip / time_step;
     end.dissipation   = start.dissipation + local.traction * local.slip;
-    for (const auto memory : ContactState::memories())
-      end.*memory.value = start.*memory.value;
+    end.memories      = start.memories;
     for (const StrengthEffect *effect : strength_effects)
       effect->remember(step_data(local), end);
     return response;

@@ -197,14 +197,16 @@ namespace SlipStep
   std::vector<ContactMemory> FrictionLaw::memories() const
   {
     std::vector<ContactMemory> used;
-    for (const ContactMemory &memory : ContactState::memories())
+    for (const ContactMemory &memory : contact_memories())
       if (std::any_of(strength_effects.begin(),
                       strength_effects.end(),
                       [&memory](const StrengthEffect *effect) {
                         const auto written = effect->memories();
-                        return std::find(written.begin(),
-                                         written.end(),
-                                         memory.value) != written.end();
+                        return std::any_of(written.begin(),
+                                           written.end(),
+                                           [&](const ContactMemory &other) {
+                                             return other.slot == memory.slot;
+                                           });
                       }))
         used.push_back(memory);
     return used;

@@ -16,6 +16,8 @@ namespace SlipStep
     ContactState state;
     state.coefficient  = initial_coefficient;
     state.normal_ratio = normal_ratio->virgin_normal_ratio();
+    for (const ContactMemory &memory : contact_memories())
+      state[memory] = memory.initial;
     return state;
   }
 

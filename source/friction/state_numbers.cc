@@ -20,25 +20,25 @@ namespace SlipStep
               {&ContactState::slip_path, "slip_path_mm"},
               {&ContactState::slip_rate, "slip_rate_mm_per_s"},
               {&ContactState::dissipation, "dissipation_MPa_mm"}}
-  {
-    for (const ContactMemory &memory : law.memories())
-      members.push_back(memory);
-  }
+    , memories(law.memories())
+  {}
 
 
 
   std::size_t StateNumbers::size() const
   {
-    return n_traction + members.size();
+    return n_traction + members.size() + memories.size();
   }
 
 
 
   const char *StateNumbers::name(const std::size_t i) const
   {
-    return i == 0 ? "traction_1_MPa" :
-           i == 1 ? "traction_2_MPa" :
-                    members.at(i - n_traction).name;
+    const std::size_t first_memory = n_traction + members.size();
+    return i == 0           ? "traction_1_MPa" :
+           i == 1           ? "traction_2_MPa" :
+           i < first_memory ? members[i - n_traction].name :
+                              memories.at(i - first_memory).name;
   }
 
 
@@ -48,8 +48,10 @@ namespace SlipStep
     ContactState state = initial;
     for (std::size_t i = 0; i < n_traction; ++i)
       state.traction[i] = *numbers++;
-    for (const ContactMemory &member : members)
+    for (const Member &member : members)
       state.*member.value = *numbers++;
+    for (const ContactMemory &memory : memories)
+      state[memory] = *numbers++;
     return state;
   }
 
@@ -59,7 +61,9 @@ namespace SlipStep
   {
     for (std::size_t i = 0; i < n_traction; ++i)
       *numbers++ = state.traction[i];
-    for (const ContactMemory &member : members)
+    for (const Member &member : members)
       *numbers++ = state.*member.value;
+    for (const ContactMemory &memory : memories)
+      *numbers++ = state[memory];
   }
 } // namespace SlipStep

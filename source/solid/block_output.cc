@@ -116,7 +116,7 @@ namespace SlipStep
          [](const State &s, const double) { return s.dissipation; }}};
       for (const ContactMemory &memory : law.memories())
         fields.push_back({memory.name, [memory](const State &s, const double) {
-                            return s.*memory.value;
+                            return s[memory];
                           }});
       if (surface.has_map_of_strength())
         fields.push_back({"strength_factor", [](const State &s, const double) {

@@ -450,7 +450,7 @@ namespace SlipStep
   template <int dim>
   ContactTotals ContactFace<dim>::totals(const MPI_Comm &communicator) const
   {
-    constexpr unsigned int n_memories = ContactState::memories().size();
+    constexpr unsigned int n_memories = ContactState::most_memories;
     ContactTotals          totals;
     std::array<double, 12 + n_memories> sums{};
     // Maxima of (r, r_s, mu) and of their negatives.
@@ -484,7 +484,7 @@ namespace SlipStep
             }
           sums[11] += load * state.slip_path;
           for (unsigned int i = 0; i < n_memories; ++i)
-            sums[12 + i] += load * state.*ContactState::memories()[i].value;
+            sums[12 + i] += load * state.memories[i];
         }
     Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
                         communicator,

@@ -127,7 +127,7 @@ namespace SlipStep
   typename ContactProjection<dim>::Fields
   ContactProjection<dim>::fields_of(const ContactState &state)
   {
-    static_assert(n_fields == first_memory + ContactState::memories().size());
+    static_assert(n_fields == first_memory + ContactState::most_memories);
     Fields fields = {{state.traction[0],
                       state.traction[1],
                       state.normal_traction,
@@ -137,8 +137,9 @@ namespace SlipStep
                       state.slip_path,
                       state.slip_rate,
                       state.dissipation}};
-    for (unsigned int i = first_memory; i < n_fields; ++i)
-      fields[i] = state.*ContactState::memories()[i - first_memory].value;
+    std::copy(state.memories.begin(),
+              state.memories.end(),
+              fields.begin() + first_memory);
     return fields;
   }
 
@@ -198,8 +199,13 @@ namespace SlipStep
                 coefficient,
                 coefficient_range[0],
                 coefficient_range[1]);
-    for (unsigned int field = slip_path; field < n_fields; ++field)
+    for (unsigned int field = slip_path; field < first_memory; ++field)
       limit_field(fields, field, 0., infinity);
+    for (const ContactMemory &memory : contact_memories())
+      limit_field(fields,
+                  first_memory + memory.slot,
+                  memory.least,
+                  memory.greatest);
 
     States states(fields.size());
     for (unsigned int k = 0; k < fields.size(); ++k)
@@ -215,8 +221,9 @@ namespace SlipStep
         state.slip_path       = values[slip_path];
         state.slip_rate       = values[slip_rate];
         state.dissipation     = values[dissipation];
-        for (unsigned int i = first_memory; i < n_fields; ++i)
-          state.*ContactState::memories()[i - first_memory].value = values[i];
+        std::copy(values.begin() + first_memory,
+                  values.end(),
+                  state.memories.begin());
         law.complete(state);
       }
     return states;

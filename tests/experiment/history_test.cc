@@ -75,29 +75,31 @@ TEST(History, TheColumnsAreTheDocumentedOnes)
 
 TEST(History, OnlyMemoriesThatTheLawUsesAreColumns)
 {
-  const auto        all = ContactState::memories();
-  HistoryRow        row;
-  const std::size_t n = row.memories.size();
-  for (std::size_t i = 0; i < n; ++i)
-    row.memories[i] = (i + 1) / 3.;
+  HistoryRow  row;
+  const auto &age  = contact_memory("contact_age_s"),
+             &hold = contact_memory("hold_time_s"),
+             &heat = contact_memory("temperature_rise_degC");
+  for (const ContactMemory &memory : contact_memories())
+    row.memories[memory.slot] = (memory.slot + 1) / 3.;
   row.probes = {7.};
-  HistoryWriter(history_file(), {all[0], all[2]}, 1).write(row);
+  HistoryWriter(history_file(), {age, heat}, 1).write(row);
   std::ifstream in(history_file());
   std::string   header;
   std::getline(in, header);
-  const std::string end = ",slip_mm,temperature_rise_degC,hold_time_s,probe_1";
+  const std::string end =
+    ",slip_mm,contact_age_s,temperature_rise_degC,probe_1";
   ASSERT_GT(header.size(), end.size());
   EXPECT_EQ(header.substr(header.size() - end.size()), end);
 
   const HistoryRow back = read_history(history_file())[0];
-  EXPECT_EQ(back.memories[0], row.memories[0]);
-  EXPECT_EQ(back.memories[1], 0.);
-  EXPECT_EQ(back.memories[2], row.memories[2]);
+  EXPECT_EQ(back.memories[age.slot], row.memories[age.slot]);
+  EXPECT_EQ(back.memories[hold.slot], 0.);
+  EXPECT_EQ(back.memories[heat.slot], row.memories[heat.slot]);
   EXPECT_EQ(back.probes, row.probes);
 
   // Continued after a stop, it goes on with the same columns.
   const auto bytes = std::filesystem::file_size(history_file());
-  HistoryWriter(history_file(), bytes, {all[0], all[2]}).write(row);
+  HistoryWriter(history_file(), bytes, {age, heat}).write(row);
   EXPECT_EQ(read_history(history_file())[1].memories, back.memories);
 }
 
@@ -187,9 +189,8 @@ TEST(History, ADamagedFileIsReported)
 
 TEST(History, ItReadsAsAMeasuredTest)
 {
-  const auto    file     = test_folder() / "as_test.csv";
-  const auto    memories = ContactState::memories();
-  HistoryWriter writer(file, {memories.begin(), memories.end()});
+  const auto    file = test_folder() / "as_test.csv";
+  HistoryWriter writer(file, contact_memories());
   HistoryRow    row;
   row.pressure = 5.8;
   writer.write(row);

@@ -299,20 +299,25 @@ TEST(ClosedForms, memories_at_rest_and_off_the_plane)
                                  {"heating/Cooling time", "3 s"},
                                  {"ageing/Renewal length", "0.2"}});
   ContactState state = slide(*law, 5., 10., 100., 50, law->initial_state());
-  const double hot = state.temperature_rise, held = state.hold_time,
-               young = state.contact_age;
+  const double hot   = state[contact_memory("temperature_rise_degC")],
+               held  = state[contact_memory("hold_time_s")],
+               young = state[contact_memory("contact_age_s")];
   EXPECT_GT(hot, 1.);
   EXPECT_NEAR(held, 0.01 / 10., 1e-10); // D_c / V
   EXPECT_NEAR(young, 0.2 / 10., 1e-9);  // L / V
   ContactState end;
   law->update(state, vector(0.), 5., 2., end);
-  EXPECT_NEAR(end.temperature_rise, hot * std::exp(-2. / 3.), 1e-10 * hot);
-  EXPECT_NEAR(end.hold_time, held + 2., 1e-6);
-  EXPECT_NEAR(end.contact_age, young + 2., 1e-6);
+  EXPECT_NEAR(end[contact_memory("temperature_rise_degC")],
+              hot * std::exp(-2. / 3.),
+              1e-10 * hot);
+  EXPECT_NEAR(end[contact_memory("hold_time_s")], held + 2., 1e-6);
+  EXPECT_NEAR(end[contact_memory("contact_age_s")], young + 2., 1e-6);
   law->update(state, vector(1.), -1., 2., end);
-  EXPECT_NEAR(end.temperature_rise, hot * std::exp(-2. / 3.), 1e-10 * hot);
-  EXPECT_EQ(end.hold_time, 0.);
-  EXPECT_EQ(end.contact_age, 0.);
+  EXPECT_NEAR(end[contact_memory("temperature_rise_degC")],
+              hot * std::exp(-2. / 3.),
+              1e-10 * hot);
+  EXPECT_EQ(end[contact_memory("hold_time_s")], 0.);
+  EXPECT_EQ(end[contact_memory("contact_age_s")], 0.);
 }
 
 
@@ -331,10 +336,12 @@ TEST(ClosedForms, ageing_grows_with_the_logarithm_of_a_rest)
     {
       ContactState state =
         slide(*law, p, 10., 100., 2000, law->initial_state());
-      const double young = state.contact_age;
+      const double young = state[contact_memory("contact_age_s")];
       ContactState end;
       law->update(state, vector(0.), p, rest, end);
-      EXPECT_NEAR(end.contact_age, young + rest, 1e-9 * rest);
+      EXPECT_NEAR(end[contact_memory("contact_age_s")],
+                  young + rest,
+                  1e-9 * rest);
       // So fast that nothing ages meanwhile, in one step and in many.
       const double slip = 0.3, age = (young + rest) * std::exp(-slip / 0.5);
       for (const unsigned int n : {1, 50})

@@ -98,9 +98,8 @@ TEST_P(Combination, random_loading_never_fails)
       ASSERT_GT(state.coefficient, 0.);
       ASSERT_GE(state.slip_path, last.slip_path);
       ASSERT_GE(state.dissipation, last.dissipation);
-      for (const auto memory : ContactState::memories())
-        ASSERT_TRUE(std::isfinite(state.*memory.value) &&
-                    state.*memory.value >= 0.);
+      for (const ContactMemory &memory : contact_memories())
+        ASSERT_TRUE(std::isfinite(state[memory]) && state[memory] >= 0.);
       ASSERT_NEAR(law->isotropic_traction(state.traction).norm(),
                   state.loading_ratio * state.strength,
                   1e-9 * state.strength * state.loading_ratio + 1e-300);

@@ -172,11 +172,11 @@ TEST_P(EveryEffect, tells_the_derivatives_of_its_strength)
   if (strength == nullptr)
     GTEST_SKIP() << "It leaves the strength alone.";
 
-  ContactState start     = travel(*law, 20, 0.4).state;
-  start.temperature_rise = 3.;
-  start.contact_age      = 2.;
-  start.hold_time        = 2.;
-  const double angle     = 0.8;
+  ContactState start = travel(*law, 20, 0.4).state;
+  for (const ContactMemory &memory : contact_memories())
+    start[memory] = std::min(2., 0.5 * memory.greatest);
+  start[contact_memory("temperature_rise_degC")] = 3.;
+  const double angle                             = 0.8;
   // slip, normal traction, angle, rate, coefficient, work
   using Arguments              = std::array<double, 6>;
   const Arguments base         = {{3e-3, 5., angle, 0.4, 0.1, 2e-2}};
@@ -311,8 +311,8 @@ TEST_P(EveryEffect, is_repeatable)
   EXPECT_EQ(first.traction, second.traction);
   EXPECT_EQ(first.d_slip, second.d_slip);
   EXPECT_EQ(point.trial().dissipation, state.dissipation);
-  for (const auto memory : ContactState::memories())
-    EXPECT_EQ(point.trial().*memory.value, state.*memory.value);
+  for (const ContactMemory &memory : contact_memories())
+    EXPECT_EQ(point.trial()[memory], state[memory]);
 }
 
 
@@ -328,12 +328,12 @@ TEST_P(EveryEffect, names_what_it_remembers)
       point.update(*law, vector(slip), 5.8, 0.1);
       point.commit();
     }
-  for (const ContactMemory &memory : ContactState::memories())
-    EXPECT_EQ(point.committed().*memory.value > 0.,
+  for (const ContactMemory &memory : contact_memories())
+    EXPECT_EQ(point.committed()[memory] != memory.initial,
               std::any_of(used.begin(),
                           used.end(),
                           [&](const ContactMemory &other) {
-                            return other.value == memory.value;
+                            return other.slot == memory.slot;
                           }))
       << memory.name;
 }

@@ -31,9 +31,9 @@ namespace SlipStep::Testing
     state.slip_path   = 0.01 + a * b;
     state.slip_rate   = 0.2 + 0.1 * b;
     state.dissipation = 0.3 + 0.2 * x - 0.1 * y * a;
-    state.temperature_rise = 0.2 + 0.3 * x - 0.1 * b;
-    state.contact_age      = 0.5 + y * a;
-    state.hold_time        = 0.7 + x * b;
+    state[contact_memory("temperature_rise_degC")] = 0.2 + 0.3 * x - 0.1 * b;
+    state[contact_memory("contact_age_s")]         = 0.5 + y * a;
+    state[contact_memory("hold_time_s")]           = 0.7 + x * b;
     state.loading_ratio =
       law.isotropic_traction(state.traction).norm() / state.strength;
     return state;
@@ -50,8 +50,8 @@ namespace SlipStep::Testing
     state.coefficient = mu[0] + (mu[1] - mu[0]) * number(random);
     state.slip_path   = number(random) < 0.3 ? 0. : 10. * number(random);
     state.dissipation = number(random) < 0.3 ? 0. : number(random);
-    for (const auto memory : ContactState::memories())
-      state.*memory.value = number(random) < 0.3 ? 0. : number(random);
+    for (const ContactMemory &memory : contact_memories())
+      state[memory] = number(random) < 0.3 ? 0. : number(random);
     if (number(random) < 0.7)
       {
         state.normal_traction = std::exp(10. * (number(random) - 0.5));
@@ -74,15 +74,16 @@ namespace SlipStep::Testing
   /// What a transfer conserves.
   inline auto conserved(const ContactState &state)
   {
-    return std::array<double, 9>{{state.traction[0],
-                                  state.traction[1],
-                                  state.normal_traction,
-                                  state.strength,
-                                  state.slip_path,
-                                  state.dissipation,
-                                  state.temperature_rise,
-                                  state.contact_age,
-                                  state.hold_time}};
+    return std::array<double, 9>{
+      {state.traction[0],
+       state.traction[1],
+       state.normal_traction,
+       state.strength,
+       state.slip_path,
+       state.dissipation,
+       state[contact_memory("temperature_rise_degC")],
+       state[contact_memory("contact_age_s")],
+       state[contact_memory("hold_time_s")]}};
   }
 
   inline void expect_admissible(const FrictionLaw &law, const ContactState &s)
@@ -112,8 +113,8 @@ namespace SlipStep::Testing
     EXPECT_GE(s.slip_path, 0.);
     EXPECT_GE(s.slip_rate, 0.);
     EXPECT_GE(s.dissipation, 0.);
-    for (const auto memory : ContactState::memories())
-      EXPECT_GE(s.*memory.value, 0.);
+    for (const ContactMemory &memory : contact_memories())
+      EXPECT_GE(s[memory], 0.);
   }
 
   inline void expect_equal(const ContactState &a,
@@ -130,8 +131,8 @@ namespace SlipStep::Testing
     EXPECT_NEAR(a.slip_path, b.slip_path, tolerance);
     EXPECT_NEAR(a.slip_rate, b.slip_rate, tolerance);
     EXPECT_NEAR(a.dissipation, b.dissipation, tolerance);
-    for (const auto memory : ContactState::memories())
-      EXPECT_NEAR(a.*memory.value, b.*memory.value, tolerance);
+    for (const ContactMemory &memory : contact_memories())
+      EXPECT_NEAR(a[memory], b[memory], tolerance);
   }
 } // namespace SlipStep::Testing
 

@@ -48,8 +48,8 @@ namespace SlipStep
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
     double       slip              = 0.; ///< mean slip path of the contact [mm]
-    /// Mean of what effects remember, as ContactState::memories().
-    std::array<double, ContactState::memories().size()> memories{};
+    /// Mean of what effects remember, as ContactState::memories.
+    std::array<double, ContactState::most_memories> memories{};
     /// Quantities of interest on the contact face, see "Output/Quantities".
     std::vector<double> probes;
   };
@@ -65,8 +65,8 @@ namespace SlipStep
   /// r_min, r_max, r_s_mean, r_s_min, r_s_max, mu_mean, mu_min, mu_max,
   /// slip_fraction, dissipated_energy_Nmm, stored_energy_Nmm,
   /// external_work_Nmm, step_s, newton_iterations, linear_iterations, slip_mm;
-  /// then of ContactState::memories() those that the effects of the law use
-  /// (temperature_rise_degC, contact_age_s, hold_time_s), then probe_1,
+  /// then of contact_memories() those that the effects of the law use
+  /// (contact_age_s, temperature_rise_degC, ...), then probe_1,
   /// probe_2, ..., which summary.json explains. A header and rows, no more, as
   /// every reader of tables wants it; it can be read back as a measured test.
   class HistoryWriter

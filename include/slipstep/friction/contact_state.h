@@ -6,18 +6,36 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <string>
+#include <vector>
 
 namespace SlipStep
 {
-  struct ContactState;
-
-  /// Something that single effects remember of a contact point.
+  /// Something that an effect remembers of a contact point. The file of the
+  /// effect registers it; then it is transferred, saved and shown.
   struct ContactMemory
   {
-    double ContactState::*value;
     /// In files, with its unit.
     const char *name;
+    /// Value of a point that was never loaded, and while the effect is off.
+    double initial = 0.;
+    /// A change of the mesh averages a memory and keeps it between these.
+    double least    = 0.;
+    double greatest = std::numeric_limits<double>::infinity();
+    /// Where ContactState holds it; set by register_memory().
+    unsigned int slot = 0;
   };
+
+  /// For a global constant in the file of an effect.
+  /// @param memory its name must not be taken
+  ContactMemory register_memory(ContactMemory memory);
+
+  /// All memories linked into the program, by name.
+  const std::vector<ContactMemory> &contact_memories();
+
+  /// A memory of another file.
+  const ContactMemory &contact_memory(const std::string &name);
 
   /// Everything a contact point remembers from one step to the next.
   struct ContactState
@@ -45,23 +63,18 @@ namespace SlipStep
     /// Factor of the strength at this place of the face, which stays.
     double strength_factor = 1.;
 
-    // What single effects remember, 0 while they are off. None is negative; a
-    // change of the mesh averages them.
+    /// Room for what single effects remember, without an allocation per point.
+    static constexpr unsigned int     most_memories = 12;
+    std::array<double, most_memories> memories{};
 
-    /// Temperature of the contact above that of its surroundings [degC].
-    double temperature_rise = 0.;
-    /// How long what now touches has been in touch, of effect ageing [s].
-    double contact_age = 0.;
-    /// The same with the renewal length of effect expression [s].
-    double hold_time = 0.;
-
-    /// The memories, for those who treat all alike: a new one is added here,
-    /// and is then transferred, saved and shown.
-    static constexpr std::array<ContactMemory, 3> memories()
+    double &operator[](const ContactMemory &memory)
     {
-      return {{{&ContactState::temperature_rise, "temperature_rise_degC"},
-               {&ContactState::contact_age, "contact_age_s"},
-               {&ContactState::hold_time, "hold_time_s"}}};
+      return memories[memory.slot];
+    }
+
+    double operator[](const ContactMemory &memory) const
+    {
+      return memories[memory.slot];
     }
 
     /// All of it, for boost::serialization.
@@ -70,8 +83,8 @@ namespace SlipStep
     {
       archive &traction &normal_traction &strength &loading_ratio &normal_ratio
         &coefficient &slip_path &slip_rate &dissipation &strength_factor;
-      for (const auto memory : memories())
-        archive &(this->*memory.value);
+      for (const ContactMemory &memory : contact_memories())
+        archive &memories[memory.slot];
     }
   };
 

@@ -194,8 +194,8 @@ namespace SlipStep
                           ContactState & /*end*/) const
     {}
 
-    /// The members that remember() writes, so that they are shown.
-    virtual std::vector<double ContactState::*> memories() const
+    /// The memories that remember() writes, so that they are shown.
+    virtual std::vector<ContactMemory> memories() const
     {
       return {};
     }

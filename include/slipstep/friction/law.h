@@ -151,7 +151,7 @@ namespace SlipStep
     }
 
     /// What the active effects remember, in the order of
-    /// ContactState::memories().
+    /// contact_memories().
     std::vector<ContactMemory> memories() const;
 
     /// Sections of effects that are off, such as "Friction/healing".

@@ -26,8 +26,15 @@ namespace SlipStep
     void write(const ContactState &state, double *numbers) const;
 
   private:
+    struct Member
+    {
+      double ContactState::*value;
+      const char           *name;
+    };
+
     ContactState               initial;
-    std::vector<ContactMemory> members; ///< all but the traction
+    std::vector<Member>        members; ///< all but traction and memories
+    std::vector<ContactMemory> memories;
   };
 } // namespace SlipStep
 

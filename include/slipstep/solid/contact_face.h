@@ -34,8 +34,8 @@ namespace SlipStep
     double               stored     = 0.;  ///< in the contact stiffness [N mm]
     Spread               loading_ratio, normal_ratio, coefficient;
     double               slip = 0.; ///< mean path, weighted by normal load [mm]
-    /// Means of ContactState::memories(), likewise.
-    std::array<double, ContactState::memories().size()> memories{};
+    /// Means of ContactState::memories, likewise.
+    std::array<double, ContactState::most_memories> memories{};
   };
 
   /// The face of the block that touches the rigid plane: a contact point with

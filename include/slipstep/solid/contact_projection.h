@@ -59,9 +59,8 @@ namespace SlipStep
 
   private:
     /// The fields that are polynomials, by the names in the source file.
-    static constexpr unsigned int n_fields =
-      9 + ContactState::memories().size();
-    using Fields = std::array<double, n_fields>;
+    static constexpr unsigned int n_fields = 9 + ContactState::most_memories;
+    using Fields                           = std::array<double, n_fields>;
 
     static Fields fields_of(const ContactState &state);
     States        admissible_states(std::vector<Fields> fields) const;

@@ -9,6 +9,9 @@ namespace SlipStep
 {
   namespace
   {
+    /// How long what now touches has been in touch.
+    const ContactMemory contact_age = register_memory({"contact_age_s"});
+
     /// Contacts grow stronger with the logarithm of their age, and slip renews
     /// them:
     /// \f[ G = 1 + b_{age} \ln\left(1 + \frac{\theta}{t_0}\right), \qquad
@@ -37,7 +40,7 @@ namespace SlipStep
 
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
-        const Rate age = contact_age_after(step.start.contact_age, step, L);
+        const Rate age = contact_age_after(step.start[contact_age], step, L);
         Strength   factor;
         factor.value  = 1. + b_age * std::log1p(age.value / t_0);
         factor.d_slip = b_age * age.derivative / (t_0 + age.value);
@@ -47,15 +50,15 @@ namespace SlipStep
       virtual void remember(const SlipStepData &step,
                             ContactState       &end) const override
       {
-        end.contact_age =
+        end[contact_age] =
           step.normal_traction > 0. ?
-            contact_age_after(step.start.contact_age, step, L).value :
+            contact_age_after(step.start[contact_age], step, L).value :
             0.;
       }
 
-      virtual std::vector<double ContactState::*> memories() const override
+      virtual std::vector<ContactMemory> memories() const override
       {
-        return {&ContactState::contact_age};
+        return {contact_age};
       }
 
       static EffectInfo info()

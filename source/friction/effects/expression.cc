@@ -72,6 +72,9 @@ namespace SlipStep
 
     const char *const section = "Friction/expression/";
 
+    /// The age of what now touches, with the renewal length of this effect.
+    const ContactMemory hold_memory = register_memory({"hold_time_s"});
+
     /// A formula of the user's own, of one covariate x:
     /// \f[ G = g\left(\min(\max(x, x_0), x_1)\right). \f]
     /// x is the logarithm log10 of the slip rate [mm/s], the pressure [MPa],
@@ -85,6 +88,7 @@ namespace SlipStep
       Expression(const Parameters &parameters, const CoefficientBasis &)
         : covariate(parameters.text(key("Covariate")))
         , D_c(parameters.number(key("Renewal length")))
+        , temperature(contact_memory("temperature_rise_degC"))
         , table(read_table(parameters))
       {
         const std::vector<std::string> effects =
@@ -139,7 +143,7 @@ namespace SlipStep
             factor.d_normal = rate.derivative;
           }
         else if (covariate == "temperature")
-          factor.value = table(step.start.temperature_rise).value;
+          factor.value = table(step.start[temperature]).value;
         else
           {
             const Rate x    = (covariate == "path" ?
@@ -156,14 +160,14 @@ namespace SlipStep
                             ContactState       &end) const override
       {
         if (covariate == "hold time")
-          end.hold_time =
+          end[hold_memory] =
             step.normal_traction > 0. ? hold_time(step).value : 0.;
       }
 
-      virtual std::vector<double ContactState::*> memories() const override
+      virtual std::vector<ContactMemory> memories() const override
       {
         if (covariate == "hold time")
-          return {&ContactState::hold_time};
+          return {hold_memory};
         return {};
       }
 
@@ -265,12 +269,14 @@ namespace SlipStep
 
       Rate hold_time(const SlipStepData &step) const
       {
-        return contact_age_after(step.start.hold_time, step, D_c);
+        return contact_age_after(step.start[hold_memory], step, D_c);
       }
 
       const std::string covariate;
       const double      D_c;
-      const Table       table;
+      // Of effect heating.
+      const ContactMemory temperature;
+      const Table         table;
     };
 
     const RegisterEffect expression_registration =

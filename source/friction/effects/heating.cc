@@ -8,6 +8,10 @@ namespace SlipStep
 {
   namespace
   {
+    /// Temperature of the contact above that of its surroundings.
+    const ContactMemory contact_heat =
+      register_memory({"temperature_rise_degC"});
+
     /// Friction heats the contact, and a warm contact is weaker:
     /// \f[ G = \frac{1}{1 + \beta T}, \qquad
     ///     \frac{dT}{dt} = h |f_t| \lambda - \frac{T}{t_c}. \f]
@@ -37,12 +41,12 @@ namespace SlipStep
       virtual void remember(const SlipStepData &step,
                             ContactState       &end) const override
       {
-        end.temperature_rise = temperature_rise(step);
+        end[contact_heat] = temperature_rise(step);
       }
 
-      virtual std::vector<double ContactState::*> memories() const override
+      virtual std::vector<ContactMemory> memories() const override
       {
-        return {&ContactState::temperature_rise};
+        return {contact_heat};
       }
 
       static EffectInfo info()
@@ -125,7 +129,7 @@ namespace SlipStep
 
       double temperature_rise(const SlipStepData &step) const
       {
-        return step.start.temperature_rise * std::exp(-step.time_step / t_c) +
+        return step.start[contact_heat] * std::exp(-step.time_step / t_c) +
                rise_per_work(step) * step.work;
       }
 
