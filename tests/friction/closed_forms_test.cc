@@ -372,3 +372,42 @@ TEST(ClosedForms, formulas_are_clamped_and_smooth)
                   1e-7);
     }
 }
+
+
+
+// Forward and across as without the effect, against it 1 + d.
+TEST(ClosedForms, direction_that_acts_on_reversed_slip_only)
+{
+  const auto   law     = make_law({{"Effects", "direction"},
+                                   {"Static coefficient", "0.1"},
+                                   {"direction/Change", "0.5"},
+                                   {"direction/Forward angle", "20 deg"},
+                                   {"direction/Form", "reversed"}});
+  const double forward = PI / 9., p = 5.;
+  for (const double angle : {0., 1., PI / 2., 2., 2.5, PI, 4., 5.})
+    {
+      ContactState state = law->initial_state();
+      for (unsigned int i = 0; i < 20; ++i)
+        {
+          ContactState end;
+          const auto   slip = [&](const double turn) {
+            return 0.05 * vector(std::cos(forward + angle + turn),
+                                 std::sin(forward + angle + turn));
+          };
+          const ContactResponse response =
+            law->update(state, slip(0.), p, 0.1, end);
+          const auto at = [&](const double turn) {
+            return law->update(state, slip(turn), p, 0.1, end).traction;
+          };
+          const auto difference = (at(1e-5) - at(-1e-5)) / 2e-5;
+          const auto stated =
+            response.d_slip * ((slip(1e-5) - slip(-1e-5)) / 2e-5);
+          // Across, the second derivative jumps.
+          EXPECT_NEAR((difference - stated).norm(), 0., 2e-6);
+          law->update(state, slip(0.), p, 0.1, end);
+          state = end;
+        }
+      const double c = std::max(0., -std::cos(angle));
+      EXPECT_NEAR(state.traction.norm(), p * 0.1 * (1. + 0.5 * c * c), 1e-9);
+    }
+}

@@ -392,6 +392,10 @@ namespace
         return f * (1. + 0.3 * std::tanh(0.002 / speed / 5.));
       if (name == "ageing")
         return f * (1. + 0.1 * std::log1p(0.02 / speed / 0.05));
+      if (name == "slip_law")
+        return f * (1. + 0.1 * std::log1p(0.02 / speed / 0.05));
+      if (name == "memory_length")
+        return f * (1. + 0.3 * std::log1p(speed / 0.1));
       if (name == "heating")
         {
           // t (1 + b t) = f, since T = h t_c t lambda.
@@ -401,7 +405,7 @@ namespace
       if (name == "softening")
         return ratio * pressure * 0.098;
       if (name == "healing" || name == "overstress" || name == "perzyna" ||
-          name == "subloading")
+          name == "subloading" || name == "pressure_memory")
         return f;
       return -1.;
     }

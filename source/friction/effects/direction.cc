@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -11,12 +12,18 @@ namespace SlipStep
     /// friction along it:
     /// \f[ G = 1 + d\,\frac{1 - \cos\varphi}{2}, \f]
     /// where \f$\varphi\f$ is the angle between slip and n: 1 forward, 1 + d in
-    /// reverse strokes, halfway across. Chosen, for laid or combed surfaces.
+    /// reverse strokes, halfway across. The form 'reversed' acts on slip
+    /// against n only,
+    /// \f[ G = 1 + d \max(0, -\cos\varphi)^2, \f]
+    /// and leaves slip along n and across as it is; its derivative is
+    /// continuous. Chosen, for laid or combed surfaces.
     class Direction : public StrengthEffect
     {
     public:
       Direction(const Parameters &parameters, const CoefficientBasis &)
         : d(parameters.number("Friction/direction/Change"))
+        , only_reversed(parameters.text("Friction/direction/Form") ==
+                        "reversed")
       {
         const double angle =
           parameters.number("Friction/direction/Forward angle");
@@ -27,6 +34,13 @@ namespace SlipStep
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
         Strength factor;
+        if (only_reversed)
+          {
+            const double against = std::max(0., -(n * step.direction));
+            factor.value         = 1. + d * against * against;
+            factor.d_direction   = -2. * d * against * n;
+            return factor;
+          }
         factor.value       = 1. + d * (1. - n * step.direction) / 2.;
         factor.d_direction = -d / 2. * n;
         return factor;
@@ -38,8 +52,11 @@ namespace SlipStep
         info.name  = "direction";
         info.words = "friction that differs between forward and back strokes";
         info.formula =
-          "G = 1 + d (1 - cos(phi)) / 2, phi: from the forward angle to slip";
-        info.latex      = "G = 1 + d\\,\\frac{1 - \\cos\\varphi}{2}";
+          "G = 1 + d (1 - cos(phi)) / 2 or 1 + d max(0, -cos(phi))^2, phi: from "
+          "the forward angle to slip";
+        info.latex      = "G = 1 + d\\,\\frac{1 - \\cos\\varphi}{2} "
+                          "\\quad\\text{or}\\quad 1 + d \\max(0, "
+                          "-\\cos\\varphi)^2";
         info.source     = "chosen";
         info.neutral    = "Change = 0";
         info.parameters = {
@@ -54,7 +71,13 @@ namespace SlipStep
            "0",
            Quantity(Dimension::angle, -360., 360.),
            "angle of the forward direction n in the contact plane, from its "
-           "first axis to its second"}};
+           "first axis to its second"},
+          {"Form",
+           "G",
+           "cosine",
+           dealii::Patterns::Selection("cosine|reversed"),
+           "'cosine' changes with every angle, half of it across; 'reversed' "
+           "acts on slip against the forward direction only"}};
         info.neutral_settings = {{"Change", "0"}};
         info.typical_settings = {{"Change", "0.5"},
                                  {"Forward angle", "20 deg"}};
@@ -71,6 +94,7 @@ namespace SlipStep
       }
 
       const double         d;
+      const bool           only_reversed;
       dealii::Tensor<1, 2> n;
     };
 

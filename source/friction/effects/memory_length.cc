@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/friction/effect.h>
+
+#include <cmath>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// The slip rate to which the contact has adapted by slip.
+    const ContactMemory adapted_rate =
+      register_memory({"adapted_rate_mm_per_s"});
+
+    /// Friction grows with the logarithm of speed, but follows it only over a
+    /// slip length:
+    /// \f[ G = 1 + a \ln\left(1 + \frac{V_m}{V_0}\right), \qquad
+    ///     \frac{dV_m}{d\lambda} = \frac{\lambda' - V_m}{L} \f]
+    /// with the slip rate \f$\lambda'\f$. After a step of speed from V_1 to V_2
+    /// there is no jump, and \f$V_m = V_2 + (V_1 - V_2) e^{-\lambda/L}\f$; at
+    /// rest V_m stays. Memory of the slip rate over a slip length is in Ruina
+    /// (1983), J. Geophys. Res. 88, 10359, for the evolution of a state; that
+    /// the direct effect has it, and both forms, are chosen.
+    class MemoryLength : public StrengthEffect
+    {
+    public:
+      MemoryLength(const Parameters &parameters, const CoefficientBasis &)
+        : a(parameters.number("Friction/memory_length/Growth"))
+        , V_0(parameters.number("Friction/memory_length/Speed"))
+        , L(parameters.number("Friction/memory_length/Slip length"))
+      {}
+
+      virtual Strength strength_factor(const SlipStepData &step) const override
+      {
+        const Rate rate = rate_after(step);
+        Strength   factor;
+        factor.value  = 1. + a * std::log1p(rate.value / V_0);
+        factor.d_slip = a * rate.derivative / (V_0 + rate.value);
+        return factor;
+      }
+
+      virtual void remember(const SlipStepData &step,
+                            ContactState       &end) const override
+      {
+        end[adapted_rate] =
+          step.normal_traction > 0. ? rate_after(step).value : 0.;
+      }
+
+      virtual std::vector<ContactMemory> memories() const override
+      {
+        return {adapted_rate};
+      }
+
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name    = "memory_length";
+        info.words   = "friction that follows the speed over a slip length";
+        info.formula = "G = 1 + a ln(1 + V_m/V_0), d V_m/d lambda = (slip rate "
+                       "- V_m)/L";
+        info.latex   = "G = 1 + a \\ln\\left(1 + \\frac{V_m}{V_0}\\right), "
+                       "\\quad \\frac{dV_m}{d\\lambda} = \\frac{\\dot\\lambda - "
+                       "V_m}{L}";
+        info.source  = "chosen; memory by slip as in Ruina (1983), J. Geophys. "
+                       "Res. 88, 10359-10370";
+        info.neutral = "Growth = 0";
+        info.parameters = {
+          {"Growth",
+           "a",
+           "0",
+           Quantity(Dimension::number, 0.),
+           "growth of the strength per e-fold of the speed"},
+          {"Speed",
+           "V_0",
+           "1",
+           Quantity(Dimension::speed, 0., 1e30, true),
+           "speed from which the strength grows with its logarithm"},
+          {"Slip length",
+           "L",
+           "0.1",
+           Quantity(Dimension::length, 0., 1e30, true),
+           "slip over which friction follows the speed"}};
+        info.neutral_settings = {{"Growth", "0"}};
+        info.typical_settings = {{"Growth", "0.3"},
+                                 {"Speed", "0.1 mm/s"},
+                                 {"Slip length", "0.02 mm"}};
+        info.search.why_not = "its slip length shows in densely sampled steps "
+                              "of speed only; without it, it is effect "
+                              "overstress, which is tried";
+        return info;
+      }
+
+    private:
+      // V_m at the end, exact for a constant slip rate, and its derivative with
+      // respect to slip, the time step being kept.
+      Rate rate_after(const SlipStepData &step) const
+      {
+        const double decay  = std::exp(-step.slip / L);
+        const double share  = -std::expm1(-step.slip / L);
+        const double before = step.start[adapted_rate];
+        const double now    = step.slip_rate();
+        return {before * decay + now * share,
+                share / step.time_step + (now - before) * decay / L};
+      }
+
+      const double a;
+      const double V_0;
+      const double L;
+    };
+
+    const RegisterEffect memory_length_registration =
+      register_effect<MemoryLength>();
+  } // namespace
+} // namespace SlipStep
