@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/machine.h>
+#include <slipstep/experiment/pushed_contact.h>
 #include <slipstep/utilities/pattern_words.h>
 
 #include <slipstep/utilities/units.h>
@@ -261,6 +262,39 @@ namespace SlipStep
     slider.load     = areal_mass > 0. ?
                         start.load + stiffness() * (load_point_increment - slip) :
                         response.traction;
+    return response;
+  }
+
+
+
+  // Here the spring of a mass is that of backward Euler alone.
+  std::optional<ContactResponse>
+  Machine::pushed_stage(const FrictionLaw  &law,
+                        ContactPoint       &point,
+                        const Slider       &start,
+                        const Tensor<1, 2> &load,
+                        const double        normal_traction,
+                        const double        time_step,
+                        Slider             &slider) const
+  {
+    std::optional<ContactResponse> response;
+    Tensor<1, 2>                   slip;
+    if (areal_mass == 0.)
+      response =
+        push_contact(law, point, load, normal_traction, time_step, slip);
+    else
+      {
+        const double       softness = time_step * time_step / areal_mass;
+        const Tensor<1, 2> old =
+          normal_traction > 0. ? point.stage_traction() : Tensor<1, 2>();
+        const Tensor<1, 2> motion =
+          softness * (load - old) + time_step * start.velocity;
+        response =
+          SpringStep(law, point, softness, motion, normal_traction, time_step)
+            .solve();
+        slip = motion - softness * (response->traction - old);
+      }
+    slider = {start.slip + slip, slip / time_step, load};
     return response;
   }
 

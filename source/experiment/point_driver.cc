@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -21,7 +22,9 @@ namespace SlipStep
       dealii::Patterns::Anything(),
       "What happens, one statement after the other, separated by ';': 'press "
       "<pressure> in <time>', 'hold <time>', 'slide [<speed>] for <length or "
-      "time> [at <angle>]', 'follow <file of a measured test>', 'repeat <number> "
+      "time> [at <angle>]', 'push <traction> in <time> [at <angle>]', 'push "
+      "between <traction> and <traction> <number> times, <time> each' (on a "
+      "contact point), 'follow <file of a measured test>', 'repeat <number> "
       "times { <statements> }'. A negative speed reverses. Units are part of "
       "every number.");
     parameters.declare("Loading/Speed",
@@ -86,6 +89,19 @@ namespace SlipStep
     {
       return {value, value, value};
     }
+
+    std::string reason_of_slip(const Tensor<1, 2> &load,
+                               const Tensor<1, 2> &held,
+                               const double        pressure)
+    {
+      std::ostringstream message;
+      message << "friction cannot hold the push of " << load.norm()
+              << " MPa; it held " << held.norm() << " MPa at a pressure of "
+              << pressure
+              << " MPa (with a Loading/Machine mass the contact would go on "
+                 "sliding)";
+      return message.str();
+    }
   } // namespace
 
 
@@ -99,6 +115,8 @@ namespace SlipStep
   {
     ContactPoint point(law);
     Slider       slider;
+    Tensor<1, 2> load_before; // that of the drive when the segment began
+    Tensor<1, 2> pushed;      // motion of the drive that loads made
     double       work = 0., snapped = 0.;
     while (!control.is_finished())
       {
@@ -107,8 +125,24 @@ namespace SlipStep
         const Tensor<1, 2> motion    = to.displacement - from.displacement;
         const double       time_step = control.step_size();
 
+        const Segment &segment = programme.segment_at(control.end_of_step());
+        if (control.is_first_of_segment())
+          load_before = slider.load;
+        const double share = (control.end_of_step() - segment.start_time) /
+                             (segment.end_time - segment.start_time);
+        const Tensor<1, 2> load =
+          share < 1. ? load_before + share * (segment.push - load_before) :
+                       segment.push;
+
         const MachineStep step =
-          machine.step(law, point, slider, motion, to.pressure, time_step);
+          segment.pushes ?
+            machine.push(law, point, slider, load, to.pressure, time_step) :
+            machine.step(law, point, slider, motion, to.pressure, time_step);
+        if (!step.holds)
+          {
+            control.cut(reason_of_slip(load, slider.load, to.pressure));
+            continue;
+          }
         if (!control.accept(machine.error(law, point, step).measure()))
           continue;
 
@@ -125,12 +159,14 @@ namespace SlipStep
         if (!is_closed && machine.mass() == 0.)
           snapped += machine.stored_energy(slider);
         slider = step.slider;
+        if (segment.pushes)
+          pushed += step.motion;
         point.commit();
 
         HistoryRow row;
         row.time            = control.time();
-        row.displacement    = to.displacement[0];
-        row.displacement_y  = to.displacement[1];
+        row.displacement    = to.displacement[0] + pushed[0];
+        row.displacement_y  = to.displacement[1] + pushed[1];
         row.pressure        = to.pressure;
         row.friction        = is_closed ? state.traction[0] / to.pressure : 0.;
         row.friction_y      = is_closed ? state.traction[1] / to.pressure : 0.;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/programme.h>
+#include <slipstep/experiment/programme_text.h>
 
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/decimal_comma.h>
@@ -11,8 +12,6 @@
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
-#include <deal.II/base/exceptions.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -23,46 +22,8 @@ namespace SlipStep
 {
   namespace
   {
-    const char *const blanks = " \t\r\n";
-
     /// In mm, s and MPa: beyond it rounding spoils what the law adds up.
     constexpr double largest_number = 1e15;
-
-    /// A piece of the programme and where it begins.
-    struct Piece
-    {
-      std::string text;
-      std::size_t column = 0;
-
-      std::size_t end() const
-      {
-        return column + text.size();
-      }
-    };
-
-    Piece trim(const Piece &piece)
-    {
-      const auto begin = piece.text.find_first_not_of(blanks);
-      if (begin == std::string::npos)
-        return {"", piece.column};
-      const auto end = piece.text.find_last_not_of(blanks);
-      return {piece.text.substr(begin, end - begin + 1), piece.column + begin};
-    }
-
-    std::vector<Piece> words(const Piece &piece)
-    {
-      std::vector<Piece> result;
-      std::size_t        begin = piece.text.find_first_not_of(blanks);
-      while (begin != std::string::npos)
-        {
-          const auto end = std::min(piece.text.find_first_of(blanks, begin),
-                                    piece.text.size());
-          result.push_back(
-            {piece.text.substr(begin, end - begin), piece.column + begin});
-          begin = piece.text.find_first_not_of(blanks, end);
-        }
-      return result;
-    }
 
     /// How each verb is written: shown when something is missing. Which
     /// keywords it takes is read from here, too.
@@ -70,12 +31,10 @@ namespace SlipStep
       {"press", "press 5.8 MPa in 1 s"},
       {"hold", "hold 10 s"},
       {"slide", "slide 1 mm/min for 60 mm at 0 deg"},
+      {"push", "push 1.2 MPa in 1 s at 0 deg"},
       {"follow", "follow measured/test_01.csv"},
       {"repeat",
        "repeat 10 times { slide 1 mm/s for 2 s; slide -1 mm/s for 2 s }"}};
-
-    /// What separates statements, or holds those of a repetition together.
-    const char *const borders = ";{}";
 
     /// More are a slip of the pen, or a run without end.
     constexpr unsigned int most_statements = 100000, most_nested = 10;
@@ -134,6 +93,9 @@ namespace SlipStep
       unsigned int number_of_times(const Piece      &header,
                                    const std::size_t brace) const;
 
+      /// A number of times.
+      unsigned int count(const Piece &number, const std::string &example) const;
+
       void run(const Piece &piece);
 
       Statement read_statement(const Piece &piece) const;
@@ -141,6 +103,9 @@ namespace SlipStep
       void press(const Statement &statement);
       void hold(const Statement &statement);
       void slide(const Statement &statement);
+      void push(const Statement &statement);
+      void push_between(const Statement            &statement,
+                        const dealii::Tensor<1, 2> &direction);
       void follow(const Statement &statement);
 
       /// The part behind a keyword, which has to be there.
@@ -157,10 +122,16 @@ namespace SlipStep
 
       bool is_quantity(const Piece &piece, const Dimension dimension) const;
 
+      /// (cos, sin) of the angle behind 'at', (1, 0) without one.
+      dealii::Tensor<1, 2> direction_of(const Statement &statement) const;
+
       /// Append a segment from the present state to the given one.
       void add(const double                duration,
                const double                pressure,
                const dealii::Tensor<1, 2> &displacement);
+
+      /// Append a segment that pushes up to a load, other things unchanged.
+      void add_push(const double duration, const dealii::Tensor<1, 2> &load);
 
       [[noreturn]] void fail(const std::size_t  column,
                              const std::string &message) const;
@@ -253,17 +224,25 @@ namespace SlipStep
              "braces follow 'repeat'; " + example);
       if (all.size() < 2)
         fail(header.end(), "how many times? " + example);
-      const std::string &number = all[1].text;
-      if (number.find_first_not_of("0123456789") != std::string::npos ||
-          number.find_first_not_of('0') == std::string::npos)
-        fail(all[1].column, "expected a number of times; " + example);
-      if (number.size() > 9)
-        fail(all[1].column, "these are too many times");
+      const unsigned int number = count(all[1], example);
       if (all.size() != 3 || (!is_same_word(all[2].text, "times") &&
                               !is_same_word(all[2].text, "time")))
         fail(all.size() < 3 ? all[1].end() : all[2].column,
              "expected 'times' and a brace; " + example);
-      return std::stoul(number);
+      return number;
+    }
+
+
+
+    unsigned int Parser::count(const Piece       &number,
+                               const std::string &example) const
+    {
+      if (number.text.find_first_not_of("0123456789") != std::string::npos ||
+          number.text.find_first_not_of('0') == std::string::npos)
+        fail(number.column, "expected a number of times; " + example);
+      if (number.text.size() > 9)
+        fail(number.column, "these are too many times");
+      return std::stoul(number.text);
     }
 
 
@@ -282,6 +261,8 @@ namespace SlipStep
         hold(statement);
       else if (statement.verb.text == "slide")
         slide(statement);
+      else if (statement.verb.text == "push")
+        push(statement);
       else
         follow(statement);
       ++n_statements;
@@ -308,7 +289,7 @@ namespace SlipStep
           fail(statement.verb.column,
                "unknown word '" + verb + "'" +
                  (nearest.empty() ?
-                    "; known are press, hold, slide, follow, repeat" :
+                    "; known are press, hold, slide, push, follow, repeat" :
                     "; did you mean '" + nearest + "'?"));
         }
       if (verb == "repeat")
@@ -391,12 +372,7 @@ namespace SlipStep
                "this slide states no speed, and the case gives none" :
                "a speed must not be zero; to rest, write 'hold 10 s'");
 
-      double angle = 0.;
-      if (statement.parts.count("at") > 0)
-        angle = quantity(part(statement, "at"), Dimension::angle);
-      dealii::Tensor<1, 2> direction;
-      direction[0] = std::cos(angle);
-      direction[1] = std::sin(angle);
+      const dealii::Tensor<1, 2> direction = direction_of(statement);
 
       const Piece &extent = part(statement, "for");
       double       length = 0., duration = 0.;
@@ -415,6 +391,82 @@ namespace SlipStep
       add(duration,
           present.pressure,
           present.displacement + std::copysign(length, speed) * direction);
+    }
+
+
+
+    dealii::Tensor<1, 2> Parser::direction_of(const Statement &statement) const
+    {
+      double angle = 0.;
+      if (statement.parts.count("at") > 0)
+        angle = quantity(part(statement, "at"), Dimension::angle);
+      dealii::Tensor<1, 2> direction;
+      direction[0] = std::cos(angle);
+      direction[1] = std::sin(angle);
+      return direction;
+    }
+
+
+
+    void Parser::push(const Statement &statement)
+    {
+      const dealii::Tensor<1, 2> direction = direction_of(statement);
+      const Piece               &load      = part(statement, "");
+      if (is_same_word(words(load)[0].text, "between"))
+        return push_between(statement, direction);
+      const double value = quantity(load, Dimension::stress);
+      add_push(positive(part(statement, "in"), Dimension::time, "time"),
+               value * direction);
+    }
+
+
+
+    // "between 0.5 MPa and 1.5 MPa 20 times, 1 s each"
+    void Parser::push_between(const Statement            &statement,
+                              const dealii::Tensor<1, 2> &direction)
+    {
+      const std::string example =
+        "write e.g. 'push between 0.5 MPa and 1.5 MPa 20 times, 1 s each'";
+      if (statement.parts.count("in") > 0)
+        fail(statement.parts.at("in").column,
+             "cycles last so long 'each'; " + example);
+      const Piece             &all  = statement.parts.at("");
+      const std::vector<Piece> word = words(all);
+      const auto find = [&](const std::vector<std::string> &names) {
+        for (std::size_t i = 1; i < word.size(); ++i)
+          for (const std::string &name : names)
+            if (is_same_word(word[i].text, name))
+              return i;
+        fail(all.end(), "'" + names[0] + "' is missing; " + example);
+      };
+      const std::size_t middle = find({"and"});
+      const std::size_t times  = find({"times,", "time,", "times", "time"});
+      const std::size_t each   = find({"each"});
+      if (!(1 < middle && middle + 2 < times && times + 1 < each &&
+            each + 1 == word.size()))
+        fail(all.column, "the words are not in order; " + example);
+      // From a word up to another, that one not included.
+      const auto between = [&](const std::size_t from, const std::size_t to) {
+        return Piece{text.substr(word[from].column,
+                                 word[to - 1].end() - word[from].column),
+                     word[from].column};
+      };
+      const double low = quantity(between(1, middle), Dimension::stress);
+      const double high =
+        quantity(between(middle + 1, times - 1), Dimension::stress);
+      if (low == high)
+        fail(word[middle].column, "the two loads are the same");
+      const unsigned int n_times = count(word[times - 1], example);
+      if (n_times > (most_statements - n_statements) / 2)
+        fail(word[times - 1].column, "these are too many times");
+      const double duration =
+        positive(between(times + 1, each), Dimension::time, "time");
+
+      for (unsigned int n = 2 * n_times; n > 0; --n)
+        {
+          add_push(duration / 2., (n % 2 == 0 ? high : low) * direction);
+          n_statements += n > 1;
+        }
     }
 
 
@@ -580,6 +632,16 @@ namespace SlipStep
 
 
 
+    void Parser::add_push(const double                duration,
+                          const dealii::Tensor<1, 2> &load)
+    {
+      add(duration, present.pressure, present.displacement);
+      segments.back().pushes = true;
+      segments.back().push   = load;
+    }
+
+
+
     void Parser::fail(const std::size_t  column,
                       const std::string &message) const
     {
@@ -606,94 +668,5 @@ namespace SlipStep
     Parser parser(text, default_speed, directory);
     segment_list = parser.parse();
     warning_list = parser.warnings;
-  }
-
-
-
-  Loading Programme::at(const double time) const
-  {
-    Assert(!segment_list.empty(), dealii::ExcNotInitialized());
-    const auto found =
-      std::lower_bound(segment_list.begin(),
-                       segment_list.end(),
-                       time,
-                       [](const Segment &segment, const double t) {
-                         return segment.end_time < t;
-                       });
-    if (found == segment_list.end())
-      return segment_list.back().end;
-    const Segment &segment = *found;
-    if (time == segment.end_time)
-      return segment.end;
-
-    const double weight = std::max(0., time - segment.start_time) /
-                          (segment.end_time - segment.start_time);
-    Loading loading = segment.start;
-    loading.pressure +=
-      weight * (segment.end.pressure - segment.start.pressure);
-    loading.displacement +=
-      weight * (segment.end.displacement - segment.start.displacement);
-    return loading;
-  }
-
-
-
-  double Programme::end_time() const
-  {
-    return segment_list.empty() ? 0. : segment_list.back().end_time;
-  }
-
-
-
-  const std::vector<std::string> &Programme::warnings() const
-  {
-    return warning_list;
-  }
-
-
-
-  const std::vector<Segment> &Programme::segments() const
-  {
-    return segment_list;
-  }
-
-
-
-  double Programme::largest_pressure() const
-  {
-    double largest = 0.;
-    for (const Segment &segment : segment_list)
-      largest = std::max(largest, segment.end.pressure);
-    return largest;
-  }
-
-
-
-  std::string relocated_programme(const std::string           &text,
-                                  const std::filesystem::path &from,
-                                  const std::filesystem::path &to)
-  {
-    const std::string verb = "follow";
-    std::string       result;
-    for (std::size_t begin = 0; begin < text.size();)
-      {
-        const auto end =
-          std::min(text.find_first_of(borders, begin), text.size());
-        const Piece piece = trim({text.substr(begin, end - begin), begin});
-        const std::string name =
-          is_same_word(piece.text.substr(0, verb.size()), verb) ?
-            trim({piece.text.substr(verb.size()), 0}).text :
-            "";
-        if (name.empty())
-          result += text.substr(begin, end - begin);
-        else
-          result +=
-            text.substr(begin, piece.column - begin) + verb + " " +
-            std::filesystem::proximate(from / with_home(name), to).string();
-        if (end < text.size())
-          result += text[end];
-        begin = end + 1;
-      }
-    return result;
   }
 } // namespace SlipStep

@@ -158,6 +158,32 @@ TEST(Programme, CapitalsOfWordsDoNotMatter)
 
 
 
+TEST(Programme, PushesHaveALoadAndNoMotion)
+{
+  const Programme programme =
+    programme_of("press 5 MPa in 1 s; PUSH 0.5 MPa in 2 s at 90 deg; push "
+                 "Between -0.1 MPa and 0.3 MPa 2 times, 4 s each; slide 1 mm/s "
+                 "for 1 s");
+  const auto &segments = programme.segments();
+  ASSERT_EQ(segments.size(), 7u);
+  EXPECT_FALSE(segments[0].pushes);
+  EXPECT_NEAR(segments[1].push[0], 0., 1e-15);
+  EXPECT_DOUBLE_EQ(segments[1].push[1], 0.5);
+  for (unsigned int i = 2; i < 6; ++i)
+    {
+      EXPECT_TRUE(segments[i].pushes);
+      EXPECT_DOUBLE_EQ(segments[i].push[0], i % 2 == 0 ? 0.3 : -0.1);
+      EXPECT_DOUBLE_EQ(segments[i].end_time, 3. + 2. * (i - 1));
+      EXPECT_EQ(segments[i].statement, i);
+      EXPECT_DOUBLE_EQ(segments[i].end.pressure, 5.);
+      EXPECT_DOUBLE_EQ(segments[i].end.velocity.norm(), 0.);
+    }
+  EXPECT_FALSE(segments[6].pushes);
+  EXPECT_EQ(segments[6].statement, 6u);
+}
+
+
+
 TEST(Programme, TheCaretMarksTheFault)
 {
   const std::string good = "press 5.8 MPa in 1 s; ";
@@ -207,6 +233,24 @@ TEST(Programme, TheCaretMarksTheFault)
     {"hold 1 s { hold 1 s }", "{ hold"},
     {"{ hold 1 s }", "{ hold"},
     {"hold 1 s }", "}"},
+    {"push", ""},
+    {"push 1 MPa", ""},
+    {"push 1 MPa in 0 s", "0 s"},
+    {"push 1 mm in 1 s", "mm in"},
+    {"push 1 MPa for 1 s", "for 1"},
+    {"push 1e16 MPa in 1 s", "1e16"},
+    {"push between 0 MPa and 1 MPa 3 times", ""},
+    {"push between 0 MPa and 1 MPa, 1 s each", ""},
+    {"push between 0 MPa 3 times, 1 s each", ""},
+    {"push between 0 and 1 MPa 3 times, 1 s each", " and 1"},
+    {"push between 1 MPa and 1 MPa 3 times, 1 s each", "and 1 MPa 3"},
+    {"push between 0 MPa and 1 MPa 0 times, 1 s each", "0 times"},
+    {"push between 0 MPa and 1 MPa -3 times, 1 s each", "-3 times"},
+    {"push between 0 MPa and 1 MPa 90000 times, 1 s each", "90000"},
+    {"push between 0 MPa and 1 MPa 3 times, 0 s each", "0 s"},
+    {"push between 0 MPa and 1 MPa 3 times, 1 s each now", "between"},
+    {"push between 0 MPa and 1 MPa 3 times in 1 s", "1 s"},
+    {"push 3 times between 0 MPa and 1 MPa, 1 s each", ", 1 s each"},
     {"follow", ""},
     {"follow no such file.csv", "no such file.csv"}};
   for (const auto &[fault, expected] : cases)

@@ -4,6 +4,7 @@
 
 #include <slipstep/friction/contact_point.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,14 +22,15 @@ namespace SlipStep
   /// One step of contact and machine.
   struct MachineStep
   {
-    ContactResponse      contact;   ///< of the second stage
-    Slider               start;     ///< of the step
-    Slider               first;     ///< at the end of the first stage
-    Slider               second;    ///< where the second starts
-    Slider               slider;    ///< at the end of the step
-    dealii::Tensor<1, 2> motion;    ///< of the load point [mm]
-    double               time_step; ///< [s]
-    double               work = 0.; ///< of the load point, per area [MPa mm]
+    ContactResponse      contact;      ///< of the second stage
+    Slider               start;        ///< of the step
+    Slider               first;        ///< at the end of the first stage
+    Slider               second;       ///< where the second starts
+    Slider               slider;       ///< at the end of the step
+    dealii::Tensor<1, 2> motion;       ///< of the load point [mm]
+    double               time_step;    ///< [s]
+    double               work  = 0.;   ///< of the load point, per area [MPa mm]
+    bool                 holds = true; ///< false if friction cannot hold a push
   };
 
   /// The machine that moves a contact point: a spring in series, the same in
@@ -89,6 +91,17 @@ namespace SlipStep
                      const double                normal_traction,
                      const double                time_step) const;
 
+    /// One step under a given load of the load point, which moves as contact
+    /// and spring let it. Without mass the slip is the one at which the law has
+    /// that traction; if there is none, the step does not hold.
+    /// @param load at the end of the step [MPa], to which it changes evenly
+    MachineStep push(const FrictionLaw          &law,
+                     ContactPoint               &point,
+                     const Slider               &start,
+                     const dealii::Tensor<1, 2> &load,
+                     const double                normal_traction,
+                     const double                time_step) const;
+
     /// Estimated error of the step that @p point made last, 0 for a jump of a
     /// soft machine: that takes no time, so no step is small enough for it.
     StepError error(const FrictionLaw  &law,
@@ -120,6 +133,17 @@ namespace SlipStep
                           const double                normal_traction,
                           const double                time_step,
                           Slider                     &slider) const;
+
+    /// One stage under a load.
+    /// @return nothing if friction cannot hold it
+    std::optional<ContactResponse>
+    pushed_stage(const FrictionLaw          &law,
+                 ContactPoint               &point,
+                 const Slider               &start,
+                 const dealii::Tensor<1, 2> &load,
+                 const double                normal_traction,
+                 const double                time_step,
+                 Slider                     &slider) const;
 
     /// Estimated error of the load that the motion of the mass makes [MPa].
     double error_of_motion(const MachineStep &step) const;

@@ -32,19 +32,29 @@ namespace SlipStep
     /// Which statement of the programme it belongs to, counted from 0: a
     /// `follow` has many segments, every other statement one.
     unsigned int statement = 0;
+    /// Whether the load of the drive is given instead of its displacement: the
+    /// displacement above then stays, and what the drive moves comes on top.
+    bool pushes = false;
+    /// Tangential load per nominal area at the end [MPa], reached evenly from
+    /// the one at the start.
+    dealii::Tensor<1, 2> push;
   };
 
   /// The loading programme, written to be read aloud:
   /// `press 5.8 MPa in 1 s; hold 10 s; slide 1 mm/min for 60 mm;
   ///  slide -1 mm/min for 5 mm at 30 deg; slide for 10 mm; slide 2 mm/s for 3
-  ///  s; follow measured/test_01.csv; repeat 10 times { slide 1 mm/s for 2 s;
-  ///  slide -1 mm/s for 2 s }`
+  ///  s; push 0.5 MPa in 1 s at 30 deg; push between 0.2 MPa and 0.5 MPa 20
+  ///  times, 1 s each; follow measured/test_01.csv; repeat 10 times { slide 1
+  ///  mm/s for 2 s; slide -1 mm/s for 2 s }`
   ///
   /// Units are mandatory. Pressure starts at 0 and displacement at the origin;
   /// `press` ramps from the present pressure; a negative speed reverses the
   /// direction, which is (cos, sin) of the angle in the contact plane. `follow`
   /// replays displacement relative to the start of the test, and its pressure;
   /// a different pressure at its start is reached within its first interval.
+  /// `push` ramps the tangential load of the drive from what it is; `push
+  /// between` goes to the second load and back to the first so many times, in
+  /// two statements each, and so long for both.
   /// What `repeat` has in braces happens again from where it ended: every time
   /// with statements of its own, and with other repetitions inside if wanted.
   class Programme
@@ -64,15 +74,27 @@ namespace SlipStep
     /// the velocity is that of the earlier one.
     Loading at(const double time) const;
 
-    double end_time() const;
+    /// The segment that at() takes.
+    const Segment &segment_at(const double time) const;
 
-    const std::vector<Segment> &segments() const;
+    double end_time() const
+    {
+      return segment_list.empty() ? 0. : segment_list.back().end_time;
+    }
+
+    const std::vector<Segment> &segments() const
+    {
+      return segment_list;
+    }
 
     /// Largest nominal pressure met [MPa].
     double largest_pressure() const;
 
     /// What was done to the rows of tests that are followed, to be shown.
-    const std::vector<std::string> &warnings() const;
+    const std::vector<std::string> &warnings() const
+    {
+      return warning_list;
+    }
 
   private:
     std::vector<Segment>     segment_list;

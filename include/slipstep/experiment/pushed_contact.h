@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef slipstep_experiment_pushed_contact_h
+#define slipstep_experiment_pushed_contact_h
+
+#include <slipstep/friction/contact_point.h>
+
+#include <optional>
+
+namespace SlipStep
+{
+  /// One stage of a contact point of which the traction is given: the law,
+  /// which gives the traction of a slip, is inverted.
+  ///
+  /// The law leaves the traction along its elastic trial, so that is s times
+  /// the load with s of at least 1, at which nothing slips. The first s is
+  /// taken from there at which the law holds the load.
+  /// @param load tangential traction at the end of the stage [MPa]
+  /// @param normal_traction at its end [MPa]
+  /// @param time_step of the stage [s]
+  /// @param[out] slip in the stage [mm]
+  /// @return nothing if the contact holds no such load
+  std::optional<ContactResponse> push_contact(const FrictionLaw          &law,
+                                              ContactPoint               &point,
+                                              const dealii::Tensor<1, 2> &load,
+                                              const double normal_traction,
+                                              const double time_step,
+                                              dealii::Tensor<1, 2> &slip);
+} // namespace SlipStep
+
+#endif
