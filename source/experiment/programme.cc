@@ -408,12 +408,21 @@ namespace SlipStep
 
 
 
+    const char *const push_example =
+      "write e.g. 'push between 0.5 MPa and 1.5 MPa 20 times, 1 s each'";
+
+
+
     void Parser::push(const Statement &statement)
     {
       const dealii::Tensor<1, 2> direction = direction_of(statement);
       const Piece               &load      = part(statement, "");
       if (is_same_word(words(load)[0].text, "between"))
         return push_between(statement, direction);
+      for (const Piece &word : words(load))
+        if (is_same_word(word.text, "between"))
+          fail(word.column,
+               "'between' comes first; " + std::string(push_example));
       const double value = quantity(load, Dimension::stress);
       add_push(positive(part(statement, "in"), Dimension::time, "time"),
                value * direction);
@@ -425,8 +434,7 @@ namespace SlipStep
     void Parser::push_between(const Statement            &statement,
                               const dealii::Tensor<1, 2> &direction)
     {
-      const std::string example =
-        "write e.g. 'push between 0.5 MPa and 1.5 MPa 20 times, 1 s each'";
+      const std::string example = push_example;
       if (statement.parts.count("in") > 0)
         fail(statement.parts.at("in").column,
              "cycles last so long 'each'; " + example);

@@ -479,11 +479,6 @@ namespace SlipStep
 
     bool slides = false;
     for (const Segment &segment : programme.segments())
-      if (segment.pushes)
-        parameters.reject("Loading/Programme",
-                          "'push' is for 'slipstep point': the drive of a "
-                          "block moves as the programme says");
-    for (const Segment &segment : programme.segments())
       slides = slides || segment.end.velocity.norm() > 0.;
     if (slides && n_driven == 0)
       parameters.reject("Loading/Programme",

@@ -52,6 +52,32 @@ TEST(OddInput, NamesThatAreTooLong)
 
 
 
+// A contact point can be pushed, a block cannot.
+TEST(OddInput, APushIsOfAPoint)
+{
+  const SlipstepProcess process;
+  process.write("push.prm",
+                "set Loading/Programme = press 1 MPa in 1 s; push 0.01 MPa in "
+                "1 s; push between 0 MPa and 0.01 MPa 2 times, 1 s each\n");
+  for (const std::string command : {"check", "point"})
+    EXPECT_EQ(process.run({command, "push.prm", "--quiet"}).exit_code, 0);
+  for (const std::string command : {"run", "refine"})
+    expect_short_refusal(process.run({command, "push.prm", "--output", "o"}),
+                         "'push' is for 'slipstep point'");
+  EXPECT_FALSE(std::filesystem::exists(process.folder() / "o"));
+  // More than friction holds is a run that failed, not wrong input.
+  const auto beyond =
+    process.run({"point",
+                 "push.prm",
+                 "--set",
+                 "Loading/Programme=press 1 MPa in 1 s; push 9 MPa in 1 s"});
+  EXPECT_EQ(beyond.exit_code, 1);
+  EXPECT_NE(beyond.err.find("friction cannot hold the push"), std::string::npos)
+    << beyond.err;
+}
+
+
+
 TEST(OddInput, TheHomeFolderIsKnown)
 {
   const SlipstepProcess process;

@@ -53,8 +53,10 @@ TEST(Evidence, RoundsSpendTheLevelOnce)
         {
           sum += level_of_round(workspace, round);
           if (round > 0)
-            EXPECT_LE(level_of_round(workspace, round),
-                      level_of_round(workspace, round - 1));
+            {
+              EXPECT_LE(level_of_round(workspace, round),
+                        level_of_round(workspace, round - 1));
+            }
         }
       EXPECT_NEAR(sum, 0.04, 1e-15);
     }

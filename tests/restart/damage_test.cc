@@ -200,7 +200,7 @@ TEST_F(Damage, NoneButAnotherProgramIsRefusedByName)
   make_victim();
   copy("victim", "format");
   replace("format/checkpoint/manifest.json", "\"format\": ", "\"format\": 9");
-  expect_refused("format", {"--resume"}, {"format 94", "reads format 5"});
+  expect_refused("format", {"--resume"}, {"has format 9", "reads format"});
   copy("victim", "version");
   replace("version/checkpoint/manifest.json",
           "\"version\": \"",

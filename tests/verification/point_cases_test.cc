@@ -219,6 +219,34 @@ namespace
 
 
 
+// Cycles between two loads that friction holds slip by the same amount each.
+TEST(Ratchet, slips_per_cycle_as_the_subloading_surface_says)
+{
+  const double pi = dealii::numbers::PI, u = 1000.;
+  for (const auto &[low, high] :
+       {std::make_pair(0.3, 0.9), {0.6, 0.9}, {0., 0.6}, {0.3, 0.6}})
+    {
+      std::ostringstream programme;
+      programme << "press 10 MPa in 1 s; push between " << low << " MPa and "
+                << high << " MPa 5 times, 1 s each";
+      const auto history =
+        point_history(make_parameters({{"Loading/Programme", programme.str()}},
+                                      "ratchet/ratchet.prm"));
+      double slip = 0.;
+      for (const HistoryRow &row : history)
+        if (row.time < 3. + 1e-9)
+          slip = row.slip;
+      const double per_cycle = (history.back().slip - slip) / 3.;
+      EXPECT_NEAR(per_cycle,
+                  2. / (pi * u) *
+                    std::log(std::cos(pi * low / 2.) /
+                             std::cos(pi * high / 2.)),
+                  1e-3 * per_cycle);
+    }
+}
+
+
+
 TEST(StickSlip, is_an_undamped_swing_about_kinetic_friction)
 {
   // Stick from low to high at the speed of the load point, then half a swing of

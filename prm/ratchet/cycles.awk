@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Slip per cycle [mm] of the files history.csv given, and what the closed form says:
+#   awk -F, -f prm/ratchet/cycles.awk output/ratchet/point/*/history.csv
+function cosine(r) { return cos(1.5707963267948966 * r) }
+/^#/ { next }
+/^time_s/ {
+  for (i = 1; i <= NF; ++i) column[$i] = i
+  if (name != "") report()
+  n = 0; last = 0; lowest = 1e9; highest = 0
+  name = FILENAME; sub(/\/history.csv$/, "", name); sub(/.*\//, "", name)
+  next
+}
+$1 > 0.999 {
+  r = $column["r_mean"]
+  # A second is a cycle, which the press takes as well.
+  cycle = int($1 - 1 - 1e-9)
+  if (cycle != last) { slip[++n] = before; last = cycle }
+  before = $column["slip_mm"]
+  if ($1 > 2) { if (r < lowest) lowest = r; if (r > highest) highest = r }
+}
+function report() {
+  slip[++n] = before
+  printf "%-12s %10.4e %10.4e %12.4e\n", name, slip[2] - slip[1], slip[n] - slip[n - 1],
+    2 / (3.14159265358979 * 1000) * log(cosine(lowest) / cosine(highest))
+}
+BEGIN { printf "%-12s %10s %10s %12s\n", "r_1 to r_2", "second", "last", "closed form" }
+END { report() }
