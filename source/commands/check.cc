@@ -2,12 +2,14 @@
 #include <slipstep/calibration/campaign.h>
 #include <slipstep/commands/check.h>
 #include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/rate_and_state.h>
 #include <slipstep/commands/import_tests.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/commands/case.h>
 
 #include <algorithm>
 #include <iostream>
+#include <set>
 
 namespace SlipStep
 {
@@ -15,6 +17,21 @@ namespace SlipStep
 
   namespace
   {
+    // Of a sweep each once.
+    void print_rate_and_state(const Case &the_case)
+    {
+      std::set<std::string> printed;
+      for (const Parameters &parameters : the_case.complete)
+        for (const RateAndState &reading :
+             rate_and_state(parameters,
+                            FrictionLaw(parameters),
+                            parse_programme(parameters)))
+          if (printed.insert(reading.in_words()).second)
+            std::cout << "  " << reading.in_words() << std::endl;
+    }
+
+
+
     void check_case_file(const fs::path &file, const CommandLine &line)
     {
       const Case the_case = read_case(file, line);
@@ -32,6 +49,8 @@ namespace SlipStep
                           " variants" :
                         "")
                   << std::endl;
+      if (!line.quiet)
+        print_rate_and_state(the_case);
     }
 
 

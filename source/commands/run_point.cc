@@ -2,6 +2,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <slipstep/commands/run_point.h>
+#include <slipstep/experiment/rate_and_state.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/experiment/stability.h>
@@ -72,6 +73,9 @@ namespace SlipStep
     if (options.resume)
       recorder.announce(
         "A contact point writes no checkpoints: the run starts anew.");
+    for (const RateAndState &reading :
+         rate_and_state(parameters, law, programme))
+      recorder.announce(reading.in_words());
     try
       {
         const StepControl control(parameters, programme, law);

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// a, b and D_c as the law itself answers a step of speed.
+
+#include <gtest/gtest.h>
+
+#include <slipstep/experiment/rate_and_state.h>
+#include <slipstep/experiment/stability.h>
+
+#include <cmath>
+
+#include "point_run.h"
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  Settings rate_and_state_law(const std::string &evolution)
+  {
+    const std::string section = "Friction/" + evolution + "/";
+    return {{"Friction/Effects", "subloading, overstress, " + evolution},
+            {"Friction/Static coefficient", "0.1"},
+            {"Friction/Tangential stiffness", "1e6 MPa/mm"},
+            {section + "Growth", "0.1"},
+            {section + "Time", "0.05 s"},
+            {section +
+               (evolution == "ageing" ? "Renewal length" : "Slip length"),
+             "0.02 mm"},
+            {"Loading/Programme",
+             "press 5 MPa in 1 s; slide 0.3 mm/s for 1 mm; slide 0.3 mm/s for "
+             "1 mm; slide 30 mm/s for 1 mm"}};
+  }
+} // namespace
+
+
+
+TEST(RateAndState, IsWhatAStepOfSpeedShows)
+{
+  const double D_c = 0.02, up = 1.1;
+  for (const std::string evolution : {"ageing", "slip_law"})
+    {
+      const Parameters parameters =
+        point_parameters(rate_and_state_law(evolution));
+      const FrictionLaw law(parameters);
+      const auto        readings =
+        rate_and_state(parameters, law, parse_programme(parameters));
+      ASSERT_EQ(readings.size(), 2u);
+      for (const RateAndState &reading : readings)
+        {
+          EXPECT_EQ(reading.length, D_c);
+          const double         p = reading.pressure;
+          dealii::Tensor<1, 2> slow, fast;
+          slow[0] = reading.speed / std::sqrt(up);
+          fast[0] = reading.speed * std::sqrt(up);
+          const SteadySliding before(law, slow, p), after(law, fast, p);
+          EXPECT_NEAR((after.friction() - before.friction()) / std::log(up),
+                      reading.a - reading.b,
+                      5e-3 * reading.b);
+
+          // The jump: after so little slip that the state is still the old one.
+          ContactState       state = before.state();
+          const unsigned int n     = 200;
+          const double       slip  = 1e-3 * D_c / n;
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              ContactState         end;
+              dealii::Tensor<1, 2> increment;
+              increment[0] = slip;
+              law.update(state, increment, p, slip / fast[0], end);
+              state = end;
+            }
+          EXPECT_NEAR((state.traction[0] / p - before.friction()) /
+                        std::log(up),
+                      reading.a,
+                      5e-3 * (reading.a + reading.b))
+            << evolution << " " << reading.in_words();
+        }
+    }
+}
+
+
+
+TEST(RateAndState, OtherLawsHaveNoReading)
+{
+  for (const std::string effects :
+       {"subloading, overstress, softening", "overstress, ageing, slip_law"})
+    {
+      const Parameters parameters = point_parameters(
+        {{"Friction/Effects", effects},
+         {"Loading/Programme", "press 5 MPa in 1 s; slide 1 mm/s for 1 mm"}});
+      EXPECT_TRUE(rate_and_state(parameters,
+                                 FrictionLaw(parameters),
+                                 parse_programme(parameters))
+                    .empty());
+    }
+}
