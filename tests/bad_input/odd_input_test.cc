@@ -58,7 +58,8 @@ TEST(OddInput, APushIsOfAPoint)
   const SlipstepProcess process;
   process.write("push.prm",
                 "set Loading/Programme = press 1 MPa in 1 s; push 0.01 MPa in "
-                "1 s; push between 0 MPa and 0.01 MPa 2 times, 1 s each\n");
+                "1 s; push between 0 MPa and 0.01 MPa 2 times, 1 s each\n"
+                "set Output/Quantities = peak coefficient\n");
   for (const std::string command : {"check", "point"})
     EXPECT_EQ(process.run({command, "push.prm", "--quiet"}).exit_code, 0);
   for (const std::string command : {"run", "refine"})

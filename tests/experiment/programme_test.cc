@@ -250,7 +250,7 @@ TEST(Programme, TheCaretMarksTheFault)
     {"push between 0 MPa and 1 MPa 3 times, 0 s each", "0 s"},
     {"push between 0 MPa and 1 MPa 3 times, 1 s each now", "between"},
     {"push between 0 MPa and 1 MPa 3 times in 1 s", "1 s"},
-    {"push 3 times between 0 MPa and 1 MPa, 1 s each", ", 1 s each"},
+    {"push 3 times between 0 MPa and 1 MPa, 1 s each", "between 0 "},
     {"follow", ""},
     {"follow no such file.csv", "no such file.csv"}};
   for (const auto &[fault, expected] : cases)
