@@ -38,6 +38,12 @@ figure { margin: 0 0 1.5em; break-inside: avoid; }
 figcaption { color: #555; font-size: .85em; }
 svg { width: 100%; height: auto; display: block; }
 .map svg path, .map svg polygon { shape-rendering: crispEdges; }
+.block-view canvas { width: 100%; touch-action: pan-y; display: none; }
+.block-view .controls { display: none; font-size: .85em; margin: .3em 0; }
+.block-view .controls > * { margin-right: 1.2em; white-space: nowrap; }
+.block-view input[type=range] { width: 8em; vertical-align: middle; }
+.block-view.alive svg { display: none; }
+.block-view.alive canvas, .block-view.alive .controls { display: block; }
 .gallery { display: grid; gap: .6em 1em;
   grid-template-columns: repeat(auto-fill, minmax(min(100%, 320px), 1fr)); }
 .gallery figure { margin: 0; max-width: 470px; min-width: 0; }
@@ -58,6 +64,8 @@ pre { background: #f4f4f4; padding: .7em 1em; overflow-x: auto;
   .gallery { grid-template-columns: 1fr 1fr; }
   .legend { break-after: avoid; print-color-adjust: exact; }
   .scroll { overflow: visible; } h2 { break-after: avoid; }
+  .block-view.alive svg { display: block; }
+  .block-view.alive canvas, .block-view.alive .controls { display: none; }
   tr { break-inside: avoid; } pre { white-space: pre-wrap; } }
 )";
   } // namespace

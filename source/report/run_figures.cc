@@ -2,6 +2,7 @@
 #include <slipstep/report/run_figures.h>
 
 #include <slipstep/report/drawing.h>
+#include <slipstep/report/block_view.h>
 #include <slipstep/report/run_faces.h>
 
 #include <slipstep/report/figure.h>
@@ -441,6 +442,11 @@ namespace SlipStep
     pictures.push_back(friction_picture(folder, runs, reference, warnings));
     add_zoom_picture(folder, runs, reference, pictures, warnings);
     add_speed_picture(folder, runs, reference, pictures, warnings);
+
+    // One of several blocks that look alike.
+    const Picture block = block_picture(runs.back(), warnings);
+    if (!block.svg.empty())
+      pictures.push_back(block);
 
     // A cell costs some 300 bytes: the page shall stay quick to open.
     const std::size_t most_cells = 10000;

@@ -2,7 +2,9 @@
 #include <slipstep/solid/block_output.h>
 
 #include <slipstep/solid/attempt_together.h>
+#include <slipstep/solid/block_surface.h>
 #include <slipstep/solid/error_indicator.h>
+#include <slipstep/solid/stress.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
@@ -34,8 +36,7 @@ namespace SlipStep
     public:
       explicit StressPostprocessor(const BlockParameters &parameters)
         : DataPostprocessorTensor<dim>("stress_MPa", update_gradients)
-        , mu(parameters.shear_modulus())
-        , lambda(parameters.lame_lambda())
+        , parameters(parameters)
       {}
 
       virtual void evaluate_vector_field(
@@ -44,21 +45,20 @@ namespace SlipStep
       {
         for (unsigned int q = 0; q < stresses.size(); ++q)
           {
-            const auto &gradient = input.solution_gradients[q];
-            double      trace    = 0.;
+            Tensor<2, dim> gradient;
             for (unsigned int d = 0; d < dim; ++d)
-              trace += gradient[d][d];
+              gradient[d] = input.solution_gradients[q][d];
+            const SymmetricTensor<2, 3> stress =
+              stress_of(gradient, parameters);
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
                 stresses[q](Tensor<2, dim>::component_to_unrolled_index(
-                  TableIndices<2>(i, j))) =
-                  mu * (gradient[i][j] + gradient[j][i]) +
-                  (i == j ? lambda * trace : 0.);
+                  TableIndices<2>(i, j))) = stress[i][j];
           }
       }
 
     private:
-      const double mu, lambda;
+      const BlockParameters &parameters;
     };
 
 
@@ -132,6 +132,8 @@ namespace SlipStep
 
 
     const char *const squared_error = "squared_error_Nmm";
+
+    constexpr unsigned int n_digits = 4; // in names of files
 
 
 
@@ -251,6 +253,18 @@ namespace SlipStep
     const dealii::Vector<double> squared_errors(errors.begin(), errors.end());
     write_volume(dof_handler, displacement, squared_errors, frame, step.time);
     write_contact(contact, squared_errors, step.time);
+    const std::string failure = attempt_together(communicator, [&]() {
+      write_surface(folder /
+                      ("surface_" +
+                       Utilities::int_to_string(n_written, n_digits) + ".csv"),
+                    parameters,
+                    dof_handler,
+                    displacement,
+                    contact,
+                    communicator);
+    });
+    if (!failure.empty())
+      throw RunError(failure);
     ++n_written;
   }
 
@@ -316,8 +330,7 @@ namespace SlipStep
     std::vector<std::pair<double, std::string>> &entries,
     const double                                 time) const
   {
-    constexpr unsigned int n_digits = 4;
-    MPI_Comm               those_with_patches;
+    MPI_Comm those_with_patches;
     MPI_Comm_split(communicator,
                    has_patches ? 0 : MPI_UNDEFINED,
                    rank,

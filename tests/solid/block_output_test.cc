@@ -3,6 +3,7 @@
 // What the contact face remembers can be seen in all files.
 
 #include <slipstep/solid/block_output.h>
+#include <slipstep/solid/stress.h>
 #include <slipstep/utilities/csv.h>
 
 #include <gtest/gtest.h>
@@ -123,4 +124,86 @@ TEST(BlockOutput, leaves_out_what_no_effect_remembers)
 {
   HistoryRow last;
   EXPECT_EQ(run(make_parameters(settings("subloading")), last), always);
+}
+
+
+
+// Between smooth faces a block that is pressed shrinks evenly: sigma_z = -p.
+TEST(BlockOutput, draws_the_surface)
+{
+  HistoryRow     last;
+  const Settings pressed = {{"Block/Subdivisions", "2, 3, 4"},
+                            {"Block/Poisson ratio", "0"},
+                            {"Block/Faces/top", "pressure programme"},
+                            {"Output/Fields", "end"},
+                            {"Loading/Programme", "press 5.8 MPa in 1 s"}};
+  run(make_parameters(pressed), last);
+
+  std::vector<std::string> names = {
+    "von_mises_MPa", "contact", "pressure_MPa", "slip_mm", "r"};
+  for (const std::string axis : {"x", "y", "z", "ux", "uy", "uz"})
+    for (const std::string corner : {"0", "1", "2", "3"})
+      names.push_back(axis + corner + "_mm");
+  const CsvTable surface(test_folder() / "surface_0000.csv", names);
+  ASSERT_EQ(surface.size(), 2u * (2 * 3 + 3 * 4 + 2 * 4));
+  const BlockParameters block(make_parameters(pressed),
+                              parse_programme(make_parameters(pressed)));
+  double                area = 0., contact_area = 0.;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    {
+      EXPECT_NEAR(surface["von_mises_MPa"][i], 5.8, 0.02);
+      // Of the quadrilateral, if its corners go round it.
+      dealii::Tensor<1, 3> corners[4], u[4];
+      for (unsigned int k = 0; k < 4; ++k)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            const std::string name =
+              std::string(1, "xyz"[d]) + std::to_string(k) + "_mm";
+            corners[k][d] = surface[name][i];
+            u[k][d]       = surface["u" + name][i];
+          }
+      const double size =
+        0.5 * dealii::cross_product_3d(corners[2] - corners[0],
+                                       corners[3] - corners[1])
+                .norm();
+      area += size;
+      for (unsigned int k = 0; k < 4; ++k)
+        for (unsigned int l = 0; l < k; ++l)
+          EXPECT_NEAR((u[k] - u[l])[2],
+                      -5.8 / block.young_modulus * (corners[k] - corners[l])[2],
+                      2e-6);
+      if (surface["contact"][i] == 0.)
+        continue;
+      contact_area += size;
+      EXPECT_NEAR(surface["pressure_MPa"][i], 5.8, 0.02);
+      for (unsigned int k = 0; k < 4; ++k)
+        EXPECT_EQ(corners[k][2], 0.);
+    }
+  const auto &size = block.size;
+  EXPECT_NEAR(area,
+              2. * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]),
+              1e-6 * area);
+  EXPECT_NEAR(contact_area, size[0] * size[1], 1e-6 * area);
+}
+
+
+
+TEST(BlockOutput, von_mises_of_plane_strain)
+{
+  const Settings        flat       = {{"Block/Dimension", "2"},
+                                      {"Block/Size", "10 mm, 10 mm"},
+                                      {"Block/Subdivisions", "2, 2"}};
+  const Parameters      parameters = make_parameters(flat);
+  const BlockParameters block(parameters, parse_programme(parameters));
+  dealii::Tensor<2, 2>  gradient;
+  gradient[1][1]      = 1e-3;
+  const auto   stress = stress_of(gradient, block);
+  const double shear  = block.shear_modulus();
+  // Strains 0, e, 0: two normal stresses are equal, the third differs by 2 mu
+  // e.
+  EXPECT_NEAR(stress[1][1] - stress[2][2], 2. * shear * 1e-3, 1e-9);
+  EXPECT_NEAR(stress[0][0], stress[2][2], 1e-9);
+  gradient       = 0.;
+  gradient[0][1] = 1e-3;
+  EXPECT_NEAR(stress_of(gradient, block)[0][1], shear * 1e-3, 1e-12);
 }

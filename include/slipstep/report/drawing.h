@@ -33,6 +33,11 @@ namespace SlipStep
     {
       return upper - lower;
     }
+
+    double middle() const
+    {
+      return 0.5 * (lower + upper);
+    }
   };
 
   /// Width of the pictures [pixel].

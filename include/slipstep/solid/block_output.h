@@ -21,7 +21,8 @@ namespace SlipStep
   /// the drive is, stress), `contact.pvd` the contact face (pressure, traction,
   /// slip path, r, r_s, mu, dissipated energy per area, what the effects of the
   /// law remember, and which points slip); both tell the squared error of the
-  /// cell by ErrorIndicator. `contact_face.csv` has one row per
+  /// cell by ErrorIndicator. `surface_0000.csv` and so on are for the picture
+  /// of the block in the report. `contact_face.csv` has one row per
   /// contact cell at the last time with averages over the cell, of all but the
   /// last.
   template <int dim>

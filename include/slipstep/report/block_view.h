@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef slipstep_report_block_view_h
+#define slipstep_report_block_view_h
+
+#include <slipstep/report/run_figures.h>
+
+namespace SlipStep
+{
+  /// The block with its mesh at moments of a run, from the surface files beside
+  /// `fields.pvd`: deformed, coloured by stress, displacement or what the
+  /// contact plane bears, to be turned by hand. Without scripts and on paper a
+  /// drawing of the last moment. The picture is empty if no file is there.
+  /// @param warnings told of files that cannot be read
+  Picture block_picture(const RunResults         &run,
+                        std::vector<std::string> &warnings);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,495 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/report/block_view.h>
+
+#include <slipstep/report/block_view_script.h>
+#include <slipstep/report/drawing.h>
+#include <slipstep/report/figure.h>
+#include <slipstep/utilities/text.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    // A quadrilateral costs some 100 bytes: the page shall stay quick to open.
+    constexpr std::size_t most_quadrilaterals = 20000, most_moments = 12;
+
+    using Corner = std::array<double, 6>; // position, displacement [mm]
+
+    struct Surface
+    {
+      double                                     time;
+      std::vector<Corner>                        corners;
+      std::vector<std::array<std::size_t, 4>>    quadrilaterals;
+      std::map<std::string, std::vector<double>> values;
+    };
+
+    struct SurfaceField
+    {
+      std::string column, name, unit;
+      bool        of_contact;
+      double      factor = 1.;
+      Range       range;
+
+      std::string label() const
+      {
+        return name + (unit.empty() ? "" : "  [" + unit + "]");
+      }
+    };
+
+    const char *const displacement = "displacement_mm";
+
+
+
+    // The moments of which fields.pvd tells.
+    std::vector<std::pair<double, fs::path>>
+    surface_files(const fs::path &folder)
+    {
+      std::ifstream    in(folder / "fields.pvd");
+      const std::regex entry("timestep=\"([^\"]+)\".*fields_([0-9]+)\\.pvtu");
+      std::vector<std::pair<double, fs::path>> files;
+      for (std::string line; std::getline(in, line);)
+        {
+          std::smatch match;
+          if (!std::regex_search(line, match, entry))
+            continue;
+          const fs::path file = folder / ("surface_" + match[2].str() + ".csv");
+          if (fs::exists(file))
+            files.emplace_back(std::stod(match[1]), file);
+        }
+      return files;
+    }
+
+
+
+    Surface read_surface(const double time, const fs::path &file)
+    {
+      std::vector<std::string> names;
+      for (const std::string axis : {"x", "y", "z"})
+        for (const std::string kind : {"", "u"})
+          for (const std::string corner : {"0", "1", "2", "3"})
+            names.push_back(kind + axis + corner + "_mm");
+      const std::vector<std::string> of_face = {
+        "von_mises_MPa", "contact", "pressure_MPa", "slip_mm", "r"};
+      names.insert(names.end(), of_face.begin(), of_face.end());
+      const CsvTable table(file, names);
+
+      Surface surface;
+      surface.time = time;
+      for (const std::string &name : of_face)
+        surface.values[name] = table[name];
+      std::vector<double> &size = surface.values[displacement];
+      std::map<std::array<double, 3>, std::size_t> known;
+      for (std::size_t i = 0; i < table.size(); ++i)
+        {
+          std::array<std::size_t, 4> quadrilateral;
+          size.push_back(0.);
+          for (unsigned int k = 0; k < 4; ++k)
+            {
+              const std::string end = std::to_string(k) + "_mm";
+              Corner            corner;
+              for (unsigned int d = 0; d < 3; ++d)
+                {
+                  const std::string axis(1, "xyz"[d]);
+                  corner[d]     = table[axis + end][i];
+                  corner[3 + d] = table["u" + axis + end][i];
+                }
+              const auto place = known.emplace(std::array<double, 3>{corner[0],
+                                                                     corner[1],
+                                                                     corner[2]},
+                                               surface.corners.size());
+              if (place.second)
+                surface.corners.push_back(corner);
+              quadrilateral[k] = place.first->second;
+              size.back() += std::hypot(corner[3], corner[4], corner[5]) / 4.;
+            }
+          surface.quadrilaterals.push_back(quadrilateral);
+        }
+      return surface;
+    }
+
+
+
+    // Evenly chosen, the last always.
+    std::vector<Surface> read_moments(const fs::path &folder)
+    {
+      const auto           files = surface_files(folder);
+      std::vector<Surface> moments;
+      if (files.empty())
+        return moments;
+      moments.push_back(read_surface(files.back().first, files.back().second));
+      const std::size_t size = moments[0].quadrilaterals.size();
+      const std::size_t n =
+        std::min({files.size(),
+                  most_moments,
+                  std::max<std::size_t>(1, most_quadrilaterals / (size + 1))});
+      for (std::size_t i = 1; i < n; ++i)
+        {
+          const auto &file =
+            files[files.size() - 1 - i * (files.size() - 1) / (n - 1)];
+          moments.push_back(read_surface(file.first, file.second));
+        }
+      std::reverse(moments.begin(), moments.end());
+      return moments;
+    }
+
+
+
+    /// Moments of a block, and how to show them.
+    class BlockView
+    {
+    public:
+      BlockView(std::vector<Surface> read)
+        : moments(std::move(read))
+      {
+        for (const Surface &moment : moments)
+          for (const Corner &corner : moment.corners)
+            for (unsigned int d = 0; d < 3; ++d)
+              box[d].add(corner[d]);
+        is_flat = box[2].width() <= 0.;
+        make_thick();
+        choose_scale();
+        choose_fields();
+      }
+
+      std::string html() const
+      {
+        return "<div class='block-view'>\n" + drawing() +
+               "<script type='application/json'>" + json() +
+               "</script>\n<script>" + block_view_script + "</script></div>\n";
+      }
+
+      std::string caption() const
+      {
+        std::string text;
+        for (unsigned int d = 0; d < 3; ++d)
+          if (enlarged[d] > 1.)
+            text += "Drawn " + rounded_text(enlarged[d], 3) +
+                    " times as thick along " + "xyz"[d] + ". ";
+        return text +
+               (is_flat ? "Drag to move" :
+                          "Drag or arrow keys to turn, with shift to move") +
+               "; + and − or Ctrl and wheel for the size; double click to start "
+               "again.";
+      }
+
+    private:
+      // Of a thin strip nothing would be seen.
+      void make_thick()
+      {
+        constexpr double thinnest = 1. / 12.;
+
+        const double largest = extent();
+        for (unsigned int d = 0; d < (is_flat ? 2 : 3); ++d)
+          if (box[d].width() < thinnest * largest / 1.5)
+            {
+              enlarged[d] = std::round(thinnest * largest / box[d].width());
+              for (Surface &moment : moments)
+                for (Corner &corner : moment.corners)
+                  for (const unsigned int i : {d, d + 3})
+                    corner[i] *= enlarged[d];
+              box[d].lower *= enlarged[d];
+              box[d].upper *= enlarged[d];
+            }
+      }
+
+      double extent() const
+      {
+        return std::max({box[0].width(), box[1].width(), box[2].width()});
+      }
+
+      // A round number by which deformation is seen and keeps the shape.
+      void choose_scale()
+      {
+        double largest = 0.;
+        for (const Surface &moment : moments)
+          for (const Corner &corner : moment.corners)
+            for (unsigned int d = 3; d < 6; ++d)
+              largest = std::max(largest, std::abs(corner[d]));
+        if (!(largest > 0.))
+          return;
+        const double wanted = 0.05 * extent() / largest;
+        const double power  = std::pow(10., std::floor(std::log10(wanted)));
+        scale               = power * (wanted >= 5. * power ? 5. :
+                                       wanted >= 2. * power ? 2. :
+                                                              1.);
+      }
+
+      void choose_fields()
+      {
+        fields = {{"von_mises_MPa", "equivalent stress", "MPa", false, 1., {}},
+                  {displacement, "displacement", "mm", false, 1., {}}};
+        if (!is_flat)
+          fields.insert(fields.end(),
+                        {{"pressure_MPa", "pressure", "MPa", true, 1., {}},
+                         {"slip_mm", "slip", "mm", true, 1., {}},
+                         {"r", "r", "", true, 1., {}}});
+        for (SurfaceField &field : fields)
+          {
+            for (const Surface &moment : moments)
+              for (std::size_t i = 0; i < moment.quadrilaterals.size(); ++i)
+                if (!field.of_contact || moment.values.at("contact")[i] > 0.)
+                  field.range.add(moment.values.at(field.column)[i]);
+            if (field.unit == "mm" && field.range.upper < 0.01)
+              {
+                field.unit   = "µm";
+                field.factor = 1e3;
+              }
+            field.range.lower *= field.factor;
+            field.range.upper *= field.factor;
+            const double least =
+              std::max(1e-12, 1e-3 * std::abs(field.range.upper));
+            if (field.range.width() < least)
+              field.range = {field.range.lower - least,
+                             field.range.upper + least};
+          }
+      }
+
+      std::string json() const
+      {
+        const auto rounded = [](const double x) {
+          return nlohmann::json::parse(rounded_text(x, 4));
+        };
+        nlohmann::json data;
+        data["flat"]   = is_flat;
+        data["scale"]  = scale;
+        data["centre"] = {box[0].middle(), box[1].middle(), box[2].middle()};
+        data["extent"] = {box[0].width(), box[1].width()};
+        if (!is_flat)
+          data["extent"].push_back(box[2].width());
+        for (const SurfaceField &field : fields)
+          data["fields"].push_back({{"key", field.column},
+                                    {"label", field.label()},
+                                    {"of_contact", field.of_contact},
+                                    {"from", field.range.lower},
+                                    {"to", field.range.upper}});
+        for (const Surface &moment : moments)
+          {
+            nlohmann::json state;
+            state["t"] = rounded(moment.time);
+            for (const Corner &corner : moment.corners)
+              for (const double x : corner)
+                state["v"].push_back(rounded(x));
+            for (const auto &quadrilateral : moment.quadrilaterals)
+              for (const std::size_t corner : quadrilateral)
+                state["q"].push_back(corner);
+            for (const double x : moment.values.at("contact"))
+              state["contact"].push_back(x > 0. ? 1 : 0);
+            for (const SurfaceField &field : fields)
+              for (const double x : moment.values.at(field.column))
+                state[field.column].push_back(rounded(field.factor * x));
+            data["states"].push_back(state);
+          }
+        return data.dump();
+      }
+
+      // The last moment, seen from above; all faces of one colour are one path.
+      std::string drawing() const;
+
+      // Whether a face of the last moment does not look away.
+      bool is_seen(const std::array<std::size_t, 4> &corners) const;
+
+      std::vector<Surface>      moments;
+      std::array<Range, 3>      box;
+      std::array<double, 3>     enlarged{{1., 1., 1.}};
+      bool                      is_flat = false;
+      double                    scale   = 1.;
+      std::vector<SurfaceField> fields;
+    };
+
+
+
+    constexpr double view_width = 900., view_height = 400.;
+
+    constexpr unsigned int viridis[6][3] = {{68, 1, 84},
+                                            {65, 68, 135},
+                                            {42, 120, 142},
+                                            {34, 168, 132},
+                                            {122, 209, 81},
+                                            {253, 231, 37}};
+
+    // One of 40 colours of the palette: 0 its first, 1 its last.
+    std::string shade(const double share)
+    {
+      const double place = std::round(39. * std::clamp(share, 0., 1.)) / 7.8;
+      const unsigned int below = std::min(4u, static_cast<unsigned int>(place));
+      char               text[8] = "#";
+      for (unsigned int channel = 0; channel < 3; ++channel)
+        {
+          const double from = viridis[below][channel];
+          const double to   = viridis[below + 1][channel];
+          std::snprintf(text + 1 + 2 * channel,
+                        3,
+                        "%02x",
+                        static_cast<unsigned int>(
+                          std::lround(from + (place - below) * (to - from))));
+        }
+      return text;
+    }
+
+
+
+    std::string colour_bar(const SurfaceField &field)
+    {
+      constexpr unsigned int n     = 40;
+      constexpr double       width = 260., top = view_height - 32.,
+                       left = (view_width - width) / 2.;
+
+      const auto text = [&](const double       x,
+                            const double       y,
+                            const std::string &anchor,
+                            const std::string &content) {
+        return "<text x='" + fixed_text(x, 1) + "' y='" + fixed_text(y, 1) +
+               "' text-anchor='" + anchor + "'>" + html_text(content) +
+               "</text>\n";
+      };
+      std::string svg;
+      for (unsigned int i = 0; i < n; ++i)
+        svg += "<rect x='" + fixed_text(left + width * i / n, 1) + "' y='" +
+               fixed_text(top, 1) + "' width='7' height='10' fill='" +
+               shade(i / (n - 1.)) + "'/>";
+      return svg + text(left, top - 6., "start", field.label()) +
+             text(left, top + 25., "start", short_text(field.range.lower, 3)) +
+             text(left + width,
+                  top + 25.,
+                  "end",
+                  short_text(field.range.upper, 3));
+    }
+
+
+
+    using Point = std::array<double, 3>;
+
+    // To the right, upwards and towards the eye, of a block turned about z and
+    // then tilted.
+    Point turned(const Point &p)
+    {
+      constexpr double turn = -0.6, tilt = 0.45;
+
+      const double a = std::cos(turn) * p[0] + std::sin(turn) * p[1];
+      const double b = -std::sin(turn) * p[0] + std::cos(turn) * p[1];
+      return {{a,
+               std::cos(tilt) * p[2] + std::sin(tilt) * b,
+               std::sin(tilt) * p[2] - std::cos(tilt) * b}};
+    }
+
+
+
+    bool BlockView::is_seen(const std::array<std::size_t, 4> &corners) const
+    {
+      if (is_flat)
+        return true;
+      const auto &all = moments.back().corners;
+      Point       outwards, one, other; // from the middle; the diagonals
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          outwards[d] = -box[d].middle();
+          for (const std::size_t corner : corners)
+            outwards[d] += all[corner][d] / 4.;
+          one[d]   = all[corners[2]][d] - all[corners[0]][d];
+          other[d] = all[corners[3]][d] - all[corners[1]][d];
+        }
+      Point  normal;
+      double product = 0.;
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          const unsigned int e = (d + 1) % 3, f = (d + 2) % 3;
+          normal[d] = one[e] * other[f] - one[f] * other[e];
+          product += normal[d] * outwards[d];
+        }
+      return product * turned(normal)[2] > 0.;
+    }
+
+
+
+    std::string BlockView::drawing() const
+    {
+      const SurfaceField &field  = fields[0];
+      constexpr double    margin = 25., foot = 65.;
+
+      const Surface     &moment = moments.back();
+      std::vector<Point> places;
+      Range              x, y;
+      for (const Corner &corner : moment.corners)
+        {
+          Point p;
+          for (unsigned int d = 0; d < 3; ++d)
+            p[d] = corner[d] + scale * corner[3 + d] - box[d].middle();
+          places.push_back(is_flat ? p : turned(p));
+          x.add(places.back()[0]);
+          y.add(places.back()[1]);
+        }
+      const double size = std::min((view_width - 2. * margin) / x.width(),
+                                   (view_height - margin - foot) / y.width());
+
+      std::map<std::string, std::string> paths;
+      for (std::size_t i = 0; i < moment.quadrilaterals.size(); ++i)
+        {
+          const auto &corners = moment.quadrilaterals[i];
+          if (!is_seen(corners))
+            continue;
+          const double share =
+            (field.factor * moment.values.at(field.column)[i] -
+             field.range.lower) /
+            field.range.width();
+          std::string &path = paths[shade(share)];
+          for (unsigned int k = 0; k < 4; ++k)
+            path += (k == 0 ? "M" : "L") +
+                    fixed_text(view_width / 2. +
+                                 size * (places[corners[k]][0] - x.middle()),
+                               1) +
+                    " " +
+                    fixed_text((view_height - foot + margin) / 2. -
+                                 size * (places[corners[k]][1] - y.middle()),
+                               1);
+          path += "Z";
+        }
+      std::string svg =
+        "<svg viewBox='0 0 " + fixed_text(view_width, 0) + " " +
+        fixed_text(view_height, 0) +
+        "' role='img' font-size='13' fill='currentColor'><title>The block at "
+        "the end of the run</title>\n<g stroke='#777' stroke-width='.5' "
+        "stroke-linejoin='round'>\n";
+      for (const auto &path : paths)
+        svg += "<path fill='" + path.first + "' d='" + path.second + "'/>\n";
+      return svg + "</g>\n" + colour_bar(field) + "</svg>\n";
+    }
+  } // namespace
+
+
+
+  Picture block_picture(const RunResults         &run,
+                        std::vector<std::string> &warnings)
+  {
+    Picture picture;
+    try
+      {
+        std::vector<Surface> moments = read_moments(run.folder);
+        if (moments.empty() || moments.back().quadrilaterals.empty())
+          return picture;
+        const BlockView view(std::move(moments));
+        picture.title =
+          "The block" + (run.label.empty() ? "" : ", " + run.label);
+        picture.caption = view.caption();
+        picture.svg     = view.html();
+      }
+    catch (const InputError &error)
+      {
+        warnings.push_back(std::string("the block is not shown: ") +
+                           error.what());
+      }
+    return picture;
+  }
+} // namespace SlipStep

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/report/block_view.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/temporary_folder.h"
+
+using namespace SlipStep;
+
+namespace
+{
+  const double length = 10., height = 0.25;
+
+  // Two cells side by side in two dimensions, sheared by 1 um.
+  void write_moment(const std::filesystem::path &folder,
+                    const unsigned int           number,
+                    const double                 stress)
+  {
+    std::ofstream out(folder /
+                      ("surface_000" + std::to_string(number) + ".csv"));
+    for (const std::string kind : {"", "u"})
+      for (const std::string corner : {"0", "1", "2", "3"})
+        for (const std::string axis : {"x", "y", "z"})
+          out << kind << axis << corner << "_mm,";
+    out << "von_mises_MPa,contact,pressure_MPa,slip_mm,r\n";
+    for (const double left : {0., length / 2.})
+      {
+        const double right = left + length / 2.;
+        out << left << ",0,0," << right << ",0,0," << right << "," << height
+            << ",0," << left << "," << height << ",0,"
+            << "0,0,0,0,0,0,0.001,0,0,0.001,0,0," << stress + left
+            << ",0,0,0,0\n";
+      }
+  }
+
+  RunResults finished_run()
+  {
+    RunResults run;
+    run.folder = test_folder();
+    std::ofstream list(run.folder / "fields.pvd");
+    for (unsigned int n = 0; n < 3; ++n)
+      {
+        write_moment(run.folder, n, 100. * n);
+        list << "<DataSet timestep=\"" << 0.5 * n
+             << "\" group=\"\" part=\"0\" file=\"fields_000" << n
+             << ".pvtu\"/>\n";
+      }
+    return run;
+  }
+
+  nlohmann::json data_of(const Picture &picture)
+  {
+    const std::string begin = "<script type='application/json'>";
+    const std::size_t from  = picture.svg.find(begin) + begin.size();
+    return nlohmann::json::parse(
+      picture.svg.substr(from, picture.svg.find("</script>", from) - from));
+  }
+} // namespace
+
+
+
+TEST(BlockView, ShowsAllMoments)
+{
+  std::vector<std::string> warnings;
+  const Picture            picture = block_picture(finished_run(), warnings);
+  EXPECT_TRUE(warnings.empty());
+  const auto data = data_of(picture);
+  EXPECT_TRUE(data["flat"]);
+  ASSERT_EQ(data["states"].size(), 3u);
+  const auto &last = data["states"][2];
+  EXPECT_EQ(last["t"], 1.);
+  // Corners that two cells share are there once.
+  EXPECT_EQ(last["v"].size(), 6u * 6u);
+  EXPECT_EQ(last["q"].size(), 8u);
+  EXPECT_EQ(last["von_mises_MPa"], nlohmann::json({200., 205.}));
+  EXPECT_EQ(data["fields"][0]["from"], 0.);
+  EXPECT_EQ(data["fields"][0]["to"], 205.);
+  // Small displacements are in micrometres: the mean of 0, 0, 1 and 1.
+  EXPECT_EQ(data["fields"][1]["label"], "displacement  [µm]");
+  EXPECT_EQ(last["displacement_mm"], nlohmann::json({0.5, 0.5}));
+}
+
+
+
+TEST(BlockView, ThinBlocksAreDrawnThicker)
+{
+  std::vector<std::string> warnings;
+  const Picture            picture = block_picture(finished_run(), warnings);
+  EXPECT_EQ(data_of(picture)["extent"], nlohmann::json({10., 0.75}));
+  EXPECT_NE(picture.caption.find("Drawn 3 times as thick along y."),
+            std::string::npos)
+    << picture.caption;
+  // Deformation is enlarged to a round number that is seen.
+  EXPECT_EQ(data_of(picture)["scale"], 500.);
+}
+
+
+
+TEST(BlockView, NothingIsShownOfARunWithoutFields)
+{
+  RunResults run;
+  run.folder = test_folder();
+  std::vector<std::string> warnings;
+  EXPECT_EQ(block_picture(run, warnings).svg, "");
+  EXPECT_TRUE(warnings.empty());
+
+  run = finished_run();
+  std::filesystem::remove(run.folder / "surface_0001.csv");
+  EXPECT_EQ(data_of(block_picture(run, warnings))["states"].size(), 2u);
+  std::ofstream(run.folder / "surface_0002.csv") << "x0_mm\nabc\n";
+  EXPECT_EQ(block_picture(run, warnings).svg, "");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("surface_0002.csv"), std::string::npos);
+}
