@@ -285,62 +285,40 @@ namespace SlipStep
 
 
 
-    // "calibration: path = value: must not ... (1.23)" without the numbers.
-    std::string condition_in(const std::string &refusal)
-    {
-      const std::size_t begin =
-        std::min(refusal.find(": ") + 2, refusal.size());
-      const std::size_t sign  = refusal.find(" = ", begin);
-      const std::size_t value = refusal.find(": ", sign);
-      if (sign == std::string::npos || value == std::string::npos)
-        return refusal;
-      std::string       why  = refusal.substr(value + 2);
-      const std::size_t open = why.find(" ("), close = why.find(')');
-      if (open < close && close != std::string::npos)
-        why.erase(open, close + 1 - open);
-      return refusal.substr(begin, sign - begin) + " " + why;
-    }
-
-
-
     // A fit that would go where the law takes no values ends beside them, at a
     // bound that the case does not state.
     void Calibrator::find_constraints()
     {
-      constexpr double beside = 1e-4, significant = 4.;
+      constexpr double significant = 4.;
 
       const std::size_t   n = campaign.n_residuals();
       std::vector<double> residuals(n), derivatives(n);
       for (unsigned int i = 0; i < best.size(); ++i)
         for (const double direction : {-1., 1.})
-          try
-            {
-              std::vector<double> other = best;
-              other[i] += direction * beside;
-              const FrictionLaw law(planned->with(other));
-            }
-          catch (const InputError &error)
-            {
-              FittedParameter &fitted = result.parameters[i];
-              fitted.is_at_bound      = true;
-              fitted.constraint       = condition_in(error.what());
-              planned->residuals(best, residuals.data());
-              planned->derivatives(best,
-                                   {i},
-                                   residuals.data(),
-                                   derivatives.data());
-              const auto product = [&](const std::vector<double> &x) {
-                return std::inner_product(x.begin(),
-                                          x.end(),
-                                          derivatives.begin(),
-                                          0.);
-              };
-              // What a step of Gauss and Newton would gain.
-              const double slope = direction * product(residuals);
-              fitted.is_wanted_beyond =
-                slope < 0. &&
-                slope * slope > significant * product(derivatives);
-            }
+          {
+            const std::string condition =
+              planned->condition_beside(best, i, direction);
+            if (condition.empty())
+              continue;
+            FittedParameter &fitted = result.parameters[i];
+            fitted.is_at_bound      = true;
+            fitted.constraint       = condition;
+            planned->residuals(best, residuals.data());
+            planned->derivatives(best,
+                                 {i},
+                                 residuals.data(),
+                                 derivatives.data());
+            const auto product = [&](const std::vector<double> &x) {
+              return std::inner_product(x.begin(),
+                                        x.end(),
+                                        derivatives.begin(),
+                                        0.);
+            };
+            // What a step of Gauss and Newton would gain.
+            const double slope = direction * product(residuals);
+            fitted.is_wanted_beyond =
+              slope < 0. && slope * slope > significant * product(derivatives);
+          }
       // They tell of the surroundings of an optimum, which this is not.
       auto &weak = result.weak;
       weak.erase(

@@ -450,6 +450,48 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // "calibration: path = value: must not ... (1.23)" without the numbers.
+    std::string condition_in(const std::string &refusal)
+    {
+      const std::size_t begin =
+        std::min(refusal.find(": ") + 2, refusal.size());
+      const std::size_t sign  = refusal.find(" = ", begin);
+      const std::size_t value = refusal.find(": ", sign);
+      if (sign == std::string::npos || value == std::string::npos)
+        return refusal;
+      std::string       why  = refusal.substr(value + 2);
+      const std::size_t open = why.find(" ("), close = why.find(')');
+      if (open < close && close != std::string::npos)
+        why.erase(open, close + 1 - open);
+      return refusal.substr(begin, sign - begin) + " " + why;
+    }
+  } // namespace
+
+
+
+  std::string Simulator::condition_beside(const std::vector<double> &scaled,
+                                          const std::size_t          parameter,
+                                          const double               direction)
+  {
+    constexpr double beside = 1e-4;
+
+    std::vector<double> other = scaled;
+    other[parameter] += direction * beside;
+    try
+      {
+        const FrictionLaw law(with(other));
+      }
+    catch (const InputError &error)
+      {
+        return condition_in(error.what());
+      }
+    return "";
+  }
+
+
+
   void Simulator::plan(const std::vector<double> &scaled, const Simulator *like)
   {
     constexpr std::size_t times_more = 5, least = 500;

@@ -96,6 +96,9 @@ namespace SlipStep
                              "report.html",
                              "refinement.csv",
                              "lines.csv",
+                             "fields.pvd",
+                             "contact.pvd",
+                             "contact_face.csv",
                              "refinement.json"})
       fs::remove(folder / name, error);
     CheckpointStore(folder).remove();

@@ -168,9 +168,13 @@ namespace SlipStep
         return parameter.in_unit(
           parameter.from_scaled(std::clamp(scaled, 0., 1.)));
       };
-      out.value       = value(model.scaled[i]);
-      out.before      = parameter.in_unit(parameter.start);
-      out.is_at_bound = model.scaled[i] < 1e-6 || model.scaled[i] > 1. - 1e-6;
+      out.value  = value(model.scaled[i]);
+      out.before = parameter.in_unit(parameter.start);
+      Simulator simulator(*model.campaign);
+      out.is_at_bound =
+        model.scaled[i] < 1e-6 || model.scaled[i] > 1. - 1e-6 ||
+        !simulator.condition_beside(model.scaled, i, -1.).empty() ||
+        !simulator.condition_beside(model.scaled, i, 1.).empty();
       if (part != nullptr)
         {
           out.effect = part->name;

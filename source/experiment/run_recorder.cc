@@ -199,6 +199,14 @@ namespace SlipStep
         "per statement may have one each");
     summary.quantities =
       evaluate_quantities(quantities, programme, history, summary.dimension);
+    if (reason.empty() && summary.dimension > 0)
+      for (std::size_t i = 0; i < quantities.size(); ++i)
+        if (quantities[i].kind == QuantityOfInterest::Kind::slip_front &&
+            std::isnan(summary.quantities[i].value))
+          summary.warnings.push_back(
+            "'" + quantities[i].name +
+            "' has no value: at that moment no place on the face divides points "
+            "above its loading ratio from points below");
     if (!is_writer)
       return;
     if (reason.empty())

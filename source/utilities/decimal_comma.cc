@@ -27,10 +27,11 @@ namespace SlipStep
         const char before = begin == 0 ? ' ' : text[begin - 1];
         const bool is_list =
           end < text.size() && text[end] == ',' && is_digit(end + 1);
-        const char after = end == text.size() ? ' ' : text[end];
+        const char after   = end == text.size() ? ' ' : text[end];
+        const bool is_pair = before == '(' && after == ')';
         if (is_number && before != '.' && before != ',' && before != '_' &&
             std::isalnum(static_cast<unsigned char>(before)) == 0 &&
-            after != '.' && !is_list)
+            after != '.' && !is_list && !is_pair)
           {
             // With its exponent and unit.
             end = std::min(text.find_first_of(",;)", end), text.size());

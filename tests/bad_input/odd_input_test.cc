@@ -79,6 +79,27 @@ TEST(OddInput, APushIsOfAPoint)
 
 
 
+// A value that a program would find as null is told of to the reader, too.
+TEST(OddInput, AFrontThatIsNowhereIsTold)
+{
+  const SlipstepProcess process;
+  process.write("front.prm",
+                std::string("include " SLIPSTEP_SOURCE_DIR
+                            "/prm/slip_front/slip_front.prm\n") +
+                  "set Loading/Programme = press 5.8 MPa in 1 s; slide for "
+                  "0.00001 mm\n"
+                  "set Output/Quantities = slip front at r = 0.9999\n"
+                  "set Block/Refinement = uniform 0\n");
+  const auto result =
+    process.run({"run", "front.prm", "--quiet", "--output", "o"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("'slip front at r = 0.9999' has no value"),
+            std::string::npos)
+    << result.err;
+}
+
+
+
 TEST(OddInput, TheHomeFolderIsKnown)
 {
   const SlipstepProcess process;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/utilities.h>
 
+#include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/parameters.h>
 #include <slipstep/utilities/pattern_words.h>
@@ -253,6 +254,8 @@ TEST_F(ParametersTest, DecimalCommasAreToldAsSuch)
                   hint + "10.5 mm");
   expect_contains(error_of("set Block/Size = 10,5 mm\n"), hint + "10.5 mm");
   EXPECT_EQ(error_of("set Block/Size = 10,20,30\n"), "");
+  EXPECT_EQ(decimal_comma_hint("(0,0) to (10 mm, 5 mm)"), "");
+  EXPECT_EQ(decimal_comma_hint("(0,5 mm, 0 mm)"), hint + "0.5 mm");
   EXPECT_EQ(error_of("set Block/Size = 10 mm,20 mm\n"), "");
   expect_contains(error_of("subsection Sweep\n"
                            "set Key = Friction/healing/Rate\n"

@@ -133,6 +133,13 @@ namespace SlipStep
     Replay::Curve simulate(const std::vector<double> &scaled,
                            const std::size_t          test);
 
+    /// The condition of the law that a value beside that of a parameter breaks,
+    /// in words; "" if there is none.
+    /// @param direction -1 for a smaller value, 1 for a larger
+    std::string condition_beside(const std::vector<double> &scaled,
+                                 const std::size_t          parameter,
+                                 const double               direction);
+
     /// The case with these values.
     const Parameters &with(const std::vector<double> &scaled);
 

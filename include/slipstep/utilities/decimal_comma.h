@@ -8,7 +8,7 @@ namespace SlipStep
 {
   /// "decimals begin with a point: 0.05" if a number such as 0,05 is in the
   /// text; "" if there is none. Commas in a list of more numbers without blanks
-  /// (4,4,4) are no decimals.
+  /// (4,4,4), and one alone in parentheses, are no decimals.
   std::string decimal_comma_hint(const std::string &text);
 } // namespace SlipStep
 
