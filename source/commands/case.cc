@@ -240,12 +240,7 @@ namespace SlipStep
       parameters.reject("Loading/Machine stiffness",
                         "only 'slipstep point' knows a machine; the block is "
                         "elastic itself: take 'rigid'");
-    const Programme programme = parse_programme(parameters);
-    for (const Segment &segment : programme.segments())
-      if (segment.pushes)
-        parameters.reject("Loading/Programme",
-                          "'push' is for 'slipstep point': the drive of a "
-                          "block moves as the programme says");
+    const Programme       programme = parse_programme(parameters);
     const BlockParameters block(parameters, programme);
     const double          installed = 1e-6 * sysconf(_SC_PHYS_PAGES) *
                              static_cast<double>(sysconf(_SC_PAGESIZE));

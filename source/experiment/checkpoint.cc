@@ -79,15 +79,20 @@ namespace SlipStep
         crc.process_bytes(&number, sizeof(number));
       };
       for (const Segment &segment : programme.segments())
-        for (const auto &end :
-             {std::make_pair(segment.start_time, segment.start),
-              std::make_pair(segment.end_time, segment.end)})
-          {
-            add(end.first);
-            add(end.second.pressure);
+        {
+          for (const auto &end :
+               {std::make_pair(segment.start_time, segment.start),
+                std::make_pair(segment.end_time, segment.end)})
+            {
+              add(end.first);
+              add(end.second.pressure);
+              for (unsigned int i = 0; i < 2; ++i)
+                add(end.second.displacement[i]);
+            }
+          if (segment.pushes)
             for (unsigned int i = 0; i < 2; ++i)
-              add(end.second.displacement[i]);
-          }
+              add(segment.push[i]);
+        }
       return crc.checksum();
     }
 

@@ -2,11 +2,11 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/experiment/point_driver.h>
+#include <slipstep/experiment/pushed_contact.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -23,8 +23,8 @@ namespace SlipStep
       "What happens, one statement after the other, separated by ';': 'press "
       "<pressure> in <time>', 'hold <time>', 'slide [<speed>] for <length or "
       "time> [at <angle>]', 'push <traction> in <time> [at <angle>]', 'push "
-      "between <traction> and <traction> <number> times, <time> each' (on a "
-      "contact point), 'follow <file of a measured test>', 'repeat <number> "
+      "between <traction> and <traction> <number> times, <time> each', "
+      "'follow <file of a measured test>', 'repeat <number> "
       "times { <statements> }'. A negative speed reverses. Units are part of "
       "every number.");
     parameters.declare("Loading/Speed",
@@ -89,19 +89,6 @@ namespace SlipStep
     {
       return {value, value, value};
     }
-
-    std::string reason_of_slip(const Tensor<1, 2> &load,
-                               const Tensor<1, 2> &held,
-                               const double        pressure)
-    {
-      std::ostringstream message;
-      message << "friction cannot hold the push of " << load.norm()
-              << " MPa; it held " << held.norm() << " MPa at a pressure of "
-              << pressure
-              << " MPa (with a Loading/Machine mass the contact would go on "
-                 "sliding)";
-      return message.str();
-    }
   } // namespace
 
 
@@ -140,7 +127,9 @@ namespace SlipStep
             machine.step(law, point, slider, motion, to.pressure, time_step);
         if (!step.holds)
           {
-            control.cut(reason_of_slip(load, slider.load, to.pressure));
+            control.cut(reason_of_slip(load, slider.load, to.pressure) +
+                        " (with a Loading/Machine mass the contact would go on "
+                        "sliding)");
             continue;
           }
         if (!control.accept(machine.error(law, point, step).measure()))

@@ -4,6 +4,7 @@
 #include <boost/math/tools/roots.hpp>
 
 #include <cmath>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -144,5 +145,18 @@ namespace SlipStep
       return {};
     slip = stage.slip;
     return stage.response;
+  }
+
+
+
+  std::string reason_of_slip(const Tensor<1, 2> &load,
+                             const Tensor<1, 2> &held,
+                             const double        pressure)
+  {
+    std::ostringstream message;
+    message << "friction cannot hold the push of " << load.norm()
+            << " MPa; it held " << held.norm() << " MPa at a pressure of "
+            << pressure << " MPa";
+    return message.str();
   }
 } // namespace SlipStep

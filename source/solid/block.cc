@@ -61,7 +61,7 @@ namespace SlipStep
                        const std::function<void()> &between_steps)
   {
     const SlidingPath path(programme);
-    old_loading = programme.at(control.time());
+    old_loading = loading_at(control.time());
     while (!control.is_finished())
       {
         if (!make_step())
@@ -71,9 +71,10 @@ namespace SlipStep
             continue;
           }
 
-        const ContactTotals totals    = contact.totals(communicator);
-        const double        start     = control.time();
-        const double        step_size = control.step_size();
+        const ContactTotals totals      = contact.totals(communicator);
+        const double        start       = control.time();
+        const double        step_size   = control.step_size();
+        const double        pushed_path = drive.path;
         // On a new mesh the contact finds another equilibrium at once, however
         // short the step; the step's length was fine before.
         double error = contact.step_error(communicator);
@@ -105,8 +106,8 @@ namespace SlipStep
                                load_factors,
                                {start,
                                 row.time,
-                                path.at(start),
-                                path.at(row.time),
+                                path.at(start) + pushed_path,
+                                path.at(row.time) + drive.path,
                                 control.n_accepted(),
                                 control.is_first_of_statement(),
                                 control.is_finished()});
@@ -137,7 +138,11 @@ namespace SlipStep
     n_newton = n_linear = 0;
     stage_solution      = old_solution;
     stage_frame         = old_loading.displacement;
+    if (control.is_first_of_segment())
+      drive.load_before = drive.load;
     begin_stage(begin + gamma * step_size, gamma * step_size);
+    if (drive_is_free)
+      begin_modes();
     predict();
     if (!finish_stage(carry))
       return false;
@@ -145,9 +150,12 @@ namespace SlipStep
     contact.begin_second_stage();
     stage_solution.sadd(1. - carry, carry, solution);
     stage_solution.update_ghost_values();
-    stage_frame += carry * (loading.displacement - stage_frame);
+    const Tensor<1, 2> motion = loading.displacement - stage_frame;
+    stage_frame += carry * motion;
     begin_stage(control.end_of_step(), gamma * step_size);
     solution.sadd(1. / gamma, 1. - 1. / gamma, old_solution);
+    if (drive_is_free)
+      move_frame_to(old_loading.displacement + 1. / gamma * motion);
     impose_displacements();
     return finish_stage(1.);
   }
@@ -174,9 +182,11 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::begin_stage(const double end_time, const double time_step)
   {
-    loading      = programme.at(end_time);
+    loading      = loading_at(end_time);
     load_factors = factors_at(end_time);
     stage_time   = time_step;
+    move_frame_to(loading.displacement);
+    begin_drive(end_time);
   }
 
 
@@ -213,6 +223,8 @@ namespace SlipStep
       {
         const double factor = stage_time / old_step;
         solution.sadd(1. + factor, -factor, older_solution);
+        if (drive_is_free)
+          move_frame_to(loading.displacement + factor * drive.last_motion);
       }
     impose_displacements();
   }
@@ -233,13 +245,15 @@ namespace SlipStep
   // @sect3{Newton's method}
 
   // Per iteration: forces that are out of balance, tangent of the contact face,
-  // one linear system, and as much of the update as lowers the residual.
+  // one linear system (more of them where the drive is pushed), and as much of
+  // the update as lowers the residual.
   template <int dim>
   bool Block<dim>::solve_stage()
   {
     residual_norms.clear();
     failure.clear();
-    Vector update(right_hand_side);
+    Vector       update(right_hand_side);
+    Tensor<1, 2> motion;
 
     double norm = compute_residual();
     if (bring_to_touch())
@@ -271,10 +285,11 @@ namespace SlipStep
 
         try
           {
-            const unsigned int iterations =
-              solve_linear_system(update, linear_tolerance(norm));
-            n_linear += iterations;
-            n_linear_total += iterations;
+            count_linear_iterations(
+              solve_linear_system(update, linear_tolerance(norm)));
+            constrain(update);
+            if (drive_is_free)
+              motion = move_drive(update);
           }
         catch (const RunError &error)
           {
@@ -283,9 +298,8 @@ namespace SlipStep
           }
         ++n_newton;
         ++n_newton_total;
-        constrain(update);
 
-        norm = line_search(update, norm);
+        norm = line_search(update, motion, norm);
       }
   }
 
@@ -323,11 +337,14 @@ namespace SlipStep
   // Halve the update until the residual falls. If it never does, the whole
   // update is the best guess at the other side of a kink.
   template <int dim>
-  double Block<dim>::line_search(const Vector &update, const double old_norm)
+  double Block<dim>::line_search(const Vector       &update,
+                                 const Tensor<1, 2> &motion,
+                                 const double        old_norm)
   {
     double     taken          = 0.;
     const auto residual_after = [&](const double share) {
       solution.add(share - taken, update);
+      move_frame_to(loading.displacement + (share - taken) * motion);
       taken = share;
       solution.update_ghost_values();
       return compute_residual();
@@ -357,11 +374,15 @@ namespace SlipStep
                    stage_solution,
                    loading.displacement - stage_frame,
                    stage_time);
-    unbalanced = 0.;
+    is_linearised = false;
+    unbalanced    = 0.;
     contact.add_forces(unbalanced);
     unbalanced.compress(VectorOperation::add);
     contact_forces = FaceVector(unbalanced);
     force_scale    = contact_forces.l2_norm();
+    // The force of the drive is a sum over nodes, as that of the contact.
+    if (drive_is_free)
+      drive_weight = force_scale / std::max(unbalanced.l1_norm(), 1e-300);
 
     system->add_elastic_forces(solution, unbalanced);
     unbalanced.compress(VectorOperation::add);
@@ -377,7 +398,8 @@ namespace SlipStep
     right_hand_side = 0.;
     right_hand_side.add(-1., unbalanced);
     move_to_masters(homogeneous_constraints, right_hand_side);
-    return right_hand_side.l2_norm();
+    return std::hypot(right_hand_side.l2_norm(),
+                      drive_weight * force_missing_on_drive().norm());
   }
 
 
@@ -394,6 +416,7 @@ namespace SlipStep
     contact.commit();
     external_work += trial_work;
     check_balance_of_forces();
+    accept_drive(totals);
 
     const double load = totals.normal_load;
     for (unsigned int i = 0; i < 2; ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/block.h>
 
+#include <slipstep/experiment/pushed_contact.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <algorithm>
@@ -163,6 +164,12 @@ namespace SlipStep
               << " or, where round-off is in the way, a larger Block/Newton "
                  "tolerance may help ("
               << failure << ")";
+    else if (drive_is_free)
+      message << reason_of_slip(drive_target /
+                                  parameters.nominal_contact_area(),
+                                drive.load,
+                                drive.pressure)
+              << " (" << failure << ")";
     else
       message << failure;
     return message.str();

@@ -477,22 +477,22 @@ namespace SlipStep
                             "contact plane already");
     reject_loads_on_supports(*this, parameters);
 
-    bool slides = false;
     for (const Segment &segment : programme.segments())
-      slides = slides || segment.end.velocity.norm() > 0.;
-    if (slides && n_driven == 0)
-      parameters.reject("Loading/Programme",
-                        "the programme slides, but no face of the block has "
-                        "'drive'");
+      if (n_driven == 0 && (segment.pushes || segment.end.velocity.norm() > 0.))
+        parameters.reject("Loading/Programme",
+                          std::string("the programme ") +
+                            (segment.pushes ? "pushes" : "slides") +
+                            ", but no face of the block has 'drive'");
 
     // Without pressure the block would drift away.
     const bool begins_pressed = programme.segments().front().end.pressure > 0.;
     if (dimension == 2)
       for (const Segment &segment : programme.segments())
-        if (std::abs(segment.end.velocity[1]) >
-            1e-12 * segment.end.velocity.norm())
-          parameters.reject("Loading/Programme",
-                            "a block in 2-D can slide at 0 deg only");
+        for (const auto &direction : {segment.end.velocity, segment.push})
+          if (std::abs(direction[1]) > 1e-12 * direction.norm())
+            parameters.reject("Loading/Programme",
+                              "a block in 2-D can slide and be pushed at 0 deg "
+                              "only");
 
     // A flat face must be free to move as a whole.
     for (unsigned int f = 0; f < names.size(); ++f)

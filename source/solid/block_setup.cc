@@ -55,6 +55,7 @@ namespace SlipStep
     setup_unknowns();
     find_supports();
     find_groups_of_unknowns();
+    find_driven_unknowns();
     contact.reinit(dof_handler);
     assemble_loads();
     choose_solver();

@@ -16,6 +16,7 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::choose_solver()
   {
+    is_linearised = false;
     if (solver_in_use == SolverType::automatic)
       solver_in_use = parameters.solver_for(dof_handler.n_dofs());
     if (solver_in_use == SolverType::multigrid)
@@ -48,7 +49,9 @@ namespace SlipStep
       {
         try
           {
-            system->linearise(contact.tangent());
+            if (!is_linearised)
+              system->linearise(contact.tangent());
+            is_linearised = true;
             return system->solve(update, right_hand_side, tolerance);
           }
         catch (const RunError &error)
@@ -70,6 +73,15 @@ namespace SlipStep
     // The tangent may be to blame: the next one begins anew.
     begin_with_first_solver();
     throw RunError(failures);
+  }
+
+
+
+  template <int dim>
+  void Block<dim>::count_linear_iterations(const unsigned int n)
+  {
+    n_linear += n;
+    n_linear_total += n;
   }
 
 

@@ -408,23 +408,58 @@ namespace SlipStep
   // @sect3{Forces and sums}
 
   template <int dim>
+  void
+  ContactFace<dim>::add_tested(const std::vector<types::global_dof_index> &dofs,
+                               const std::vector<Tensor<1, dim>> &point_forces,
+                               Vector                            &forces) const
+  {
+    for (const ShapeFunction &function : shape_functions)
+      {
+        double sum = 0.;
+        for (unsigned int q = 0; q < point_forces.size(); ++q)
+          sum += function.values[q] * point_forces[q][function.component];
+        forces(dofs[function.dof]) += sum;
+      }
+  }
+
+
+
+  template <int dim>
   void ContactFace<dim>::add_forces(Vector &forces) const
   {
     std::vector<types::global_dof_index> dofs(
       dof_handler->get_fe().dofs_per_cell);
-    std::vector<Tensor<1, dim>> weighted(face_quadrature.size());
+    std::vector<Tensor<1, dim>> point_forces(face_quadrature.size());
     for (const CellFace &cell_face : faces)
       {
         cell_face.cell->get_dof_indices(dofs);
-        for (unsigned int q = 0; q < weighted.size(); ++q)
-          weighted[q] = cell_face.points[q].JxW * cell_face.points[q].force;
-        for (const ShapeFunction &function : shape_functions)
-          {
-            double sum = 0.;
-            for (unsigned int q = 0; q < weighted.size(); ++q)
-              sum += function.values[q] * weighted[q][function.component];
-            forces(dofs[function.dof]) += sum;
-          }
+        for (unsigned int q = 0; q < point_forces.size(); ++q)
+          point_forces[q] = cell_face.points[q].JxW * cell_face.points[q].force;
+        add_tested(dofs, point_forces, forces);
+      }
+  }
+
+
+
+  template <int dim>
+  void ContactFace<dim>::add_force_changes(const Vector       &displacement,
+                                           const Tensor<1, 2> &frame,
+                                           Vector             &forces) const
+  {
+    std::vector<types::global_dof_index> dofs(
+      dof_handler->get_fe().dofs_per_cell);
+    std::vector<Tensor<1, dim>> values(face_quadrature.size());
+    Tensor<1, dim>              rigid;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      rigid[parameters.tangential_axis(i)] = frame[i];
+    for (const CellFace &cell_face : faces)
+      {
+        cell_face.cell->get_dof_indices(dofs);
+        interpolate(displacement, dofs, values);
+        for (unsigned int q = 0; q < values.size(); ++q)
+          values[q] = cell_face.points[q].JxW *
+                      (cell_face.points[q].tangent * (values[q] + rigid));
+        add_tested(dofs, values, forces);
       }
   }
 

@@ -165,12 +165,13 @@ namespace SlipStep
   {
     for (const Segment &segment : programme.segments())
       {
-        const Tensor<1, 2> velocity = segment.end.velocity;
-        if (!(velocity.norm() > 0.))
+        const Tensor<1, 2> motion =
+          segment.pushes ? segment.push : segment.end.velocity;
+        if (!(motion.norm() > 0.))
           continue;
-        if (dim == 3 && std::abs(velocity[1]) > std::abs(velocity[0]))
+        if (dim == 3 && std::abs(motion[1]) > std::abs(motion[0]))
           sliding_axis = 1;
-        slides_backward = velocity[sliding_axis] < 0.;
+        slides_backward = motion[sliding_axis] < 0.;
         break;
       }
   }

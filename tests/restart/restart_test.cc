@@ -70,6 +70,42 @@ TEST_F(Restart, AfterSigtermGoesOnBitForBit)
 
 
 
+TEST_F(Restart, OfAPushGoesOnBitForBit)
+{
+  const std::string pushed =
+    "set Friction/Effects = subloading\n"
+    "set Block/Dimension = 2\n"
+    "set Block/Size = 10 mm, 5 mm\n"
+    "set Block/Subdivisions = 8, 4\n"
+    "set Block/Degree = 1\n"
+    "set Output/Fields = every 0.1 um\n"
+    "set Time stepping/Least steps per statement = 100\n"
+    "set Loading/Programme = press 1 MPa in 1 s; ";
+  process.write("case.prm",
+                pushed + "push 0.1 MPa in 1 s; push 0.05 MPa in 1 s; slide 1 "
+                         "mm/s for 0.01 mm\n");
+  for (const unsigned int n_lines : {150u, 250u})
+    {
+      const std::string output = "killed after " + std::to_string(n_lines);
+      run_and_kill(output, n_lines, {"--set", often});
+      EXPECT_EQ(run(output, {"--resume", "--quiet"}).exit_code, 0);
+      expect_finished(output);
+    }
+  EXPECT_GT(process.read("undisturbed/fields.pvd").size(), 1000u);
+
+  // Another load is another case.
+  run_and_kill("victim", 150, {"--set", often});
+  process.write("case.prm",
+                pushed + "push 0.1 MPa in 1 s; push 0.06 MPa in 1 s; slide 1 "
+                         "mm/s for 0.01 mm\n");
+  const auto other = run("victim", {"--resume"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("Loading/Programme"), std::string::npos)
+    << other.err;
+}
+
+
+
 TEST_F(Restart, Sigusr1WritesACheckpointAndTheRunGoesOn)
 {
   {

@@ -5,6 +5,7 @@
 #include <slipstep/friction/contact_point.h>
 
 #include <optional>
+#include <string>
 
 namespace SlipStep
 {
@@ -25,6 +26,14 @@ namespace SlipStep
                                               const double normal_traction,
                                               const double time_step,
                                               dealii::Tensor<1, 2> &slip);
+
+  /// Why a push ends a run.
+  /// @param load tangential, that is not held [MPa]
+  /// @param held last load that was [MPa]
+  /// @param pressure at which it was [MPa]
+  std::string reason_of_slip(const dealii::Tensor<1, 2> &load,
+                             const dealii::Tensor<1, 2> &held,
+                             const double                pressure);
 } // namespace SlipStep
 
 #endif

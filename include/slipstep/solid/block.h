@@ -17,6 +17,7 @@
 #include <slipstep/solid/block_output.h>
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/contact_face.h>
+#include <slipstep/solid/drive.h>
 #include <slipstep/solid/face_action.h>
 #include <slipstep/solid/mesh_change.h>
 #include <slipstep/solid/mesh_marker.h>
@@ -90,7 +91,7 @@ namespace SlipStep
         &largest_imbalance &largest_normal_load &contact_share
           &smallest_contact_share &steps_since_check &most_cells_wanted
             &largest_jump &mesh_changes &mesh_is_new &tolerance &solver_in_use
-              &n_solver_failures &first_solver_failure &time_of_opening;
+              &n_solver_failures &first_solver_failure &time_of_opening &drive;
     }
 
     /// Cells, unknowns and iterations so far.
@@ -178,6 +179,7 @@ namespace SlipStep
     // Linear systems.
     void         choose_solver();
     unsigned int solve_linear_system(Vector &update, const double tolerance);
+    void         count_linear_iterations(const unsigned int n);
     void         note_failure_of_solver();
     bool         take_next_solver(std::string &failures);
     void         begin_with_first_solver();
@@ -207,9 +209,25 @@ namespace SlipStep
     double      least_force_scale() const;
     bool        only_round_off_is_left() const;
     double      linear_tolerance(const double norm) const;
-    double      line_search(const Vector &update, const double old_norm);
+    double      line_search(const Vector               &update,
+                            const dealii::Tensor<1, 2> &motion,
+                            const double                old_norm);
     void        accept_step(const ContactTotals &totals, HistoryRow &row);
     std::string reason_of_failure() const;
+
+    // The drive, whose displacement is an unknown where it is pushed.
+    Loading loading_at(const double time) const;
+    void    move_frame_to(const dealii::Tensor<1, 2> &displacement);
+    void    find_driven_unknowns();
+    dealii::Tensor<1, 2> force_on_drive(const Vector &forces) const;
+    dealii::Tensor<1, 2> force_missing_on_drive() const;
+    void                 begin_drive(const double end_time);
+    void                 begin_modes();
+    dealii::Tensor<1, 2> move_drive(Vector &update);
+    void                 accept_drive(const ContactTotals &totals);
+    void                 compute_force_changes(const Vector               &displacement,
+                                               const dealii::Tensor<1, 2> &frame,
+                                               Vector                     &changes) const;
 
     // Checkpoints.
     void restore_mesh(const std::filesystem::path &folder,
@@ -244,10 +262,14 @@ namespace SlipStep
     // Those of them whose displacement is prescribed.
     std::array<std::vector<dealii::types::global_dof_index>, dim>
       supported_dofs;
+    // Likewise of the driven faces, by direction of the contact plane.
+    std::array<std::vector<dealii::types::global_dof_index>, dim - 1>
+      driven_dofs;
 
     // Contact and linear algebra.
     ContactFace<dim>                    contact;
     std::unique_ptr<TangentSystem<dim>> system;
+    bool                                is_linearised = false;
     SolverType solver_in_use = SolverType::automatic; // not chosen yet
     // Of geometric and of algebraic multigrid.
     std::array<unsigned long long, 2> n_solver_failures{};
@@ -275,11 +297,20 @@ namespace SlipStep
     double               stage_time = 0.;
     double               trial_work = 0.; // of the step [N mm]
 
+    // The drive, and what it has to carry at the end of the stage [N] if it is
+    // pushed; how the block follows it, and the forces that has to balance.
+    Drive                       drive;
+    bool                        drive_is_free = false;
+    dealii::Tensor<1, 2>        drive_target;
+    std::array<Vector, dim - 1> drive_modes;
+    std::array<double, dim - 1> mode_scale;
+
     // Newton's method.
     FaceVector          contact_forces; // not constrained
     Vector              unbalanced; // internal - external forces, all supports
     Vector              right_hand_side; // and scratch between the solutions
-    double              force_scale = 0.;
+    double              force_scale  = 0.;
+    double              drive_weight = 0.; // of forces of the drive therein
     std::vector<double> residual_norms;
     unsigned int        n_newton = 0, n_linear = 0;
     unsigned long long  n_newton_total = 0, n_linear_total = 0;

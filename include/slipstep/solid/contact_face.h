@@ -141,6 +141,13 @@ namespace SlipStep
     /// which is then to be compressed. Constraints are not applied.
     void add_forces(Vector &forces) const;
 
+    /// Likewise by how much they change, to first order, with a displacement.
+    /// @param displacement ghosted [mm]
+    /// @param frame motion of the frame [mm]
+    void add_force_changes(const Vector               &displacement,
+                           const dealii::Tensor<1, 2> &frame,
+                           Vector                     &forces) const;
+
     /// Linearisation of the last update.
     ContactTangent<dim> tangent() const;
 
@@ -178,6 +185,10 @@ namespace SlipStep
     void                  begin_first_stage();
     ContactSurface::Place place_of(const dealii::Point<dim> &point) const;
 
+    /// Forces of the points of a face of a cell, tested.
+    void add_tested(const std::vector<dealii::types::global_dof_index> &dofs,
+                    const std::vector<dealii::Tensor<1, dim>> &point_forces,
+                    Vector                                    &forces) const;
     void find_shape_functions(const dealii::FEFaceValues<dim> &fe_values);
     void interpolate(const Vector &displacement,
                      const std::vector<dealii::types::global_dof_index> &dofs,
