@@ -236,13 +236,16 @@ namespace SlipStep
 
   void check_block(const Parameters &parameters, const unsigned int n_processes)
   {
-    if (!Machine(parameters).is_rigid())
-      parameters.reject("Loading/Machine stiffness",
-                        "only 'slipstep point' knows a machine; the block is "
-                        "elastic itself: take 'rigid'");
     const Programme       programme = parse_programme(parameters);
     const BlockParameters block(parameters, programme);
-    const double          installed = 1e-6 * sysconf(_SC_PHYS_PAGES) *
+    if (!Machine(parameters).is_rigid() &&
+        std::none_of(block.faces.begin(),
+                     block.faces.end(),
+                     [](const FaceConditions &face) { return face.is_driven; }))
+      parameters.reject("Loading/Machine stiffness",
+                        "the machine moves the driven faces of the block, but "
+                        "no face has 'drive'");
+    const double installed = 1e-6 * sysconf(_SC_PHYS_PAGES) *
                              static_cast<double>(sysconf(_SC_PAGESIZE));
     if (block.least_memory() <= n_processes * installed)
       return;

@@ -45,11 +45,13 @@ namespace SlipStep
                       RunRecorder           &recorder)
     {
       const MPI_Comm   communicator = MPI_COMM_WORLD;
+      const Machine    machine(parameters);
       Block<dim>       block(block_parameters,
                        law,
                        programme,
                        StepControl(parameters, programme, law),
-                       communicator);
+                       communicator,
+                       machine);
       BlockOutput<dim> output(block_parameters, options.output, communicator);
       const BlockProbes<dim> probes(block_parameters,
                                     programme,
@@ -67,6 +69,11 @@ namespace SlipStep
                 recorder.note = note(block);
               HistoryRow with_probes = row;
               with_probes.probes     = probes.values(block, communicator);
+              if (!machine.is_rigid())
+                for (const double value :
+                     Machine::probes(block.machine_drive().state(),
+                                     row.pressure))
+                  with_probes.probes.push_back(value);
               // A full disk hits one rank only: all must stop together.
               const std::string failure = attempt_together(communicator, [&]() {
                 recorder.record(with_probes);

@@ -29,15 +29,15 @@ namespace SlipStep
       "rigid",
       AnythingWithWords({"rigid"}),
       "Stiffness k of the machine between the load point, which the programme "
-      "moves, and the contact point of 'slipstep point': tangential traction "
-      "per displacement. 'rigid', or more than 0, in MPa/mm. The block of "
-      "'slipstep run' takes 'rigid' only: it is elastic itself.");
+      "moves, and the contact point, or the driven faces of the block: "
+      "tangential traction (of the block, load over nominal area of contact) "
+      "per displacement. 'rigid', or more than 0, in MPa/mm.");
     parameters.declare(
       mass_key,
       "0",
       Quantity(Dimension::areal_mass, 0.),
-      "Mass m per area of contact that moves with the contact point of "
-      "'slipstep point', at the end of the spring: m u'' = k (U - u) - f_t. It "
+      "Mass m per area of contact that moves with the contact point, or with "
+      "the driven faces of the block, at the end of the spring: m u'' = k (U - u) - f_t. It "
       "makes stick-slip a motion instead of a jump. 0 or more, in MPa s^2/mm, "
       "which is 1e9 kg/m^2; 'kg/m^2' is understood. Only with a machine that is "
       "not rigid.");

@@ -85,8 +85,9 @@ namespace SlipStep
     if (command == "run")
       for (const QuantityOfInterest &probe : probes_among(quantities))
         summary.probes.push_back(probe.name);
-    else if (!machine.is_rigid())
-      summary.probes = Machine::probe_names();
+    if (!machine.is_rigid())
+      for (const std::string &name : Machine::probe_names())
+        summary.probes.push_back(name);
     write_summary(options.output / "summary.json", summary);
     const std::filesystem::path file = options.output / "history.csv";
     if (resumed == nullptr)

@@ -26,7 +26,8 @@ namespace SlipStep
                     const FrictionLaw     &law,
                     const Programme       &programme,
                     const StepControl     &control,
-                    const MPI_Comm        &communicator)
+                    const MPI_Comm        &communicator,
+                    const Machine         &machine)
     : parameters(parameters)
     , programme(programme)
     , communicator(communicator)
@@ -39,6 +40,7 @@ namespace SlipStep
     , contact(parameters, law)
     , first_step(control.step_size())
     , control(control)
+    , drive(machine, programme, parameters.nominal_contact_area())
     , marker(parameters)
     , tolerance(parameters.refinement)
   {
@@ -61,7 +63,8 @@ namespace SlipStep
                        const std::function<void()> &between_steps)
   {
     const SlidingPath path(programme);
-    old_loading = loading_at(control.time());
+    old_loading              = programme.at(control.time());
+    old_loading.displacement = drive.state().slip;
     while (!control.is_finished())
       {
         if (!make_step())
@@ -74,10 +77,12 @@ namespace SlipStep
         const ContactTotals totals      = contact.totals(communicator);
         const double        start       = control.time();
         const double        step_size   = control.step_size();
-        const double        pushed_path = drive.path;
+        const double        pushed_path = drive.pushed_path();
         // On a new mesh the contact finds another equilibrium at once, however
         // short the step; the step's length was fine before.
         double error = contact.step_error(communicator);
+        error =
+          std::max(error, drive.error(drive_resistance, totals.limit_load));
         if (mesh_is_new)
           error = std::min(error, control.wanted_error());
         if (control.would_accept(error) && adapt_to_trial(output))
@@ -107,7 +112,7 @@ namespace SlipStep
                                {start,
                                 row.time,
                                 path.at(start) + pushed_path,
-                                path.at(row.time) + drive.path,
+                                path.at(row.time) + drive.pushed_path(),
                                 control.n_accepted(),
                                 control.is_first_of_statement(),
                                 control.is_finished()});
@@ -138,10 +143,9 @@ namespace SlipStep
     n_newton = n_linear = 0;
     stage_solution      = old_solution;
     stage_frame         = old_loading.displacement;
-    if (control.is_first_of_segment())
-      drive.load_before = drive.load;
+    drive.begin_step(begin, control.is_first_of_segment());
     begin_stage(begin + gamma * step_size, gamma * step_size);
-    if (drive_is_free)
+    if (drive.is_unknown())
       begin_modes();
     predict();
     if (!finish_stage(carry))
@@ -150,11 +154,12 @@ namespace SlipStep
     contact.begin_second_stage();
     stage_solution.sadd(1. - carry, carry, solution);
     stage_solution.update_ghost_values();
+    drive.begin_second_stage();
     const Tensor<1, 2> motion = loading.displacement - stage_frame;
     stage_frame += carry * motion;
     begin_stage(control.end_of_step(), gamma * step_size);
     solution.sadd(1. / gamma, 1. - 1. / gamma, old_solution);
-    if (drive_is_free)
+    if (drive.is_unknown())
       move_frame_to(old_loading.displacement + 1. / gamma * motion);
     impose_displacements();
     return finish_stage(1.);
@@ -182,11 +187,11 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::begin_stage(const double end_time, const double time_step)
   {
-    loading      = loading_at(end_time);
+    loading      = programme.at(end_time);
     load_factors = factors_at(end_time);
     stage_time   = time_step;
-    move_frame_to(loading.displacement);
-    begin_drive(end_time);
+    drive.begin_stage(end_time, time_step);
+    move_frame_to(drive.displacement(0.));
   }
 
 
@@ -205,6 +210,7 @@ namespace SlipStep
   {
     if (!solve_stage())
       return false;
+    drive.end_stage(loading.displacement, force_on_drive(unbalanced));
     trial_work += weight * work_of_stage();
     return true;
   }
@@ -223,8 +229,8 @@ namespace SlipStep
       {
         const double factor = stage_time / old_step;
         solution.sadd(1. + factor, -factor, older_solution);
-        if (drive_is_free)
-          move_frame_to(loading.displacement + factor * drive.last_motion);
+        if (drive.is_unknown())
+          move_frame_to(drive.displacement(factor));
       }
     impose_displacements();
   }
@@ -288,7 +294,7 @@ namespace SlipStep
             count_linear_iterations(
               solve_linear_system(update, linear_tolerance(norm)));
             constrain(update);
-            if (drive_is_free)
+            if (drive.is_unknown())
               motion = move_drive(update);
           }
         catch (const RunError &error)
@@ -381,7 +387,7 @@ namespace SlipStep
     contact_forces = FaceVector(unbalanced);
     force_scale    = contact_forces.l2_norm();
     // The force of the drive is a sum over nodes, as that of the contact.
-    if (drive_is_free)
+    if (drive.is_unknown())
       drive_weight = force_scale / std::max(unbalanced.l1_norm(), 1e-300);
 
     system->add_elastic_forces(solution, unbalanced);
@@ -416,14 +422,14 @@ namespace SlipStep
     contact.commit();
     external_work += trial_work;
     check_balance_of_forces();
-    accept_drive(totals);
+    drive.accept(totals.normal_load / parameters.nominal_contact_area());
 
     const double load = totals.normal_load;
     for (unsigned int i = 0; i < 2; ++i)
       (i == 0 ? row.friction : row.friction_y) =
         load > 0. ? totals.tangential_load[i] / load : 0.;
-    row.displacement    = loading.displacement[0];
-    row.displacement_y  = loading.displacement[1];
+    row.displacement    = drive.load_point()[0];
+    row.displacement_y  = drive.load_point()[1];
     row.pressure        = load / parameters.nominal_contact_area();
     row.normal_load     = load;
     row.tangential_load = totals.tangential_load[0];
@@ -432,7 +438,8 @@ namespace SlipStep
     row.coefficient     = totals.coefficient;
     row.slip_fraction = totals.area > 0. ? totals.slip_area / totals.area : 0.;
     row.dissipated_energy = totals.dissipated;
-    row.stored_energy     = totals.stored + elastic_energy();
+    row.stored_energy =
+      totals.stored + elastic_energy() + drive.stored_energy();
     row.external_work     = external_work;
     row.newton_iterations = n_newton;
     row.linear_iterations = n_linear;

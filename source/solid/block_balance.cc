@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/block.h>
 
-#include <slipstep/experiment/pushed_contact.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <algorithm>
@@ -43,7 +42,8 @@ namespace SlipStep
       for (const auto dof : supported_dofs[d])
         work += unbalanced(dof) *
                 (solution(dof) - stage_solution(dof) + frame_motion[d]);
-    work = Utilities::MPI::sum(work, communicator);
+    work = Utilities::MPI::sum(work, communicator) +
+           drive.work_beyond(force_on_drive(unbalanced));
 
     Vector &loads = right_hand_side;
     loads         = 0.;
@@ -164,12 +164,8 @@ namespace SlipStep
               << " or, where round-off is in the way, a larger Block/Newton "
                  "tolerance may help ("
               << failure << ")";
-    else if (drive_is_free)
-      message << reason_of_slip(drive_target /
-                                  parameters.nominal_contact_area(),
-                                drive.load,
-                                drive.pressure)
-              << " (" << failure << ")";
+    else if (drive.is_unknown())
+      message << drive.reason_of_failure() << " (" << failure << ")";
     else
       message << failure;
     return message.str();

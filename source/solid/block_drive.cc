@@ -13,30 +13,20 @@ namespace SlipStep
 {
   using namespace dealii;
 
-  // @sect3{A drive that is pushed}
+  // @sect3{A drive that gives way}
 
   // The driven faces are rigid, and the motion d of the frame is theirs. Where
-  // the programme gives the load instead, d joins the unknowns, one per
-  // direction of the contact plane, with the equation that the reactions of the
-  // driven faces are that load:
-  // @f[ \mathbf R(\mathbf u, d) = 0, \qquad F(\mathbf u, d) = Q . @f]
+  // the programme gives the load instead, or a spring is between (Drive), d
+  // joins the unknowns, one per direction of the contact plane, with the
+  // equation that the reactions of the driven faces are what the drive exerts:
+  // @f[ \mathbf R(\mathbf u, d) = 0, \qquad F(\mathbf u, d) = Q - K d . @f]
   // Newton's method solves with the tangent of the block as it always does,
   // once for the forces out of balance and once per d for the mode
   // @f$\mathbf v = -(\partial\mathbf R/\partial\mathbf u)^{-1}
   // \partial\mathbf R/\partial d@f$ in which the block follows its drive; then
-  // @f[ \Delta d = \frac{Q - F - F'(\Delta\mathbf u_0)}{F'(\mathbf v)} , \qquad
+  // @f[ \Delta d = \frac{Q - K d - F - F'(\Delta\mathbf u_0)}{F'(\mathbf v) + K} , \qquad
   //     \Delta\mathbf u = \Delta\mathbf u_0 + \mathbf v\,\Delta d . @f]
   // That the tangent of the contact is unsymmetric does not matter.
-
-  template <int dim>
-  Loading Block<dim>::loading_at(const double time) const
-  {
-    Loading result = programme.at(time);
-    result.displacement += drive.pushed;
-    return result;
-  }
-
-
 
   template <int dim>
   void Block<dim>::move_frame_to(const Tensor<1, 2> &displacement)
@@ -102,26 +92,6 @@ namespace SlipStep
 
 
 
-  // The load of the programme grows from what the drive carried before.
-  template <int dim>
-  void Block<dim>::begin_drive(const double end_time)
-  {
-    const Segment &segment = programme.segment_at(end_time);
-    drive_is_free          = segment.pushes;
-    drive_target           = Tensor<1, 2>();
-    if (!drive_is_free)
-      return;
-    const double share = std::min(1.,
-                                  (end_time - segment.start_time) /
-                                    (segment.end_time - segment.start_time));
-    drive_target       = parameters.nominal_contact_area() *
-                   (share < 1. ? drive.load_before +
-                                   share * (segment.push - drive.load_before) :
-                                 segment.push);
-  }
-
-
-
   // Modes of the step before would do, too, but a run that is resumed has not
   // got them. Points that are held in space go backwards in the frame.
   template <int dim>
@@ -141,8 +111,9 @@ namespace SlipStep
   template <int dim>
   Tensor<1, 2> Block<dim>::force_missing_on_drive() const
   {
-    return drive_is_free ? drive_target - force_on_drive(unbalanced) :
-                           Tensor<1, 2>();
+    return drive.is_unknown() ?
+             drive.force(loading.displacement) - force_on_drive(unbalanced) :
+             Tensor<1, 2>();
   }
 
 
@@ -160,9 +131,9 @@ namespace SlipStep
     const Tensor<1, 2> missing =
       force_missing_on_drive() - force_on_drive(changes);
 
-    Vector       correction(update);
-    Tensor<2, 2> resistance;
-    resistance[1][1] = 1.; // of a block in 2-D
+    Vector correction(update);
+    drive_resistance       = Tensor<2, 2>();
+    drive_resistance[1][1] = 1.; // of a block in 2-D
     for (unsigned int j = 0; j < dim - 1; ++j)
       {
         Tensor<1, 2> unit;
@@ -180,14 +151,16 @@ namespace SlipStep
         compute_force_changes(drive_modes[j], unit, changes);
         const Tensor<1, 2> force = force_on_drive(changes);
         for (unsigned int i = 0; i < dim - 1; ++i)
-          resistance[i][j] = force[i];
+          drive_resistance[i][j] = force[i];
       }
 
-    Tensor<1, 2> motion;
-    if (determinant(resistance) > 0. && trace(resistance) > 0.)
-      motion = invert(resistance) * missing;
-    if (!(motion.norm() <= parameters.size[parameters.normal_axis()]) ||
-        !(determinant(resistance) > 0. && trace(resistance) > 0.))
+    Tensor<2, 2> all = drive_resistance;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      all[i][i] += drive.stiffness();
+    const bool         resists = determinant(all) > 0. && trace(all) > 0.;
+    const Tensor<1, 2> motion  = resists ? invert(all) * missing : missing;
+    if (!resists ||
+        !(motion.norm() <= parameters.size[parameters.normal_axis()]))
       throw RunError("nothing resists a further motion of the drive");
     update.zero_out_ghost_values();
     for (unsigned int j = 0; j < dim - 1; ++j)
@@ -197,19 +170,8 @@ namespace SlipStep
 
 
 
-  template <int dim>
-  void Block<dim>::accept_drive(const ContactTotals &totals)
-  {
-    const double area = parameters.nominal_contact_area();
-    drive.load        = force_on_drive(unbalanced) / area;
-    drive.pressure    = totals.normal_load / area;
-    if (!drive_is_free)
-      return;
-    drive.last_motion = loading.displacement - old_loading.displacement;
-    drive.path += drive.last_motion.norm();
-    // A run that is resumed finds the same number to the last bit.
-    const Tensor<1, 2> programmed = programme.at(control.time()).displacement;
-    drive.pushed                  = loading.displacement - programmed;
-    loading.displacement          = programmed + drive.pushed;
-  }
+#ifndef SLIPSTEP_UNITY_BUILD
+  template class Block<2>;
+  template class Block<3>;
+#endif
 } // namespace SlipStep

@@ -211,7 +211,7 @@ namespace SlipStep
     stage_frame               = old_loading.displacement;
     load_factors              = factors_at(control.time());
     solution                  = old_solution;
-    drive_is_free             = false;
+    drive.rest();
     move_frame_to(old_loading.displacement);
     impose_displacements();
     const bool is_found          = solve_stage();

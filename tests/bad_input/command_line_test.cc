@@ -171,15 +171,18 @@ TEST(CaseFile, ABlockMustFitIntoMemory)
 
 
 
-TEST(CaseFile, ABlockHasNoMachine)
+TEST(CaseFile, AMachineNeedsADrivenFace)
 {
   const SlipstepProcess process;
   process.write("soft.prm",
                 "set Loading/Machine stiffness = 50 MPa/mm\n"
+                "set Loading/Programme = press 1 MPa in 1 s; hold 1 s\n"
+                "set Block/Faces/top = pressure programme\n"
                 "set Output/Quantities = peak coefficient\n");
   for (const std::string command : {"run", "refine"})
     expect_refusal(process.run({command, "soft.prm"}),
-                   {"soft.prm:1: Loading/Machine stiffness", "'rigid'"});
+                   {"soft.prm:1: Loading/Machine stiffness",
+                    "no face has 'drive'"});
   EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
 }
 

@@ -24,8 +24,31 @@ namespace
     return xml.substr(xml.find("<VTKFile"));
   }
 
+  const std::string pushed =
+    "set Friction/Effects = subloading\n"
+    "set Block/Dimension = 2\n"
+    "set Block/Size = 10 mm, 5 mm\n"
+    "set Block/Subdivisions = 8, 4\n"
+    "set Block/Degree = 1\n"
+    "set Output/Fields = every 0.1 um\n"
+    "set Time stepping/Least steps per statement = 100\n"
+    "set Loading/Programme = press 1 MPa in 1 s; push 0.1 MPa in 1 s; push ";
+
   class Restart : public RestartTest
-  {};
+  {
+  protected:
+    void kill_and_resume(const std::string &text)
+    {
+      process.write("case.prm", text);
+      for (const unsigned int n_lines : {150u, 250u})
+        {
+          const std::string output = "killed after " + std::to_string(n_lines);
+          run_and_kill(output, n_lines, {"--set", often});
+          EXPECT_EQ(run(output, {"--resume", "--quiet"}).exit_code, 0);
+          expect_finished(output);
+        }
+    }
+  };
 } // namespace
 
 
@@ -72,36 +95,25 @@ TEST_F(Restart, AfterSigtermGoesOnBitForBit)
 
 TEST_F(Restart, OfAPushGoesOnBitForBit)
 {
-  const std::string pushed =
-    "set Friction/Effects = subloading\n"
-    "set Block/Dimension = 2\n"
-    "set Block/Size = 10 mm, 5 mm\n"
-    "set Block/Subdivisions = 8, 4\n"
-    "set Block/Degree = 1\n"
-    "set Output/Fields = every 0.1 um\n"
-    "set Time stepping/Least steps per statement = 100\n"
-    "set Loading/Programme = press 1 MPa in 1 s; ";
-  process.write("case.prm",
-                pushed + "push 0.1 MPa in 1 s; push 0.05 MPa in 1 s; slide 1 "
-                         "mm/s for 0.01 mm\n");
-  for (const unsigned int n_lines : {150u, 250u})
-    {
-      const std::string output = "killed after " + std::to_string(n_lines);
-      run_and_kill(output, n_lines, {"--set", often});
-      EXPECT_EQ(run(output, {"--resume", "--quiet"}).exit_code, 0);
-      expect_finished(output);
-    }
+  kill_and_resume(pushed + "0.05 MPa in 1 s\n");
   EXPECT_GT(process.read("undisturbed/fields.pvd").size(), 1000u);
 
   // Another load is another case.
   run_and_kill("victim", 150, {"--set", often});
-  process.write("case.prm",
-                pushed + "push 0.1 MPa in 1 s; push 0.06 MPa in 1 s; slide 1 "
-                         "mm/s for 0.01 mm\n");
+  process.write("case.prm", pushed + "0.06 MPa in 1 s\n");
   const auto other = run("victim", {"--resume"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_NE(other.err.find("Loading/Programme"), std::string::npos)
     << other.err;
+}
+
+
+
+TEST_F(Restart, OfAMachineGoesOnBitForBit)
+{
+  kill_and_resume("set Loading/Machine stiffness = 20 MPa/mm\n"
+                  "set Loading/Machine mass = 1e3 kg/m^2\n" +
+                  pushed + "0.05 MPa in 1 s; slide 1 mm/s for 0.01 mm\n");
 }
 
 

@@ -52,7 +52,8 @@ namespace SlipStep::Testing
                      law,
                      programme,
                      StepControl(parameters, programme, law),
-                     communicator);
+                     communicator,
+                     Machine(parameters));
     BlockResult           result;
     try
       {

@@ -33,8 +33,8 @@ namespace SlipStep
     bool                 holds = true; ///< false if friction cannot hold a push
   };
 
-  /// The machine that moves a contact point: a spring in series, the same in
-  /// all directions of the contact plane, and a mass between the two.
+  /// The machine that moves a contact point or a block: a spring in series, the
+  /// same in all directions of the contact plane, and a mass between the two.
   ///
   /// The programme moves the load point at the far end of the spring by u_d;
   /// the mass m (per area of contact) and with it the contact slips by g,
@@ -108,6 +108,9 @@ namespace SlipStep
                     const ContactPoint &point,
                     const MachineStep  &step) const;
 
+    /// Estimated error of the load that the motion of the mass makes [MPa].
+    double error_of_motion(const MachineStep &step) const;
+
     /// What the probes of a history are, in the order of probes().
     static std::vector<std::string> probe_names();
 
@@ -144,9 +147,6 @@ namespace SlipStep
                  const double                normal_traction,
                  const double                time_step,
                  Slider                     &slider) const;
-
-    /// Estimated error of the load that the motion of the mass makes [MPa].
-    double error_of_motion(const MachineStep &step) const;
 
     double compliance = 0.; ///< c = 1 / k [mm/MPa]
     double areal_mass = 0.; ///< m [MPa s^2/mm]

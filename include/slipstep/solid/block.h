@@ -55,7 +55,8 @@ namespace SlipStep
           const FrictionLaw     &law,
           const Programme       &programme,
           const StepControl     &control,
-          const MPI_Comm        &communicator);
+          const MPI_Comm        &communicator,
+          const Machine         &machine = Machine());
 
     /// Go through the programme.
     /// @param output where fields are written, or nullptr for none
@@ -120,6 +121,11 @@ namespace SlipStep
     const std::vector<MeshChange> &changes_of_mesh() const
     {
       return mesh_changes;
+    }
+
+    const Drive &machine_drive() const
+    {
+      return drive;
     }
 
     const StepControl &step_control() const
@@ -215,16 +221,13 @@ namespace SlipStep
     void        accept_step(const ContactTotals &totals, HistoryRow &row);
     std::string reason_of_failure() const;
 
-    // The drive, whose displacement is an unknown where it is pushed.
-    Loading loading_at(const double time) const;
-    void    move_frame_to(const dealii::Tensor<1, 2> &displacement);
-    void    find_driven_unknowns();
+    // The drive, where its displacement is an unknown.
+    void move_frame_to(const dealii::Tensor<1, 2> &displacement);
+    void find_driven_unknowns();
     dealii::Tensor<1, 2> force_on_drive(const Vector &forces) const;
     dealii::Tensor<1, 2> force_missing_on_drive() const;
-    void                 begin_drive(const double end_time);
     void                 begin_modes();
     dealii::Tensor<1, 2> move_drive(Vector &update);
-    void                 accept_drive(const ContactTotals &totals);
     void                 compute_force_changes(const Vector               &displacement,
                                                const dealii::Tensor<1, 2> &frame,
                                                Vector                     &changes) const;
@@ -297,13 +300,12 @@ namespace SlipStep
     double               stage_time = 0.;
     double               trial_work = 0.; // of the step [N mm]
 
-    // The drive, and what it has to carry at the end of the stage [N] if it is
-    // pushed; how the block follows it, and the forces that has to balance.
+    // The drive; how the block follows it where that is unknown, the forces
+    // that has to balance, and what the driven faces resist [N/mm].
     Drive                       drive;
-    bool                        drive_is_free = false;
-    dealii::Tensor<1, 2>        drive_target;
     std::array<Vector, dim - 1> drive_modes;
     std::array<double, dim - 1> mode_scale;
+    dealii::Tensor<2, 2>        drive_resistance;
 
     // Newton's method.
     FaceVector          contact_forces; // not constrained

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/solid/drive.h>
+
+#include <slipstep/experiment/pushed_contact.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace SlipStep
+{
+  using dealii::Tensor;
+
+  Drive::Drive(const Machine   &machine,
+               const Programme &programme,
+               const double     area)
+    : machine(machine)
+    , programme(programme)
+    , area(area)
+  {}
+
+
+
+  void Drive::begin_step(const double time, const bool is_first_of_segment)
+  {
+    if (is_first_of_segment)
+      load_before = at_start.load;
+    begin_time                = time;
+    stage_start               = at_start;
+    load_point_at_stage_start = load_point_at_start;
+  }
+
+
+
+  void Drive::begin_second_stage()
+  {
+    first       = stage_end;
+    stage_start = {TwoStages::carried(at_start.slip, first.slip),
+                   TwoStages::carried(at_start.velocity, first.velocity),
+                   TwoStages::carried(at_start.load, first.load)};
+    load_point_at_stage_start =
+      TwoStages::carried(load_point_at_start, load_point_at_stage_end);
+  }
+
+
+
+  // The load of a push grows from what the load point carried before.
+  void Drive::begin_stage(const double end_time, const double time_step)
+  {
+    const Segment &segment = programme.segment_at(end_time);
+    this->end_time         = end_time;
+    stage_time             = time_step;
+    pushes                 = segment.pushes;
+    unknown                = pushes || !machine.is_rigid();
+    motion                 = programme.at(end_time).displacement -
+             programme.at(begin_time).displacement;
+    const double share =
+      (end_time - segment.start_time) / (segment.end_time - segment.start_time);
+    push = share < 1. ? load_before + share * (segment.push - load_before) :
+                        segment.push;
+    if (!unknown)
+      return;
+    force_at_start = pushes ? push : spring_load(stage_start.slip);
+    resistance     = pushes ? 0. : machine.stiffness();
+    force_at_start += machine.mass() / time_step * stage_start.velocity;
+    resistance += machine.mass() / (time_step * time_step);
+  }
+
+
+
+  Tensor<1, 2> Drive::displacement(const double growth) const
+  {
+    return unknown ? at_start.slip + growth * last_motion :
+                     programme.at(end_time).displacement + pushed;
+  }
+
+
+
+  void Drive::end_stage(const Tensor<1, 2> &displacement,
+                        const Tensor<1, 2> &reaction)
+  {
+    stage_end.slip     = displacement;
+    stage_end.velocity = (displacement - stage_start.slip) / stage_time;
+    stage_end.load     = pushes             ? push :
+                         machine.is_rigid() ? reaction / area :
+                                              spring_load(displacement);
+    load_point_at_stage_end =
+      pushes ? load_point_at_start + (displacement - at_start.slip) +
+                 (stage_end.load - at_start.load) / machine.stiffness() :
+               programme.at(end_time).displacement + pushed;
+  }
+
+
+
+  double Drive::work_beyond(const Tensor<1, 2> &reaction) const
+  {
+    return area * (stage_end.load *
+                   (load_point_at_stage_end - load_point_at_stage_start)) -
+           reaction * (stage_end.slip - stage_start.slip);
+  }
+
+
+
+  double Drive::error(const Tensor<2, 2> &contact_stiffness,
+                      const double        strength) const
+  {
+    if (machine.mass() == 0.)
+      return 0.;
+    MachineStep step;
+    step.contact.d_slip = contact_stiffness / area;
+    step.start          = at_start;
+    step.first          = first;
+    step.second         = stage_start;
+    step.slider         = stage_end;
+    step.time_step      = stage_time / TwoStages::gamma;
+    StepError error;
+    error.at_end = machine.error_of_motion(step) /
+                   std::max(strength / area, stage_end.load.norm());
+    return error.measure();
+  }
+
+
+
+  void Drive::accept(const double pressure)
+  {
+    this->pressure = pressure;
+    last_motion    = stage_end.slip - at_start.slip;
+    at_start       = stage_end;
+    if (pushes)
+      {
+        path += (load_point_at_stage_end - load_point_at_start).norm();
+        pushed = load_point_at_stage_end - programme.at(end_time).displacement;
+      }
+    load_point_at_start = load_point_at_stage_end;
+  }
+
+
+
+  std::string Drive::reason_of_failure() const
+  {
+    if (pushes)
+      return reason_of_slip(push, at_start.load, pressure);
+    std::ostringstream message;
+    message << "the contact gives way faster than the machine's spring of "
+            << machine.stiffness()
+            << " MPa/mm slackens, and would jump; a Loading/Machine mass makes "
+               "a motion of that";
+    return message.str();
+  }
+} // namespace SlipStep
