@@ -3,6 +3,7 @@
 
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/refinement_study.h>
+#include <slipstep/report/block_view.h>
 #include <slipstep/report/run_report.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/experiment/run_options.h>
@@ -109,6 +110,26 @@ namespace SlipStep
 
 
 
+    // Runs that differ in their steps only have the mesh of the first.
+    std::vector<ReportedRun>
+    runs_of_meshes(const RefinementStudy          &study,
+                   const std::vector<ReportedRun> &runs)
+    {
+      std::vector<ReportedRun> result;
+      for (const StudySequence &sequence : study.sequences())
+        if (sequence.kind != StudySequence::Kind::time_step)
+          for (const StudyRun &run : sequence.runs)
+            std::copy_if(runs.begin(),
+                         runs.end(),
+                         std::back_inserter(result),
+                         [&](const ReportedRun &reported) {
+                           return reported.label == run.label;
+                         });
+      return result;
+    }
+
+
+
     void report_study(const RefinementStudy &study,
                       const Parameters      &parameters,
                       const fs::path        &output,
@@ -126,9 +147,11 @@ namespace SlipStep
       fs::create_directories(output / "report");
       std::vector<std::string> warnings;
       const auto pictures = draw_study(output / "report", curves, warnings);
+      const std::string meshes =
+        mesh_gallery(runs_of_meshes(study, runs), warnings);
       print_warnings(warnings);
-      print_warnings(
-        write_report(output, parameters, runs, study_html(curves, pictures)));
+      print_warnings(write_report(
+        output, parameters, runs, study_html(curves, pictures) + meshes));
       if (!quiet)
         std::cout << study_tables(curves)
                   << "\nReport: " << (output / "report.html").string()

@@ -99,6 +99,7 @@ namespace SlipStep
                              "fields.pvd",
                              "contact.pvd",
                              "contact_face.csv",
+                             "surface.csv",
                              "refinement.json"})
       fs::remove(folder / name, error);
     CheckpointStore(folder).remove();

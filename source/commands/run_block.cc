@@ -87,7 +87,9 @@ namespace SlipStep
         {
           reason = error.what();
         }
-      output.write_contact_table(block.contact_face());
+      output.write_end(block.unknowns(),
+                       block.displacements(),
+                       block.contact_face());
       write_lines(options.output,
                   parse_lines(parameters, block_parameters),
                   block,

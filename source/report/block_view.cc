@@ -4,6 +4,7 @@
 #include <slipstep/report/block_view_script.h>
 #include <slipstep/report/drawing.h>
 #include <slipstep/report/figure.h>
+#include <slipstep/report/page.h>
 #include <slipstep/utilities/text.h>
 
 #include <nlohmann/json.hpp>
@@ -53,9 +54,9 @@ namespace SlipStep
 
 
 
-    // The moments of which fields.pvd tells.
+    // The moments of which fields.pvd tells, or the end alone.
     std::vector<std::pair<double, fs::path>>
-    surface_files(const fs::path &folder)
+    surface_files(const fs::path &folder, const double end_time)
     {
       std::ifstream    in(folder / "fields.pvd");
       const std::regex entry("timestep=\"([^\"]+)\".*fields_([0-9]+)\\.pvtu");
@@ -69,6 +70,8 @@ namespace SlipStep
           if (fs::exists(file))
             files.emplace_back(std::stod(match[1]), file);
         }
+      if (files.empty() && fs::exists(folder / "surface.csv"))
+        files.emplace_back(end_time, folder / "surface.csv");
       return files;
     }
 
@@ -123,9 +126,11 @@ namespace SlipStep
 
 
     // Evenly chosen, the last always.
-    std::vector<Surface> read_moments(const fs::path &folder)
+    std::vector<Surface> read_moments(const fs::path   &folder,
+                                      const double      end_time,
+                                      const std::size_t most)
     {
-      const auto           files = surface_files(folder);
+      const auto           files = surface_files(folder, end_time);
       std::vector<Surface> moments;
       if (files.empty())
         return moments;
@@ -133,7 +138,7 @@ namespace SlipStep
       const std::size_t size = moments[0].quadrilaterals.size();
       const std::size_t n =
         std::min({files.size(),
-                  most_moments,
+                  most,
                   std::max<std::size_t>(1, most_quadrilaterals / (size + 1))});
       for (std::size_t i = 1; i < n; ++i)
         {
@@ -166,23 +171,39 @@ namespace SlipStep
 
       std::string html() const
       {
-        return "<div class='block-view'>\n" + drawing() +
+        return "<div class='block-view'>\n" + drawing(900., 400., true) +
                "<script type='application/json'>" + json() +
                "</script>\n<script>" + block_view_script + "</script></div>\n";
       }
 
+      /// The mesh alone, small.
+      std::string mesh() const
+      {
+        return drawing(320., 260., false);
+      }
+
+      std::size_t n_faces() const
+      {
+        return moments.back().quadrilaterals.size();
+      }
+
       std::string caption() const
+      {
+        return enlargement() +
+               (is_flat ? "Drag to move" :
+                          "Drag or arrow keys to turn, with shift to move") +
+               "; + and − or Ctrl and wheel for the size; double click to start "
+               "again.";
+      }
+
+      std::string enlargement() const
       {
         std::string text;
         for (unsigned int d = 0; d < 3; ++d)
           if (enlarged[d] > 1.)
             text += "Drawn " + rounded_text(enlarged[d], 3) +
                     " times as thick along " + "xyz"[d] + ". ";
-        return text +
-               (is_flat ? "Drag to move" :
-                          "Drag or arrow keys to turn, with shift to move") +
-               "; + and − or Ctrl and wheel for the size; double click to start "
-               "again.";
+        return text;
       }
 
     private:
@@ -296,7 +317,9 @@ namespace SlipStep
       }
 
       // The last moment, seen from above; all faces of one colour are one path.
-      std::string drawing() const;
+      std::string drawing(const double width,
+                          const double height,
+                          const bool   is_coloured) const;
 
       // Whether a face of the last moment does not look away.
       bool is_seen(const std::array<std::size_t, 4> &corners) const;
@@ -310,8 +333,6 @@ namespace SlipStep
     };
 
 
-
-    constexpr double view_width = 900., view_height = 400.;
 
     constexpr unsigned int viridis[6][3] = {{68, 1, 84},
                                             {65, 68, 135},
@@ -341,11 +362,13 @@ namespace SlipStep
 
 
 
-    std::string colour_bar(const SurfaceField &field)
+    std::string colour_bar(const SurfaceField &field,
+                           const double        view_width,
+                           const double        view_height)
     {
       constexpr unsigned int n     = 40;
-      constexpr double       width = 260., top = view_height - 32.,
-                       left = (view_width - width) / 2.;
+      const double           width = 260., top = view_height - 32.,
+                   left = (view_width - width) / 2.;
 
       const auto text = [&](const double       x,
                             const double       y,
@@ -414,10 +437,14 @@ namespace SlipStep
 
 
 
-    std::string BlockView::drawing() const
+    std::string BlockView::drawing(const double width,
+                                   const double height,
+                                   const bool   is_coloured) const
     {
       const SurfaceField &field  = fields[0];
-      constexpr double    margin = 25., foot = 65.;
+      const double        margin = is_coloured ? 25. : 8.;
+      const double        foot   = is_coloured ? 65. : 8.;
+      const double        shown  = is_coloured ? scale : 0.;
 
       const Surface     &moment = moments.back();
       std::vector<Point> places;
@@ -426,13 +453,13 @@ namespace SlipStep
         {
           Point p;
           for (unsigned int d = 0; d < 3; ++d)
-            p[d] = corner[d] + scale * corner[3 + d] - box[d].middle();
+            p[d] = corner[d] + shown * corner[3 + d] - box[d].middle();
           places.push_back(is_flat ? p : turned(p));
           x.add(places.back()[0]);
           y.add(places.back()[1]);
         }
-      const double size = std::min((view_width - 2. * margin) / x.width(),
-                                   (view_height - margin - foot) / y.width());
+      const double size = std::min((width - 2. * margin) / x.width(),
+                                   (height - margin - foot) / y.width());
 
       std::map<std::string, std::string> paths;
       for (std::size_t i = 0; i < moment.quadrilaterals.size(); ++i)
@@ -444,27 +471,28 @@ namespace SlipStep
             (field.factor * moment.values.at(field.column)[i] -
              field.range.lower) /
             field.range.width();
-          std::string &path = paths[shade(share)];
+          std::string &path = paths[is_coloured ? shade(share) : "#e8eef4"];
           for (unsigned int k = 0; k < 4; ++k)
             path += (k == 0 ? "M" : "L") +
-                    fixed_text(view_width / 2. +
+                    fixed_text(width / 2. +
                                  size * (places[corners[k]][0] - x.middle()),
                                1) +
                     " " +
-                    fixed_text((view_height - foot + margin) / 2. -
+                    fixed_text((height - foot + margin) / 2. -
                                  size * (places[corners[k]][1] - y.middle()),
                                1);
           path += "Z";
         }
       std::string svg =
-        "<svg viewBox='0 0 " + fixed_text(view_width, 0) + " " +
-        fixed_text(view_height, 0) +
+        "<svg viewBox='0 0 " + fixed_text(width, 0) + " " +
+        fixed_text(height, 0) +
         "' role='img' font-size='13' fill='currentColor'><title>The block at "
         "the end of the run</title>\n<g stroke='#777' stroke-width='.5' "
         "stroke-linejoin='round'>\n";
       for (const auto &path : paths)
         svg += "<path fill='" + path.first + "' d='" + path.second + "'/>\n";
-      return svg + "</g>\n" + colour_bar(field) + "</svg>\n";
+      return svg + "</g>\n" +
+             (is_coloured ? colour_bar(field, width, height) : "") + "</svg>\n";
     }
   } // namespace
 
@@ -476,7 +504,10 @@ namespace SlipStep
     Picture picture;
     try
       {
-        std::vector<Surface> moments = read_moments(run.folder);
+        std::vector<Surface> moments =
+          read_moments(run.folder,
+                       run.history.empty() ? 0. : run.history.back().time,
+                       most_moments);
         if (moments.empty() || moments.back().quadrilaterals.empty())
           return picture;
         const BlockView view(std::move(moments));
@@ -491,5 +522,44 @@ namespace SlipStep
                            error.what());
       }
     return picture;
+  }
+
+
+
+  std::string mesh_gallery(const std::vector<ReportedRun> &runs,
+                           std::vector<std::string>       &warnings)
+  {
+    // Finer ones are grey, and make the page slow.
+    constexpr std::size_t most_faces = 4500;
+
+    std::string figures, enlargement, too_fine;
+    for (const ReportedRun &run : runs)
+      try
+        {
+          std::vector<Surface> moments = read_moments(run.folder, 0., 1);
+          if (moments.empty())
+            continue;
+          const BlockView   view(std::move(moments));
+          const std::string name =
+            run.label + ", " +
+            counted(read_summary(run.folder / "summary.json").dofs, "unknown");
+          enlargement = view.enlargement();
+          if (view.n_faces() > most_faces)
+            too_fine += (too_fine.empty() ? "" : "; ") + name;
+          else
+            figures += "<figure>" + view.mesh() + "<figcaption>" +
+                       html_text(name) + "</figcaption></figure>\n";
+        }
+      catch (const InputError &error)
+        {
+          warnings.push_back("the mesh of " + run.label +
+                             " is not shown: " + error.what());
+        }
+    if (figures.empty())
+      return "";
+    if (!too_fine.empty())
+      too_fine = "Too fine to be drawn: " + too_fine + ".";
+    return heading("Meshes at the end") + "<div class='gallery'>\n" + figures +
+           "</div>\n" + note(enlargement + too_fine);
   }
 } // namespace SlipStep

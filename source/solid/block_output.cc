@@ -253,10 +253,37 @@ namespace SlipStep
     const dealii::Vector<double> squared_errors(errors.begin(), errors.end());
     write_volume(dof_handler, displacement, squared_errors, frame, step.time);
     write_contact(contact, squared_errors, step.time);
+    write_surface_file("surface_" +
+                         Utilities::int_to_string(n_written, n_digits) + ".csv",
+                       dof_handler,
+                       displacement,
+                       contact);
+    ++n_written;
+  }
+
+
+
+  template <int dim>
+  void BlockOutput<dim>::write_end(const DoFHandler<dim>  &dof_handler,
+                                   const Vector           &displacement,
+                                   const ContactFace<dim> &contact) const
+  {
+    write_contact_table(contact);
+    if (n_written == 0)
+      write_surface_file("surface.csv", dof_handler, displacement, contact);
+  }
+
+
+
+  template <int dim>
+  void
+  BlockOutput<dim>::write_surface_file(const std::string      &name,
+                                       const DoFHandler<dim>  &dof_handler,
+                                       const Vector           &displacement,
+                                       const ContactFace<dim> &contact) const
+  {
     const std::string failure = attempt_together(communicator, [&]() {
-      write_surface(folder /
-                      ("surface_" +
-                       Utilities::int_to_string(n_written, n_digits) + ".csv"),
+      write_surface(folder / name,
                     parameters,
                     dof_handler,
                     displacement,
@@ -265,7 +292,6 @@ namespace SlipStep
     });
     if (!failure.empty())
       throw RunError(failure);
-    ++n_written;
   }
 
 

@@ -117,3 +117,29 @@ TEST(BlockView, NothingIsShownOfARunWithoutFields)
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("surface_0002.csv"), std::string::npos);
 }
+
+
+
+TEST(BlockView, MeshesStandSideBySide)
+{
+  // Of a run without fields the end alone is there.
+  RunResults run = finished_run();
+  std::filesystem::rename(run.folder / "surface_0002.csv",
+                          run.folder / "surface.csv");
+  std::filesystem::remove(run.folder / "fields.pvd");
+  Summary summary;
+  summary.dofs = 30;
+  write_summary(run.folder / "summary.json", summary);
+  std::filesystem::create_directory(run.folder / "empty");
+
+  std::vector<std::string> warnings;
+  const std::string        html =
+    mesh_gallery({{"uniform 0", run.folder}, {"failed", run.folder / "empty"}},
+                 warnings);
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_NE(html.find("uniform 0, 30 unknowns"), std::string::npos) << html;
+  EXPECT_NE(html.find("Drawn 3 times as thick along y."), std::string::npos);
+  EXPECT_EQ(html.find("failed"), std::string::npos);
+  EXPECT_EQ(mesh_gallery({}, warnings), "");
+  EXPECT_NE(block_picture(run, warnings).svg, "");
+}

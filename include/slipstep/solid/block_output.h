@@ -21,10 +21,10 @@ namespace SlipStep
   /// the drive is, stress), `contact.pvd` the contact face (pressure, traction,
   /// slip path, r, r_s, mu, dissipated energy per area, what the effects of the
   /// law remember, and which points slip); both tell the squared error of the
-  /// cell by ErrorIndicator. `surface_0000.csv` and so on are for the picture
-  /// of the block in the report. `contact_face.csv` has one row per
-  /// contact cell at the last time with averages over the cell, of all but the
-  /// last.
+  /// cell by ErrorIndicator. `surface_0000.csv` and so on, or `surface.csv`,
+  /// are for the picture of the block in the report. `contact_face.csv` has one
+  /// row per contact cell at the last time with averages over the cell, of all
+  /// but the last.
   template <int dim>
   class BlockOutput
   {
@@ -49,8 +49,12 @@ namespace SlipStep
     /// (all ranks take part).
     void write_mesh_changes(const std::vector<MeshChange> &changes);
 
-    /// Write contact_face.csv (all ranks take part).
-    void write_contact_table(const ContactFace<dim> &contact) const;
+    /// Write contact_face.csv and, if the case file wanted no fields at all,
+    /// surface.csv of the end (all ranks take part).
+    /// @param displacement ghosted [mm]
+    void write_end(const dealii::DoFHandler<dim> &dof_handler,
+                   const Vector                  &displacement,
+                   const ContactFace<dim>        &contact) const;
 
     /// Which files have been written, for boost::serialization.
     template <class Archive>
@@ -60,6 +64,11 @@ namespace SlipStep
     }
 
   private:
+    void write_contact_table(const ContactFace<dim> &contact) const;
+    void write_surface_file(const std::string             &name,
+                            const dealii::DoFHandler<dim> &dof_handler,
+                            const Vector                  &displacement,
+                            const ContactFace<dim>        &contact) const;
     void write_volume(const dealii::DoFHandler<dim> &dof_handler,
                       const Vector                  &displacement,
                       const dealii::Vector<double>  &squared_errors,
