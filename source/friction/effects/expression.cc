@@ -5,6 +5,10 @@
 #include <slipstep/friction/effect.h>
 #include <slipstep/utilities/formula.h>
 
+#include <math.h> // for the next, which forgets it
+
+#include <boost/math/interpolators/pchip.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -13,59 +17,34 @@ namespace SlipStep
 {
   namespace
   {
-    /// A function of one variable, sampled at equal distances, with the
-    /// monotone cubic of Fritsch and Butland (1984), SIAM J. Sci. Stat. Comput.
-    /// 5, 300, in between: smooth, and never outside its samples. Constant
-    /// beyond its range.
+    /// A function of one variable, sampled at equal distances, with a monotone
+    /// cubic in between: smooth, and never outside its samples. Constant beyond
+    /// its range.
     class Table
     {
     public:
-      Table(const double               from,
-            const double               to,
-            const std::vector<double> &samples)
-        : from(from)
-        , width((to - from) / (samples.size() - 1))
-        , samples(samples)
-        , slopes(samples.size())
-      {
-        for (unsigned int i = 0; i < samples.size(); ++i)
-          {
-            const unsigned int next     = std::min(i, last() - 1) + 1;
-            const unsigned int previous = std::max(i, 1u) - 1;
-            const double       a = samples[previous + 1] - samples[previous];
-            const double       b = samples[next] - samples[next - 1];
-            slopes[i]            = a * b > 0. ? 2. * a * b / (a + b) : 0.;
-          }
-      }
+      Table(std::vector<double> x, std::vector<double> samples)
+        : from(x.front())
+        , to(x.back())
+        , first(samples.front())
+        , last(samples.back())
+        , curve(std::move(x), std::move(samples))
+      {}
 
       /// Value and derivative.
       Rate operator()(const double x) const
       {
-        const double position = (x - from) / width;
-        if (!(position > 0.))
-          return {samples.front(), 0.};
-        if (position >= last())
-          return {samples.back(), 0.};
-        const unsigned int i = static_cast<unsigned int>(position);
-        const double       t = position - i, s = 1. - t;
-        const double       rise = samples[i + 1] - samples[i];
-        return {samples[i] + rise * t * t * (3. - 2. * t) +
-                  t * s * (slopes[i] * s - slopes[i + 1] * t),
-                (6. * rise * t * s + slopes[i] * s * (1. - 3. * t) +
-                 slopes[i + 1] * t * (3. * t - 2.)) /
-                  width};
+        if (!(x > from))
+          return {first, 0.};
+        if (x >= to)
+          return {last, 0.};
+        return {curve(x), curve.prime(x)};
       }
 
     private:
-      unsigned int last() const
-      {
-        return samples.size() - 1;
-      }
-
-      double              from;
-      double              width;
-      std::vector<double> samples;
-      std::vector<double> slopes; // per width
+      double                                                 from, to;
+      double                                                 first, last;
+      boost::math::interpolators::pchip<std::vector<double>> curve;
     };
 
 
@@ -250,12 +229,13 @@ namespace SlipStep
         const double to   = parameters.number(key("To"));
         if (!(from < to))
           parameters.reject(key("To"), "must be greater than From");
-        std::vector<double> samples(1001);
+        std::vector<double> xs(1001), samples(xs.size());
         const ParsedFormula formula = read_formula(parameters);
         for (unsigned int i = 0; i < samples.size(); ++i)
           {
             const double share = i / (samples.size() - 1.);
             const double x     = (1. - share) * from + share * to;
+            xs[i]              = x;
             samples[i]         = formula(x);
             if (samples[i] >= 1e-6 && samples[i] <= 1e6)
               continue;
@@ -264,7 +244,7 @@ namespace SlipStep
                 << " is not between 1e-6 and 1e6";
             parameters.reject(key("Formula"), why.str());
           }
-        return Table(from, to, samples);
+        return Table(xs, samples);
       }
 
       Rate hold_time(const SlipStepData &step) const
