@@ -35,7 +35,12 @@ namespace SlipStep
               {"kinetic", slide.kinetic},
               {"r", slide.dynamic_ratio},
               {"mu", slide.coefficient},
-              {"complete", slide.is_complete}};
+              {"complete", slide.is_complete},
+              {"statement", slide.statement},
+              {"rest_before_s", slide.rest},
+              {"friction_before", slide.before},
+              {"dip", slide.dip},
+              {"slip_fraction", slide.slip_fraction}};
     }
 
     /// JSON has no NaN: the library writes null, read back here.
@@ -61,6 +66,12 @@ namespace SlipStep
       slide.dynamic_ratio     = number(object, "r");
       slide.coefficient       = number(object, "mu");
       object.at("complete").get_to(slide.is_complete);
+      // Older files have none.
+      slide.statement     = object.value("statement", 0u);
+      slide.rest          = object.value("rest_before_s", 0.);
+      slide.before        = object.value("friction_before", 0.);
+      slide.dip           = object.value("dip", slide.peak);
+      slide.slip_fraction = object.value("slip_fraction", 1.);
       return slide;
     }
 
@@ -270,7 +281,8 @@ namespace SlipStep
       /// Unit vector from its first to its last position.
       dealii::Tensor<1, 2> direction;
       /// Mean over the path, so that rests within a followed test do not count.
-      double speed = 0.;
+      double       speed     = 0.;
+      unsigned int statement = 0; ///< counted from 1
     };
 
     std::vector<Motion> motions(const Programme &programme)
@@ -298,7 +310,8 @@ namespace SlipStep
                               all[last - 1].end_time,
                               all[first].start.displacement,
                               moved / moved.norm(),
-                              speed_by_path / path});
+                              speed_by_path / path,
+                              all[first].statement + 1});
         }
       return result;
     }
@@ -322,12 +335,15 @@ namespace SlipStep
       // Adding zero turns -0, for which atan2 gives -pi, into +0.
       slide.angle = std::atan2(motion.direction[1] + 0., motion.direction[0]);
       slide.peak  = -std::numeric_limits<double>::infinity();
+      slide.dip   = std::numeric_limits<double>::infinity();
+      slide.statement = motion.statement;
 
       bool found        = false;
       slide.is_complete = history.back().time >= motion.end_time - tolerance;
       for (const HistoryRow &row : history)
-        if (row.time > motion.start_time + tolerance &&
-            row.time <= motion.end_time + tolerance)
+        if (row.time <= motion.start_time + tolerance)
+          slide.before = along(motion.direction, row.friction, row.friction_y);
+        else if (row.time <= motion.end_time + tolerance)
           {
             found = true;
             slide.kinetic =
@@ -338,6 +354,8 @@ namespace SlipStep
             slide.pressure      = row.pressure;
             slide.dynamic_ratio = row.loading_ratio.mean;
             slide.coefficient   = row.coefficient.mean;
+            slide.slip_fraction = row.slip_fraction;
+            slide.dip           = std::min(slide.dip, slide.kinetic);
             if (slide.kinetic > slide.peak)
               {
                 slide.peak              = slide.kinetic;
@@ -409,10 +427,14 @@ namespace SlipStep
       return;
 
     dealii::Tensor<1, 2> last_direction;
-    last_direction[0] = 1.;
-    for (const Motion &motion : motions(programme))
+    last_direction[0]             = 1.;
+    const std::vector<Motion> all = motions(programme);
+    for (std::size_t i = 0; i < all.size(); ++i)
       {
-        SlideSummary slide;
+        const Motion &motion = all[i];
+        SlideSummary  slide;
+        if (i > 0)
+          slide.rest = motion.start_time - all[i - 1].end_time;
         if (summarise(motion, history, slide))
           {
             summary.slides.push_back(slide);

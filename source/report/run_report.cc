@@ -16,6 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <sstream>
 
 namespace SlipStep
@@ -101,12 +103,175 @@ namespace SlipStep
       });
     }
 
-    /// Whether labels say more than the column of speeds does.
+    /// Whether runs have labels that say more than the column of speeds does.
     bool labels_matter(const std::vector<ResultRow> &rows)
     {
       return std::any_of(rows.begin(), rows.end(), [&](const ResultRow &row) {
-        return !row.label.empty() && row.label != speed_text(row.slide.speed);
+        return row.label != rows[0].label &&
+               row.label != speed_text(row.slide.speed);
       });
+    }
+
+    template <typename Test>
+    bool any(const std::vector<ResultRow> &rows, const Test &test)
+    {
+      return std::any_of(rows.begin(), rows.end(), test);
+    }
+
+    /// A run has several slides, and which statements they are is known.
+    bool statements_matter(const std::vector<ResultRow> &rows)
+    {
+      for (std::size_t i = 1; i < rows.size(); ++i)
+        if (rows[i].run == rows[i - 1].run && rows[i].slide.statement > 0)
+          return true;
+      return false;
+    }
+
+    /// Whether slides follow rests, other than the same one to change pressure.
+    bool rests_matter(const std::vector<ResultRow> &rows)
+    {
+      double rest = 0.;
+      for (const ResultRow &row : rows)
+        if (row.slide.rest > 0.)
+          {
+            if (!pressures_matter(rows) ||
+                (rest > 0. && std::abs(row.slide.rest - rest) > 1e-6 * rest))
+              return true;
+            rest = row.slide.rest;
+          }
+      return false;
+    }
+
+    /// A column of the table of results.
+    struct ResultColumn
+    {
+      std::string                                   head;
+      std::function<std::string(const ResultRow &)> cell;
+    };
+
+    std::string degrees_text(const ResultRow &row)
+    {
+      return short_text(row.slide.angle * 180. / dealii::numbers::PI);
+    }
+
+    /// What makes the slides different.
+    std::vector<ResultColumn>
+    condition_columns(const std::vector<ResultRow> &rows)
+    {
+      const bool                with_angles = angles_matter(rows);
+      std::vector<ResultColumn> columns;
+      if (labels_matter(rows))
+        columns.push_back(
+          {"run", [](const ResultRow &row) { return row.label; }});
+      if (statements_matter(rows))
+        columns.push_back({"statement", [](const ResultRow &row) {
+                             return std::to_string(row.slide.statement);
+                           }});
+      columns.push_back({"speed [mm/min]", [with_angles](const ResultRow &row) {
+                           return (is_reverse(row.slide) && !with_angles ? "-" :
+                                                                           "") +
+                                  short_text(60. * row.slide.speed);
+                         }});
+      if (with_angles)
+        columns.push_back({"angle [deg]", degrees_text});
+      if (pressures_matter(rows))
+        columns.push_back({"pressure [MPa]", [](const ResultRow &row) {
+                             return short_text(row.slide.pressure);
+                           }});
+      if (rests_matter(rows))
+        columns.push_back({"rest before [s]", [](const ResultRow &row) {
+                             return short_text(row.slide.rest, 6);
+                           }});
+      return columns;
+    }
+
+    ResultColumn
+    number_column(const std::string                              &head,
+                  const unsigned int                              digits,
+                  const std::function<double(const ResultRow &)> &value)
+    {
+      return {head, [digits, value](const ResultRow &row) {
+                return fixed_text(value(row), digits);
+              }};
+    }
+
+    /// What was found: no column for what no slide has.
+    std::vector<ResultColumn> found_columns(const std::vector<ResultRow> &rows,
+                                            const Reference &reference)
+    {
+      constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+      std::vector<ResultColumn> columns;
+      if (any(rows, [](const ResultRow &row) { return row.has_peak; }))
+        columns.push_back(
+          number_column("peak", 4, [undefined](const ResultRow &row) {
+            return row.has_peak ? row.slide.peak : undefined;
+          }));
+      if (any(rows, [](const ResultRow &row) { return row.has_dip; }))
+        columns.push_back(
+          number_column("dip", 4, [undefined](const ResultRow &row) {
+            return row.has_dip ? row.slide.dip : undefined;
+          }));
+      const bool with_kinetic =
+        any(rows, [](const ResultRow &row) { return row.has_kinetic(); });
+      if (with_kinetic)
+        columns.push_back(number_column("kinetic", 4, [](const ResultRow &row) {
+          return row.slide.kinetic;
+        }));
+      if (any(rows, [](const ResultRow &row) { return !row.slides_fully(); }))
+        {
+          columns.push_back(number_column(
+            "at the end", 4, [](const ResultRow &row) { return row.end; }));
+          columns.push_back(
+            number_column("slipping [%]", 1, [](const ResultRow &row) {
+              return 100. * row.slide.slip_fraction;
+            }));
+        }
+      if (reference.exists() && with_kinetic)
+        {
+          columns.push_back(
+            number_column(reference.name(), 4, [](const ResultRow &row) {
+              return row.reference;
+            }));
+          columns.push_back({"difference [%]", [](const ResultRow &row) {
+                               return (row.difference > 0. ? "+" : "") +
+                                      fixed_text(row.difference, 2);
+                             }});
+        }
+      return columns;
+    }
+
+    /// What the terminal has no room for.
+    std::vector<ResultColumn>
+    further_columns(const std::vector<ResultRow> &rows)
+    {
+      std::vector<ResultColumn> columns;
+      const bool                with_kinetic =
+        any(rows, [](const ResultRow &row) { return row.has_kinetic(); });
+      if (any(rows, [](const ResultRow &row) { return row.has_peak; }))
+        {
+          if (with_kinetic)
+            columns.push_back(number_column(
+              "drop [%]", 2, [](const ResultRow &row) { return row.drop; }));
+          columns.push_back({"peak after [mm]", [](const ResultRow &row) {
+                               return row.has_peak ?
+                                        short_text(row.slide.peak_displacement,
+                                                   3) :
+                                        "–";
+                             }});
+        }
+      columns.push_back({"length [mm]", [](const ResultRow &row) {
+                           return short_text(row.slide.length);
+                         }});
+      if (with_kinetic)
+        {
+          columns.push_back(number_column("r", 4, [](const ResultRow &row) {
+            return row.slide.dynamic_ratio;
+          }));
+          columns.push_back(number_column("μ", 4, [](const ResultRow &row) {
+            return row.slide.coefficient;
+          }));
+        }
+      return columns;
     }
 
     /// The table of results; the report shows more columns than the terminal.
@@ -114,56 +279,42 @@ namespace SlipStep
                                         const Reference              &reference,
                                         const bool                    in_full)
     {
-      const bool with_labels    = labels_matter(rows);
-      const bool with_angles    = angles_matter(rows);
-      const bool with_pressures = pressures_matter(rows);
-      TableLine  head;
-      if (with_labels)
-        head.push_back("run");
-      head.push_back("speed [mm/min]");
-      if (with_angles)
-        head.push_back("angle [deg]");
-      if (with_pressures)
-        head.push_back("pressure [MPa]");
-      head.insert(head.end(), {"peak", "kinetic"});
-      if (reference.exists())
-        head.insert(head.end(), {reference.name(), "difference [%]"});
+      std::vector<ResultColumn> columns = condition_columns(rows);
+      const auto append = [&columns](const std::vector<ResultColumn> &more) {
+        columns.insert(columns.end(), more.begin(), more.end());
+      };
+      append(found_columns(rows, reference));
       if (in_full)
-        head.insert(head.end(),
-                    {"drop [%]", "peak after [mm]", "length [mm]", "r", "μ"});
-
-      std::vector<TableLine> lines = {head};
-      for (const ResultRow &row : rows)
+        append(further_columns(rows));
+      std::vector<TableLine> lines(1 + rows.size());
+      for (const ResultColumn &column : columns)
         {
-          const SlideSummary &slide = row.slide;
-          TableLine           line;
-          if (with_labels)
-            line.push_back(row.label);
-          line.push_back((is_reverse(slide) && !with_angles ? "-" : "") +
-                         short_text(60. * slide.speed));
-          if (with_angles)
-            line.push_back(
-              short_text(slide.angle * 180. / dealii::numbers::PI));
-          if (with_pressures)
-            line.push_back(short_text(slide.pressure));
-          line.insert(line.end(),
-                      {fixed_text(slide.peak, 4),
-                       fixed_text(slide.kinetic, 4)});
-          if (reference.exists())
-            line.insert(line.end(),
-                        {fixed_text(row.reference, 4),
-                         (row.difference > 0. ? "+" : "") +
-                           fixed_text(row.difference, 2)});
-          if (in_full)
-            line.insert(line.end(),
-                        {fixed_text(row.drop, 2),
-                         short_text(slide.peak_displacement, 3),
-                         short_text(slide.length),
-                         fixed_text(slide.dynamic_ratio, 4),
-                         fixed_text(slide.coefficient, 4)});
-          lines.push_back(line);
+          lines[0].push_back(column.head);
+          for (std::size_t i = 0; i < rows.size(); ++i)
+            lines[i + 1].push_back(column.cell(rows[i]));
         }
       return lines;
+    }
+
+    /// What the columns mean, of those that there are.
+    std::string result_note(const std::vector<ResultRow> &rows)
+    {
+      std::string text;
+      if (any(rows, [](const ResultRow &row) { return row.has_kinetic(); }))
+        text +=
+          "Kinetic, r, μ: at the end of the slide, means over the contact "
+          "face. ";
+      if (any(rows, [](const ResultRow &row) { return row.has_peak; }))
+        text +=
+          "Peak: where friction is higher than where the slide begins and "
+          "ends. ";
+      if (any(rows, [](const ResultRow &row) { return row.has_dip; }))
+        text += "Dip: the least friction after a step of speed, where it is "
+                "lower than before and in the end. ";
+      if (any(rows, [](const ResultRow &row) { return !row.slides_fully(); }))
+        text += "Slipping: share of the contact that slips at the end of the "
+                "slide; below 100 % there is no kinetic friction. ";
+      return note(text);
     }
 
     std::string run_name(const RunResults &run)
@@ -449,6 +600,16 @@ namespace SlipStep
       return runs.empty() ? "slipstep" : runs[0].summary.case_name;
     }
 
+    /// Whether all variants slide under the same law.
+    bool has_one_law(const Parameters &parameters)
+    {
+      for (const Variant &variant : parameters.variants())
+        for (const Variant::Override &change : variant.overrides)
+          if (boost::algorithm::starts_with(change.path, "Friction/"))
+            return false;
+      return true;
+    }
+
     std::string page(const Parameters               &parameters,
                      const Reference                &reference,
                      const std::vector<RunResults>  &runs,
@@ -460,10 +621,8 @@ namespace SlipStep
       std::ostringstream html;
       html << problem_boxes(runs, warnings) << study;
       if (!rows.empty())
-        html
-          << html_table(result_lines(rows, reference, true))
-          << "<p class='origin'>kinetic, r, μ: at the end of the slide, means "
-             "over the contact face; drop: from peak to kinetic.</p>\n";
+        html << html_table(result_lines(rows, reference, true))
+             << result_note(rows);
       html << figures(pictures) << stability(runs);
       if (!runs.empty())
         {
@@ -476,7 +635,9 @@ namespace SlipStep
                << heading("Repeat it") << repetition(parameters, runs);
         }
       return html_page(case_title(parameters, runs),
-                       headline(rows, reference),
+                       rows.empty() ?
+                         headline_of_pushes(runs) :
+                         headline(rows, reference, has_one_law(parameters)),
                        html.str());
     }
   } // namespace

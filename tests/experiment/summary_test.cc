@@ -107,7 +107,12 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                "kinetic",
                "r",
                "mu",
-               "complete"});
+               "complete",
+               "statement",
+               "rest_before_s",
+               "friction_before",
+               "dip",
+               "slip_fraction"});
   has_exactly(object["stability"][0],
               {"speed_mm_per_min",
                "pressure_MPa",
@@ -248,6 +253,8 @@ TEST(Summary, SlidesAreSeenAlongTheirOwnDirection)
       EXPECT_NEAR(slide.kinetic, 0.1, 1e-12);
       EXPECT_EQ(slide.dynamic_ratio, 1.25);
       EXPECT_EQ(slide.coefficient, 0.08);
+      EXPECT_EQ(slide.statement, i == 0 ? 2u : i + 3);
+      EXPECT_NEAR(slide.rest, i == 1 ? 5. : 0., 1e-12);
     }
   EXPECT_NEAR(summary.peak_friction, 0.12, 1e-12);
   EXPECT_NEAR(summary.final_friction, 0.1, 1e-12);

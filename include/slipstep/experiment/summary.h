@@ -25,6 +25,12 @@ namespace SlipStep
     double dynamic_ratio     = 0.;   ///< mean r at the end of the slide
     double coefficient       = 0.;   ///< mean mu at the end of the slide
     bool   is_complete       = true; ///< not cut short by a failure
+    unsigned int statement =
+      0;                       ///< of the programme, counted from 1; 0: unknown
+    double rest          = 0.; ///< since the motion before, 0 for the first [s]
+    double before        = 0.; ///< friction where it starts
+    double dip           = 0.; ///< smallest friction in this direction
+    double slip_fraction = 1.; ///< share of the contact that slips at the end
   };
 
   /// Whether sliding at one speed of the programme is steady on the spring of

@@ -67,11 +67,25 @@ namespace SlipStep
     std::string  label;
     std::size_t  run = 0; ///< its index among the runs
     SlideSummary slide;
-    /// What a slide that was not completed cannot tell is NaN: kinetic, r and
-    /// mu in `slide`, drop, difference.
+    /// What there is none of is NaN: kinetic, r and mu in `slide` unless
+    /// has_kinetic(), drop, difference.
     double drop = 0.; ///< from peak to kinetic [%]
+    double end  = 0.; ///< friction at the end, whatever it is
     /// Not one at whose end the contact sticks and slips.
     bool is_steady = true;
+    /// Follows another speed without a rest.
+    bool is_step = false;
+    /// Whether friction was higher than where the slide starts and ends.
+    bool has_peak = true;
+    /// Whether friction was lower than that, after a step of speed.
+    bool has_dip = false;
+
+    /// Whether all of the contact slips at the end.
+    bool slides_fully() const;
+
+    /// A completed and steady slide of all of the contact.
+    bool has_kinetic() const;
+
     /// NaN without a reference.
     double reference  = 0.;
     double difference = 0.; ///< of kinetic from reference [%]
@@ -80,9 +94,16 @@ namespace SlipStep
   std::vector<ResultRow> result_rows(const std::vector<RunResults> &runs,
                                      const Reference               &reference);
 
-  /// A sentence or two with the numbers that matter, of completed slides only.
+  /// A sentence or two with the numbers that matter of this kind of test, of
+  /// completed slides only.
+  /// @param is_one_law whether the runs have the same friction law, so that a
+  ///   difference between them is one of speed or pressure
   std::string headline(const std::vector<ResultRow> &rows,
-                       const Reference              &reference);
+                       const Reference              &reference,
+                       const bool                    is_one_law = true);
+
+  /// The same of runs without slides, in which the contact is pushed by a load.
+  std::string headline_of_pushes(const std::vector<RunResults> &runs);
 } // namespace SlipStep
 
 #endif

@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The headline of a report: what it says is chosen by the kind of test.
+
+#include <slipstep/report/run_results.h>
+#include <slipstep/utilities/text.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace SlipStep
+{
+  namespace
+  {
+    using ResultRows = std::vector<ResultRow>;
+
+    std::string comparison(const double lowest, const double highest)
+    {
+      const std::string low = fixed_text(lowest, 1);
+      if (low == fixed_text(highest, 1))
+        return std::abs(lowest) < 0.05 ?
+                 "equal to " :
+                 fixed_text(std::abs(lowest), 1) + " % " +
+                   (lowest < 0. ? "below " : "above ");
+      return "within " +
+             fixed_text(std::max(std::abs(lowest), std::abs(highest)), 1) +
+             " % of ";
+    }
+
+    std::string from_to(const std::string &low, const std::string &high)
+    {
+      return low == high ? low : low + " to " + high;
+    }
+
+    /// What may vary from slide to slide, and a quantity over it.
+    struct Aspect
+    {
+      double (*value)(const ResultRow &);
+      std::string (*text)(const ResultRow &);
+    };
+
+    const Aspect speed_aspect = {
+      [](const ResultRow &row) { return row.slide.speed; },
+      [](const ResultRow &row) { return "at " + speed_text(row.slide.speed); }};
+    const Aspect pressure_aspect = {
+      [](const ResultRow &row) { return row.slide.pressure; },
+      [](const ResultRow &row) {
+        return "at " + short_text(row.slide.pressure) + " MPa";
+      }};
+    const Aspect rest_aspect    = {[](const ResultRow &row) {
+                                  return row.slide.rest;
+                                },
+                                   [](const ResultRow &row) {
+                                  return "after " +
+                                         short_text(row.slide.rest, 6) + " s";
+                                }};
+    const Aspect kinetic_aspect = {
+      [](const ResultRow &row) { return row.slide.kinetic; },
+      [](const ResultRow &row) { return fixed_text(row.slide.kinetic, 4); }};
+    const Aspect peak_aspect = {
+      [](const ResultRow &row) { return row.slide.peak; },
+      [](const ResultRow &row) { return fixed_text(row.slide.peak, 4); }};
+
+    /// First of the smallest, and last of the largest.
+    std::pair<ResultRow, ResultRow> extremes(const ResultRows &rows,
+                                             const Aspect     &aspect)
+    {
+      const auto found =
+        std::minmax_element(rows.begin(),
+                            rows.end(),
+                            [&](const ResultRow &a, const ResultRow &b) {
+                              return aspect.value(a) < aspect.value(b);
+                            });
+      return {*found.first, *found.second};
+    }
+
+    bool varies(const ResultRows &rows, const Aspect &aspect)
+    {
+      const auto ends = extremes(rows, aspect);
+      return aspect.value(ends.second) - aspect.value(ends.first) >
+             1e-3 * std::abs(aspect.value(ends.second));
+    }
+
+    std::string range(const ResultRows &rows, const Aspect &aspect)
+    {
+      const auto ends = extremes(rows, aspect);
+      return from_to(aspect.text(ends.first), aspect.text(ends.second));
+    }
+
+    /// "Kinetic friction rises from 0.1 at 1 mm/min to 0.12 at 50 mm/min"
+    std::string trend(const std::string &what,
+                      const ResultRows  &rows,
+                      const Aspect      &quantity,
+                      const Aspect      &over)
+    {
+      const auto        ends  = extremes(rows, over);
+      const auto        found = extremes(rows, quantity);
+      const std::string first = quantity.text(ends.first);
+      const std::string last  = quantity.text(ends.second);
+      const std::string low   = quantity.text(found.first);
+      const std::string high  = quantity.text(found.second);
+      if (low == high)
+        return what + " is " + low + " " + over.text(ends.first) + " as " +
+               over.text(ends.second);
+      const bool is_rise =
+        quantity.value(ends.first) < quantity.value(ends.second);
+      if (low == (is_rise ? first : last) && high == (is_rise ? last : first))
+        return what + (is_rise ? " rises" : " falls") + " from " + first + " " +
+               over.text(ends.first) + " to " + last + " " +
+               over.text(ends.second);
+      return what + " is " + first + " " + over.text(ends.first) + ", " + last +
+             " " + over.text(ends.second) + " and " + from_to(low, high) +
+             " in all";
+    }
+
+    std::string against(const ResultRows &rows, const Reference &reference)
+    {
+      if (!reference.exists())
+        return "";
+      const auto ends = extremes(
+        rows, {[](const ResultRow &row) { return row.difference; }, nullptr});
+      return comparison(ends.first.difference, ends.second.difference) +
+             reference.name();
+    }
+
+    std::string one_slide(const ResultRow &row, const Reference &reference)
+    {
+      const bool  has_rested = row.slide.rest > 0.;
+      std::string text =
+        (has_rested ?
+           "After a rest of " + short_text(row.slide.rest, 6) + " s, at " :
+           "At ") +
+        speed_text(row.slide.speed) + ", friction " +
+        (row.has_peak ?
+           "peaks at " + fixed_text(row.slide.peak, 4) + " after " +
+             short_text(row.slide.peak_displacement, 2) + " mm and is " +
+             fixed_text(row.slide.kinetic, 4) + " in the end, " +
+             fixed_text(row.drop, 1) + " % lower" :
+           "comes to " + fixed_text(row.slide.kinetic, 4) + " without a peak");
+      if (reference.exists())
+        text += "; that is " + against({row}, reference);
+      return text;
+    }
+
+    /// "; it is 6.2 to 20.0 % lower than its peak", if that holds for all.
+    std::string drop(const ResultRows &rows)
+    {
+      const auto has_peak = [](const ResultRow &row) { return row.has_peak; };
+      if (std::none_of(rows.begin(), rows.end(), has_peak))
+        return "; there is no drop from a peak";
+      if (!std::all_of(rows.begin(), rows.end(), has_peak))
+        return "";
+      const Aspect by_drop = {[](const ResultRow &row) { return row.drop; },
+                              [](const ResultRow &row) {
+                                return fixed_text(row.drop, 1);
+                              }};
+      return "; it is " + range(rows, by_drop) + " % lower than its peak";
+    }
+
+    bool changes_direction(const ResultRows &rows)
+    {
+      return std::any_of(rows.begin(), rows.end(), [&](const ResultRow &row) {
+        return std::abs(std::sin(row.slide.angle - rows[0].slide.angle)) > 1e-6;
+      });
+    }
+
+    /// "Kinetic friction ranges from 0.1 (thin) to 0.16 (thick)"
+    std::string named_range(const ResultRows &rows,
+                            std::string (*name)(const ResultRow &))
+    {
+      const auto ends = extremes(rows, kinetic_aspect);
+      const auto text = kinetic_aspect.text;
+      if (text(ends.first) == text(ends.second))
+        return "Kinetic friction is " + text(ends.first) + " in " +
+               std::to_string(rows.size()) + " slides";
+      return "Kinetic friction ranges from " + text(ends.first) + " (" +
+             name(ends.first) + ") to " + text(ends.second) + " (" +
+             name(ends.second) + ")";
+    }
+
+    /// Peaks over the rests before them; "" if there are no two rests.
+    std::string healing(const ResultRows &rows)
+    {
+      ResultRows rested;
+      for (const ResultRow &row : rows)
+        if (row.slide.rest > 0. && row.has_peak)
+          rested.push_back(row);
+      return rested.size() > 1 && varies(rested, rest_aspect) ?
+               trend("The peak after a rest",
+                     rested,
+                     peak_aspect,
+                     rest_aspect) :
+               "";
+    }
+
+    /// Of slides under one law, by what makes them different.
+    std::string of_one_law(const ResultRows &rows, const Reference &reference)
+    {
+      if (rows.size() == 1)
+        return one_slide(rows[0], reference);
+      const bool  speeds    = varies(rows, speed_aspect);
+      const bool  pressures = varies(rows, pressure_aspect);
+      std::string text;
+      if (!speeds && !pressures)
+        text = healing(rows);
+      if (!text.empty())
+        return text;
+
+      if (changes_direction(rows))
+        text = named_range(rows, [](const ResultRow &row) {
+          return short_text(row.slide.angle * 180. / dealii::numbers::PI) +
+                 " deg";
+        });
+      else if (speeds != pressures)
+        text = trend("Kinetic friction",
+                     rows,
+                     kinetic_aspect,
+                     speeds ? speed_aspect : pressure_aspect);
+      else
+        text = "Kinetic friction is " + range(rows, kinetic_aspect) + " in " +
+               std::to_string(rows.size()) + " slides";
+      if (reference.exists())
+        text += ", " + against(rows, reference);
+      // After a step of speed, a peak is no static one.
+      const bool has_steps =
+        std::any_of(rows.begin(), rows.end(), [](const ResultRow &row) {
+          return row.is_step;
+        });
+      return text + (has_steps || pressures || changes_direction(rows) ?
+                       "" :
+                       drop(rows));
+    }
+
+    std::string with_small_letter(std::string text)
+    {
+      text[0] = std::tolower(text[0]);
+      return text;
+    }
+
+    /// "thin: kinetic friction is ...; thick: ..."
+    std::string run_by_run(const ResultRows &rows, const Reference &reference)
+    {
+      constexpr unsigned int most = 4;
+      std::string            text;
+      unsigned int           n = 0;
+      for (auto begin = rows.begin(); begin != rows.end(); ++n)
+        {
+          const auto end =
+            std::find_if(begin, rows.end(), [begin](const ResultRow &row) {
+              return row.run != begin->run;
+            });
+          if (n < most)
+            text +=
+              (n > 0 ? ". " : "") + begin->label + ": " +
+              with_small_letter(of_one_law(ResultRows(begin, end), reference));
+          begin = end;
+        }
+      return text + (n > most ? ". The table has " + std::to_string(n - most) +
+                                  " more runs" :
+                                "");
+    }
+
+    std::string of_steady_slides(const ResultRows &rows,
+                                 const Reference  &reference,
+                                 const bool        is_one_law)
+    {
+      const std::size_t n_runs = rows.back().run - rows.front().run + 1;
+      if (n_runs == 1)
+        return of_one_law(rows, reference);
+      for (std::size_t i = 1; i < rows.size(); ++i)
+        if (rows[i].run == rows[i - 1].run)
+          return run_by_run(rows, reference);
+      if (is_one_law &&
+          (varies(rows, speed_aspect) || varies(rows, pressure_aspect) ||
+           !varies(rows, kinetic_aspect)))
+        return of_one_law(rows, reference);
+      const std::string compared = against(rows, reference);
+      return named_range(rows, [](const ResultRow &row) { return row.label; }) +
+             (compared.empty() ? "" : ", " + compared) + drop(rows);
+    }
+
+    /// At which speeds the contact sticks and slips; empty at none.
+    std::string stick_slip(const ResultRows &rows)
+    {
+      std::vector<std::string> speeds;
+      for (const ResultRow &row : rows)
+        {
+          const std::string speed = speed_text(row.slide.speed);
+          if (!row.is_steady &&
+              std::find(speeds.begin(), speeds.end(), speed) == speeds.end())
+            speeds.push_back(speed);
+        }
+      if (speeds.empty())
+        return "";
+      std::string text = "The machine is too soft for steady sliding at ";
+      for (std::size_t i = 0; i < speeds.size(); ++i)
+        text += (i == 0                 ? "" :
+                 i + 1 == speeds.size() ? " and " :
+                                          ", ") +
+                speeds[i];
+      return text + ": stick-slip.";
+    }
+
+    /// Of slides at whose end part of the contact still sticks.
+    std::string partial_slip(const ResultRows &rows, const std::size_t n_all)
+    {
+      if (rows.empty())
+        return "";
+      const Aspect share    = {[](const ResultRow &row) {
+                              return row.slide.slip_fraction;
+                            },
+                               [](const ResultRow &row) {
+                              return short_text(100. * row.slide.slip_fraction,
+                                                3);
+                            }};
+      const Aspect friction = {[](const ResultRow &row) { return row.end; },
+                               [](const ResultRow &row) {
+                                 return fixed_text(row.end, 4);
+                               }};
+      return (rows.size() == n_all ?
+                "" :
+                "In " + std::to_string(rows.size()) + " of " +
+                  std::to_string(n_all) + " slides, ") +
+             (rows.size() == n_all ? "Only " : "only ") + range(rows, share) +
+             " % of the contact slips at the end of " +
+             (n_all == 1 ? "the slide" : "a slide") + ", where friction is " +
+             range(rows, friction) +
+             ": there is no kinetic friction before all of it slides.";
+    }
+  } // namespace
+
+
+
+  std::string headline(const std::vector<ResultRow> &all_rows,
+                       const Reference              &reference,
+                       const bool                    is_one_law)
+  {
+    if (all_rows.empty())
+      return "No slide has been reached.";
+    ResultRows completed, steady, partial;
+    for (const ResultRow &row : all_rows)
+      if (row.slide.is_complete)
+        {
+          completed.push_back(row);
+          if (row.has_kinetic())
+            steady.push_back(row);
+          else if (row.is_steady)
+            partial.push_back(row);
+        }
+    if (completed.empty())
+      return "No slide has been completed.";
+    std::string text;
+    if (!steady.empty())
+      text = of_steady_slides(steady, reference, is_one_law) + ".";
+    for (const std::string &more :
+         {stick_slip(completed), partial_slip(partial, completed.size())})
+      text += (text.empty() || more.empty() ? "" : " ") + more;
+    return text;
+  }
+
+
+
+  std::string headline_of_pushes(const std::vector<RunResults> &runs)
+  {
+    const RunResults *least = nullptr, *most = nullptr;
+    for (const RunResults &run : runs)
+      if (!run.history.empty())
+        {
+          if (least == nullptr ||
+              run.history.back().slip < least->history.back().slip)
+            least = &run;
+          if (most == nullptr ||
+              run.history.back().slip > most->history.back().slip)
+            most = &run;
+        }
+    const auto slip = [](const RunResults &run) {
+      return short_text(run.history.back().slip, 3) + " mm";
+    };
+    if (most == nullptr || !(most->history.back().slip > 0.))
+      return "No slide has been reached.";
+    const std::string text = "The contact is pushed by a load, not slid; in "
+                             "the end it has slipped ";
+    if (slip(*least) == slip(*most))
+      return text + slip(*most) + ".";
+    return text + slip(*least) + " (" + least->label + ") to " + slip(*most) +
+           " (" + most->label + ").";
+  }
+} // namespace SlipStep
