@@ -2,6 +2,8 @@
 #include <slipstep/report/drawing.h>
 #include <slipstep/utilities/text.h>
 
+#include <array>
+
 namespace SlipStep
 {
   // `extern` in the header keeps it visible: constants are local by default.
@@ -19,6 +21,63 @@ namespace SlipStep
       return run.label;
     return run.summary.slides.empty() ? run.summary.command :
                                         speed_text(run.summary.slides[0].speed);
+  }
+
+
+
+  std::string run_style(const std::size_t i)
+  {
+    static const std::array<const char *, 7> colours = {"#0072B2",
+                                                        "#D55E00",
+                                                        "#009E73",
+                                                        "#CC79A7",
+                                                        "#E69F00",
+                                                        "#56B4E9",
+                                                        "#000000"};
+    static const std::array<const char *, 4> dashes  = {"solid",
+                                                        "(12,4)",
+                                                        "(4,3)",
+                                                        "(12,4,3,4)"};
+    return std::string("lc rgb '") + colours[i % colours.size()] + "' dt " +
+           dashes[i % dashes.size()];
+  }
+
+
+
+  std::string without_dash(const std::string &style)
+  {
+    return style.substr(0, style.find(" dt "));
+  }
+
+
+
+  Rows thinned(const Rows &points)
+  {
+    Range x, y;
+    for (const auto &point : points)
+      {
+        x.add(point[0]);
+        y.add(point[1]);
+      }
+    const double dx = std::max(x.width(), 1e-300);
+    const double dy = std::max(y.width(), 1e-300);
+
+    Rows        kept;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const double distance =
+          std::hypot((points[i][0] - points[last][0]) / dx,
+                     (points[i][1] - points[last][1]) / dy);
+        if (i > 0 && i + 1 < points.size() && distance < 1e-3)
+          continue;
+        // Keeps corners: the curve may have rested before it jumped.
+        if (i > last + 1 && distance > 3e-3)
+          kept.push_back(points[i - 1]);
+        kept.push_back(points[i]);
+        last = i;
+      }
+    return kept;
   }
 
 

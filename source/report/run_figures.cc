@@ -4,6 +4,7 @@
 #include <slipstep/report/drawing.h>
 #include <slipstep/report/block_view.h>
 #include <slipstep/report/run_faces.h>
+#include <slipstep/report/run_pictures.h>
 
 #include <slipstep/report/figure.h>
 #include <slipstep/utilities/text.h>
@@ -18,60 +19,6 @@ namespace SlipStep
 {
   namespace
   {
-    /// Colours of Okabe and Ito, distinct for colour-blind readers; dashes keep
-    /// the curves apart in print. (Their yellow is lost on white.)
-    std::string line_style(const std::size_t i)
-    {
-      static const std::array<const char *, 7> colours = {"#0072B2",
-                                                          "#D55E00",
-                                                          "#009E73",
-                                                          "#CC79A7",
-                                                          "#E69F00",
-                                                          "#56B4E9",
-                                                          "#000000"};
-      static const std::array<const char *, 4> dashes  = {"solid",
-                                                          "(12,4)",
-                                                          "(4,3)",
-                                                          "(12,4,3,4)"};
-      return std::string("lc rgb '") + colours[i % colours.size()] + "' dt " +
-             dashes[i % dashes.size()];
-    }
-
-    std::string without_dash(const std::string &style)
-    {
-      return style.substr(0, style.find(" dt "));
-    }
-
-    /// Drop points that a reader could not tell from the one before.
-    Rows thinned(const Rows &points)
-    {
-      Range x, y;
-      for (const auto &point : points)
-        {
-          x.add(point[0]);
-          y.add(point[1]);
-        }
-      const double dx = std::max(x.width(), 1e-300);
-      const double dy = std::max(y.width(), 1e-300);
-
-      Rows        kept;
-      std::size_t last = 0;
-      for (std::size_t i = 0; i < points.size(); ++i)
-        {
-          const double distance =
-            std::hypot((points[i][0] - points[last][0]) / dx,
-                       (points[i][1] - points[last][1]) / dy);
-          if (i > 0 && i + 1 < points.size() && distance < 1e-3)
-            continue;
-          // Keeps corners: the curve may have rested before it jumped.
-          if (i > last + 1 && distance > 3e-3)
-            kept.push_back(points[i - 1]);
-          kept.push_back(points[i]);
-          last = i;
-        }
-      return kept;
-    }
-
     /// Displacement and friction along the axis of the first slide, so that a
     /// reverse slide shows as the way back.
     Rows curve(const RunResults &run)
@@ -206,7 +153,7 @@ namespace SlipStep
                             {{from, level}, {to, level}});
           const std::size_t run   = run_of_speed(runs, speed);
           const std::string style = run < runs.size() ?
-                                      without_dash(line_style(run)) :
+                                      without_dash(run_style(run)) :
                                       "lc rgb '#777777'";
           plots += ", \\\n  " + data + " with lines lw 4 " + style + " notitle";
         }
@@ -243,7 +190,7 @@ namespace SlipStep
                             {"displacement_mm", "friction"},
                             thinned(points));
           plots += (plots.empty() ? "plot " : ", \\\n  ") + data +
-                   " with lines lw 2 " + line_style(i) + " title " +
+                   " with lines lw 2 " + run_style(i) + " title " +
                    gnuplot_text(legend(runs[i]));
         }
       if (!(x.width() > 0.))
@@ -322,7 +269,7 @@ namespace SlipStep
                             {"displacement_mm", "friction"},
                             thinned(points));
           plots += (plots.empty() ? "plot " : ", \\\n  ") + data +
-                   " with lines lw 2 " + line_style(i) + " title " +
+                   " with lines lw 2 " + run_style(i) + " title " +
                    gnuplot_text(legend(runs[i]));
           if (runs[i].summary.slides.empty() ||
               runs[i].summary.slides[0].peak_displacement > zoom)
@@ -332,7 +279,7 @@ namespace SlipStep
                    figure.add_data("peak of " + legend(runs[i]),
                                    {"displacement_mm", "friction"},
                                    {{slide.peak_displacement, slide.peak}}) +
-                   " with points pt 7 ps 0.7 " + without_dash(line_style(i)) +
+                   " with points pt 7 ps 0.7 " + without_dash(run_style(i)) +
                    " notitle";
         }
       figure.script() << axes_style << legend_margin(runs, reference)
@@ -431,6 +378,7 @@ namespace SlipStep
 
 
   std::vector<Picture> draw_pictures(const std::filesystem::path   &folder,
+                                     const Parameters              &parameters,
                                      const std::vector<RunResults> &runs,
                                      const Reference               &reference,
                                      std::vector<std::string>      &warnings)
@@ -440,6 +388,9 @@ namespace SlipStep
           return curve(run).empty();
         }))
       return pictures;
+    // What the case asks for comes first.
+    add_requested_pictures(
+      folder, parameters, runs, reference, pictures, warnings);
     pictures.push_back(friction_picture(folder, runs, reference, warnings));
     add_zoom_picture(folder, runs, reference, pictures, warnings);
     add_speed_picture(folder, runs, reference, pictures, warnings);

@@ -4,6 +4,7 @@
 #include <slipstep/report/repeat_command.h>
 #include <slipstep/report/run_results.h>
 #include <slipstep/report/run_figures.h>
+#include <slipstep/report/run_pictures.h>
 #include <slipstep/report/page.h>
 #include <slipstep/report/figure.h>
 #include <slipstep/utilities/text.h>
@@ -47,6 +48,16 @@ namespace SlipStep
       Quantity(Dimension::number, 0.),
       "Divides the reference coefficient to give its dynamic loading ratio r "
       "(>= 0; 0: the reference is not shown in the picture of r over speed).");
+    parameters.declare(
+      "Report/Pictures",
+      "",
+      Anything(),
+      "Further pictures of the report, each as what over what and separated by "
+      "commas, e.g. peak over rest, force over time. Known are: " +
+        picture_quantity_names() +
+        ". A value is of a slide or of an instant, and only the like go "
+        "together; over direction the picture is polar. What spans decades "
+        "has a logarithmic axis.");
     parameters.declare("Report/Reference speeds",
                        "",
                        Anything(),
@@ -61,6 +72,7 @@ namespace SlipStep
   {
     const Reference reference(parameters);
     (void)reference;
+    check_pictures(parameters);
   }
 
 
@@ -654,8 +666,8 @@ namespace SlipStep
     const auto                  results        = load_runs(runs, warnings);
     const std::filesystem::path picture_folder = folder / "report";
     std::filesystem::create_directories(picture_folder);
-    const auto pictures =
-      draw_pictures(picture_folder, results, reference, warnings);
+    auto pictures =
+      draw_pictures(picture_folder, parameters, results, reference, warnings);
 
     write_file(folder / "report.html",
                page(parameters, reference, results, pictures, study, warnings));

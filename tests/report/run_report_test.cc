@@ -484,6 +484,81 @@ TEST(Report, NoRunAtAllGivesAPageThatSaysSo)
 
 
 
+TEST(Report, PicturesThatACaseNamesAreDrawn)
+{
+  std::vector<SlideSummary> slides;
+  for (unsigned int i = 0; i < 4; ++i)
+    {
+      slides.push_back(make_slide(2 * i + 2, 1., 0.05, 0.11 + 0.01 * i, 0.1));
+      slides.back().rest  = i == 0 ? 0. : std::pow(10., i);
+      slides.back().angle = 0.5 * i;
+    }
+  const auto runs = {make_slides("thin", slides), make_slides("thick", slides)};
+  const auto parameters = parameters_with(
+    {{"Pictures", "peak over rest, kinetic over direction, force over time"}});
+  const auto warnings = write_report(test_folder(), parameters, runs);
+  const auto picture  = [](const std::string &file) {
+    return content(test_folder() / "report" / file);
+  };
+  // Both runs; the first slide follows no rest.
+  EXPECT_TRUE(
+    contains(picture("picture_1.dat"), "# thin\n# rest peak\n10 0.12\n"));
+  EXPECT_TRUE(contains(picture("picture_1.dat"), "# thick"));
+  EXPECT_TRUE(contains(picture("picture_1.gp"), "set logscale x"));
+  EXPECT_TRUE(contains(picture("picture_1.gp"), "Time at rest before  [s]"));
+  EXPECT_TRUE(contains(picture("picture_2.dat"), "\n0.1 0\n"))
+    << picture("picture_2.dat");
+  EXPECT_TRUE(contains(picture("picture_2.gp"), "set size ratio -1"));
+  EXPECT_TRUE(contains(picture("picture_3.gp"), "Tangential load  [N]"));
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_TRUE(warnings.empty()) << warnings[0];
+  const std::string page = content(test_folder() / "report.html");
+  EXPECT_LT(page.find("<h2>Peak over rest"), page.find("Friction against"));
+}
+
+
+
+TEST(Report, WhatAPictureHasNoValuesOfIsSaid)
+{
+  const auto warnings =
+    write_report(test_folder(),
+                 parameters_with({{"Pictures", "peak over rest"}}),
+                 {make_run(1., "rough")});
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_TRUE(contains(warnings[0], "no picture 'peak over rest'"));
+}
+
+
+
+TEST(Report, WrongPicturesAreRefused)
+{
+  for (const std::string good : {"peak over rest",
+                                 "critical stiffness over speed",
+                                 "friction y over friction, r_s over slip"})
+    EXPECT_NO_THROW(
+      check_report_parameters(parameters_with({{"Pictures", good}})))
+      << good;
+  for (const std::string bad : {"peak",
+                                "peak over",
+                                "peak over moon",
+                                "peak over time",
+                                "peak over peak",
+                                "Peak over rest",
+                                "peak over rest, peak over rest"})
+    try
+      {
+        check_report_parameters(parameters_with({{"Pictures", bad}}));
+        ADD_FAILURE() << bad;
+      }
+    catch (const InputError &error)
+      {
+        EXPECT_TRUE(contains(error.what(), "Report/Pictures")) << error.what();
+      }
+}
+
+
+
 TEST(Report, WrongReferencesAreRefused)
 {
   EXPECT_NO_THROW(check_report_parameters(parameters_with({})));

@@ -59,6 +59,16 @@ namespace SlipStep
   /// What legends call a run.
   std::string legend(const RunResults &run);
 
+  /// Colour and dash of a run as gnuplot has it: colours of Okabe and Ito,
+  /// distinct for colour-blind readers; dashes keep the curves apart in print.
+  /// (Their yellow is lost on white.)
+  std::string run_style(const std::size_t i);
+
+  std::string without_dash(const std::string &style);
+
+  /// Drop points that a reader could not tell from the one before.
+  Rows thinned(const Rows &points);
+
   /// Draw; a picture that could not be drawn has no SVG and gives a warning.
   Picture finish(Figure                   &figure,
                  const std::string        &title,

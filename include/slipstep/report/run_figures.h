@@ -19,9 +19,10 @@ namespace SlipStep
   };
 
   /// Draw the pictures of the report into @p folder, each with its data and
-  /// script: friction over displacement, its beginning enlarged, r over speed,
-  /// and the state of the contact face.
+  /// script: those that the case asks for, friction over displacement, its
+  /// beginning enlarged, r over speed, and the state of the contact face.
   std::vector<Picture> draw_pictures(const std::filesystem::path   &folder,
+                                     const Parameters              &parameters,
                                      const std::vector<RunResults> &runs,
                                      const Reference               &reference,
                                      std::vector<std::string>      &warnings);
