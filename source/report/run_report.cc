@@ -4,6 +4,7 @@
 #include <slipstep/report/repeat_command.h>
 #include <slipstep/report/run_results.h>
 #include <slipstep/report/run_figures.h>
+#include <slipstep/report/run_law.h>
 #include <slipstep/report/run_pictures.h>
 #include <slipstep/report/page.h>
 #include <slipstep/report/figure.h>
@@ -467,24 +468,6 @@ namespace SlipStep
       return heading("Quantities of interest") + html_table(lines);
     }
 
-    std::vector<TableLine> effect_lines(const Parameters &parameters,
-                                        const RunResults &run)
-    {
-      std::vector<TableLine> lines = {{"effect", "parameter", "value"}};
-      for (const std::string &effect : run.summary.effects)
-        {
-          const std::string section = "Friction/" + effect + "/";
-          const auto        paths   = parameters.paths(section);
-          for (const std::string &path : paths)
-            lines.push_back({path == paths.front() ? effect : "",
-                             path.substr(section.size()),
-                             parameters.text(path)});
-          if (paths.empty())
-            lines.push_back({effect, "", ""});
-        }
-      return lines;
-    }
-
     /// What the user set, and in what the variants differ.
     std::vector<TableLine> condition_lines(const Parameters &parameters,
                                            const std::vector<RunResults> &runs)
@@ -626,6 +609,7 @@ namespace SlipStep
                      const Reference                &reference,
                      const std::vector<RunResults>  &runs,
                      const std::vector<Picture>     &pictures,
+                     const std::string              &law,
                      const std::string              &study,
                      const std::vector<std::string> &warnings)
     {
@@ -635,13 +619,13 @@ namespace SlipStep
       if (!rows.empty())
         html << html_table(result_lines(rows, reference, true))
              << result_note(rows);
-      html << figures(pictures) << stability(runs);
+      html << figures(pictures) << law << stability(runs);
       if (!runs.empty())
         {
           html << heading("Energy") << html_table(energy_lines(runs))
                << quantities(runs) << heading("Cost")
                << html_table(cost_lines(runs)) << heading("Friction law")
-               << html_table(effect_lines(parameters, runs[0]), "values")
+               << html_table(effect_table(parameters, runs), "law")
                << heading("Conditions")
                << html_table(condition_lines(parameters, runs), "values")
                << heading("Repeat it") << repetition(parameters, runs);
@@ -669,8 +653,10 @@ namespace SlipStep
     auto pictures =
       draw_pictures(picture_folder, parameters, results, reference, warnings);
 
-    write_file(folder / "report.html",
-               page(parameters, reference, results, pictures, study, warnings));
+    const std::string law = law_at_work(picture_folder, results, warnings);
+    write_file(
+      folder / "report.html",
+      page(parameters, reference, results, pictures, law, study, warnings));
     return warnings;
   }
 } // namespace SlipStep

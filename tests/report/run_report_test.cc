@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/history.h>
+#include <slipstep/friction/law.h>
 #include <slipstep/report/run_report.h>
 #include <slipstep/report/run_results.h>
 #include <slipstep/experiment/summary.h>
@@ -555,6 +556,34 @@ TEST(Report, WrongPicturesAreRefused)
       {
         EXPECT_TRUE(contains(error.what(), "Report/Pictures")) << error.what();
       }
+}
+
+
+
+TEST(Report, TheLawIsShownAtWorkAndItsEffectsByFormula)
+{
+  const ReportedRun run     = make_run(1., "rough");
+  Summary           summary = read_summary(run.folder / "summary.json");
+  summary.effects           = {"softening"};
+  write_summary(run.folder / "summary.json", summary);
+  Parameters parameters;
+  declare_report_parameters(parameters);
+  FrictionLaw::declare_parameters(parameters);
+  parameters.set("Friction/softening/Rate", "50 1/m", "test");
+  write_report(test_folder(), parameters, {run});
+  const std::string page = content(test_folder() / "report.html");
+  EXPECT_TRUE(
+    contains(page, "<td>d mu/d lambda = -kappa (exp(a (mu - mu_k)) - 1)"))
+    << page;
+  EXPECT_TRUE(contains(page, "<td>kappa</td><td>0.05</td><td>1/mm</td>"));
+  EXPECT_TRUE(contains(content(test_folder() / "report/law_friction.gp"),
+                       "Path of the drive  [mm]"));
+  // Nothing of it changes, so there is no curve.
+  EXPECT_FALSE(std::filesystem::exists(test_folder() / "report/law_mu.gp"));
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_TRUE(contains(page, "The law at work"));
+  EXPECT_TRUE(contains(page, "μ = 0"));
 }
 
 

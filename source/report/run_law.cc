@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/friction/effect.h>
+#include <slipstep/report/drawing.h>
+#include <slipstep/report/page.h>
+#include <slipstep/report/run_law.h>
+#include <slipstep/utilities/text.h>
+#include <slipstep/utilities/units.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// A variable of the law over the path.
+    struct LawPanel
+    {
+      std::string                               name;
+      std::string                               label;
+      std::function<double(const HistoryRow &)> value;
+    };
+
+    std::vector<LawPanel> law_panels()
+    {
+      std::vector<LawPanel> panels = {
+        {"friction",
+         "Friction",
+         [](const HistoryRow &row) {
+           return std::hypot(row.friction, row.friction_y);
+         }},
+        {"r",
+         "r",
+         [](const HistoryRow &row) { return row.loading_ratio.mean; }},
+        {"r_s",
+         "r_s",
+         [](const HistoryRow &row) { return row.normal_ratio.mean; }},
+        {"mu", "μ", [](const HistoryRow &row) {
+           return row.coefficient.mean;
+         }}};
+      for (const ContactMemory &memory : contact_memories())
+        panels.push_back({memory.name,
+                          memory.name,
+                          [slot = memory.slot](const HistoryRow &row) {
+                            return row.memories[slot];
+                          }});
+      return panels;
+    }
+
+    /// Over the path of the drive, which grows also on the way back.
+    Rows over_path(const RunResults &run, const LawPanel &panel)
+    {
+      Rows   rows;
+      double path = 0.;
+      for (std::size_t i = 0; i < run.history.size(); ++i)
+        {
+          const HistoryRow &row = run.history[i];
+          if (i > 0)
+            path +=
+              std::hypot(row.displacement - run.history[i - 1].displacement,
+                         row.displacement_y -
+                           run.history[i - 1].displacement_y);
+          rows.push_back({path, panel.value(row)});
+        }
+      return rows;
+    }
+
+    Range range_of(const std::vector<Rows> &curves, const unsigned int column)
+    {
+      Range range;
+      for (const Rows &curve : curves)
+        for (const auto &point : curve)
+          range.add(point[column]);
+      return range;
+    }
+
+    /// @param is_last has the axis that all share
+    Picture draw_panel(const std::filesystem::path   &folder,
+                       const LawPanel                &panel,
+                       const std::vector<Rows>       &curves,
+                       const std::vector<RunResults> &runs,
+                       const bool                     is_last,
+                       std::vector<std::string>      &warnings)
+    {
+      const bool  is_first = panel.name == "friction";
+      Figure      figure(folder,
+                    "law_" + panel.name,
+                    panel.label + " over the path of the drive",
+                    picture_width,
+                    is_last ? 200 : 155);
+      std::size_t longest = 0;
+      std::string plots;
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        {
+          longest = std::max(longest, legend(runs[i]).size());
+          plots += (plots.empty() ? "plot " : ", \\\n  ") +
+                   figure.add_data(legend(runs[i]),
+                                   {"path_mm", panel.name},
+                                   thinned(curves[i])) +
+                   " with lines lw 1.8 " + run_style(i) +
+                   (is_first && runs.size() > 1 ?
+                      " title " + gnuplot_text(legend(runs[i])) :
+                      " notitle");
+        }
+      const double right =
+        runs.size() > 1 ?
+          1. -
+            std::min(80. + 8. * longest, 0.4 * picture_width) / picture_width :
+          0.98;
+      const Range  x = range_of(curves, 0), y = range_of(curves, 1);
+      const double margin = 0.06 * y.width();
+      figure.script()
+        << axes_style << "set lmargin at screen 0.11\n"
+        << "set rmargin at screen " << right
+        << "\nset tmargin at screen 0.91\nset bmargin at screen "
+        << (is_last ? 0.3 : 0.09) << "\nset key at screen " << right + 0.02
+        << ", graph 1 left top\n"
+        << "set xrange [" << x.lower << ":" << x.upper << "]\nset yrange ["
+        << y.lower - margin << ":" << y.upper + margin << "]\nset ytics "
+        << round_up(y.width() / 3.)
+        // These stand below each other, however wide the numbers are.
+        << "\nset label 1 " << gnuplot_text(panel.label)
+        << " at screen 0.02, graph 0.5 center rotate by 90\n"
+        << (is_last ? "set xlabel 'Path of the drive  [mm]' offset 0,0.5\n" :
+                      "set format x ''\n")
+        << plots << '\n';
+      return finish(figure, panel.label, "", warnings);
+    }
+
+    bool is_used(const LawPanel &panel, const std::vector<Rows> &curves)
+    {
+      const Range y = range_of(curves, 1);
+      return panel.name == "friction" ||
+             y.width() > 1e-6 * std::max(std::abs(y.lower), std::abs(y.upper));
+    }
+  } // namespace
+
+
+
+  std::string law_at_work(const std::filesystem::path   &folder,
+                          const std::vector<RunResults> &runs,
+                          std::vector<std::string>      &warnings)
+  {
+    std::vector<LawPanel>          shown;
+    std::vector<std::vector<Rows>> curves;
+    std::string                    constants;
+    for (const LawPanel &panel : law_panels())
+      {
+        std::vector<Rows> of_runs;
+        for (const RunResults &run : runs)
+          of_runs.push_back(over_path(run, panel));
+        if (!(range_of(of_runs, 0).width() > 0.))
+          return "";
+        if (is_used(panel, of_runs))
+          {
+            shown.push_back(panel);
+            curves.push_back(of_runs);
+          }
+        else if (panel.name.size() <= 3) // of every law
+          constants += (constants.empty() ? "" : ", ") + panel.label + " = " +
+                       short_text(range_of(of_runs, 1).upper, 5);
+      }
+    std::string svg;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      svg +=
+        draw_panel(
+          folder, shown[i], curves[i], runs, i + 1 == shown.size(), warnings)
+          .svg;
+    if (svg.empty())
+      return "";
+    return heading("The law at work") + "<figure class='stack'>\n" + svg +
+           "<figcaption>Means over the contact. r: load over strength, above 1 "
+           "by overstress; r_s: what it may be at rest; μ: the coefficient." +
+           (constants.empty() ? "" :
+                                " All along: " + html_text(constants) + ".") +
+           "</figcaption></figure>\n";
+  }
+
+
+
+  namespace
+  {
+    /// In base units, so that the column of units holds.
+    std::string value_text(const EffectParameter &parameter,
+                           const std::string     &text)
+    {
+      const auto *quantity =
+        dynamic_cast<const Quantity *>(parameter.pattern.get());
+      if (quantity == nullptr || !quantity->match(text))
+        return text;
+      const double value = quantity->value(text);
+      return short_text(quantity->dimension == Dimension::angle ?
+                          value * 180. / dealii::numbers::PI :
+                          value,
+                        6);
+    }
+
+    std::string unit_text(const EffectParameter &parameter)
+    {
+      const auto *quantity =
+        dynamic_cast<const Quantity *>(parameter.pattern.get());
+      return quantity == nullptr || quantity->dimension == Dimension::number ?
+               "" :
+               base_unit(quantity->dimension);
+    }
+
+    /// "0.1", or "0.1 (thin), 0.2 (thick)"
+    std::string values_text(const EffectInfo                      &effect,
+                            const EffectParameter                 &parameter,
+                            const std::vector<const RunResults *> &runs,
+                            const std::vector<Parameters>         &laws)
+    {
+      std::set<std::string> different;
+      std::string           all;
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        {
+          const auto &names = runs[i]->summary.effects;
+          if (std::find(names.begin(), names.end(), effect.name) == names.end())
+            continue;
+          const std::string text =
+            value_text(parameter,
+                       laws[i].text(effect.section() + parameter.key));
+          different.insert(text);
+          all += (all.empty() ? "" : ", ") + text + " (" + runs[i]->label + ")";
+        }
+      return different.size() == 1 ? *different.begin() : all;
+    }
+  } // namespace
+
+
+
+  std::vector<TableLine> effect_table(const Parameters              &parameters,
+                                      const std::vector<RunResults> &runs)
+  {
+    // A run that could not be read is not there, so they are found by name.
+    std::vector<const RunResults *> shown;
+    std::vector<Parameters>         laws;
+    for (const RunResults &run : runs)
+      {
+        const Variant *variant = nullptr;
+        for (const Variant &candidate : parameters.variants())
+          if (candidate.label == run.label)
+            variant = &candidate;
+        shown.push_back(&run);
+        laws.push_back(variant == nullptr ? parameters :
+                                            parameters.with_variant(*variant));
+      }
+    std::vector<TableLine> lines = {
+      {"effect", "formula", "parameter", "symbol", "value", "unit"}};
+    for (const auto &[name, effect] : effect_registry())
+      {
+        const bool is_active =
+          std::any_of(runs.begin(), runs.end(), [&](const RunResults &run) {
+            const auto &names = run.summary.effects;
+            return std::find(names.begin(), names.end(), effect.name) !=
+                   names.end();
+          });
+        if (!is_active)
+          continue;
+        std::string shown_name = name, formula = effect.formula;
+        for (const EffectParameter &parameter : effect.parameters)
+          {
+            lines.push_back({shown_name,
+                             formula,
+                             parameter.key,
+                             parameter.symbol,
+                             values_text(effect, parameter, shown, laws),
+                             unit_text(parameter)});
+            shown_name = formula = "";
+          }
+        if (effect.parameters.empty())
+          lines.push_back({name, formula, "", "", "", ""});
+      }
+    return lines;
+  }
+} // namespace SlipStep
