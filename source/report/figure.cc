@@ -70,9 +70,14 @@ namespace SlipStep
 
 
 
-  std::string Figure::write() const
+  std::string Figure::write()
   {
-    std::error_code ignored;
+    // Where the axes are, for who reads values off the picture; of several
+    // panels gnuplot knows but the last.
+    const bool is_single =
+      commands.str().find("multiplot") == std::string::npos;
+    const std::string axes_file = name + ".axes";
+    std::error_code   ignored;
     std::filesystem::remove(svg_file(), ignored);
     write_file(folder / (name + ".dat"), data.str());
     write_file(folder / (name + ".gp"),
@@ -81,9 +86,17 @@ namespace SlipStep
                  std::to_string(width) + "," + std::to_string(height) +
                  " font 'DejaVu Sans,Verdana,sans-serif,13' background "
                  "'#ffffff'\nset output '" +
-                 name + ".svg'\n" + commands.str() + "set output\n");
+                 name + ".svg'\n" + commands.str() + "set output\n" +
+                 (is_single ?
+                    "set print '" + axes_file +
+                      "'\nprint GPVAL_TERM_XMIN, GPVAL_TERM_XMAX, "
+                      "GPVAL_TERM_YMIN, GPVAL_TERM_YMAX, GPVAL_X_MIN, "
+                      "GPVAL_X_MAX, GPVAL_Y_MIN, GPVAL_Y_MAX\nset print\n" :
+                    ""));
 
     const std::string reason = draw();
+    axes                     = first_line_with(folder / axes_file, " ");
+    std::filesystem::remove(folder / axes_file, ignored);
     if (reason.empty() && std::filesystem::exists(svg_file()))
       return "";
     std::filesystem::remove(svg_file(), ignored);
@@ -146,7 +159,14 @@ namespace SlipStep
     svg = std::regex_replace(svg,
                              std::regex("<title>Gnuplot</title>"),
                              "<title>" + html_text(title) + "</title>");
-    return svg;
+    std::smatch       logarithmic;
+    const std::string script = commands.str();
+    std::regex_search(script, logarithmic, std::regex("set logscale ([xy]+)"));
+    return "<svg role='img' aria-label=\"" + html_text(title) + "\"" +
+           (axes.empty() ? "" :
+                           " data-axes='" + axes + "' data-log='" +
+                             logarithmic.str(1) + "'") +
+           svg.substr(4);
   }
 
 

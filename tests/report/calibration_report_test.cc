@@ -48,6 +48,9 @@ namespace
               return "</" + name + ">";
             open.pop_back();
           }
+        // What is in it are no tags.
+                    else if (name == "script")
+          at = page.find("</script>", at);
         else if (page[end - 1] != '/' &&
                  std::find(empty.begin(), empty.end(), name) == empty.end())
           open.push_back(name);

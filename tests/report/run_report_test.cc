@@ -433,6 +433,27 @@ TEST(Report, WhatIsPushedIsNotSlid)
 
 
 
+TEST(Report, ThePageWorksWithoutItsScript)
+{
+  write_report(test_folder(), parameters_with({}), {make_run(1., "rough")});
+  const std::string page   = content(test_folder() / "report.html");
+  const auto        script = page.find("<script>");
+  ASSERT_NE(script, std::string::npos);
+  // Nothing is left to be put in by the script, and it fetches nothing.
+  EXPECT_TRUE(contains(page.substr(script), "</script>\n</body>"));
+  for (const std::string word : {"fetch(", "XMLHttp", "import ", "http"})
+    EXPECT_FALSE(contains(page.substr(script), word)) << word;
+  EXPECT_TRUE(contains(page, "prefers-color-scheme: dark"));
+  EXPECT_TRUE(contains(page, "@media print"));
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_TRUE(contains(page, "aria-label=\"Friction against displacement\""));
+  // Pixels of left, right, bottom and top, then the ranges.
+  EXPECT_TRUE(contains(page, "data-axes='"));
+}
+
+
+
 TEST(Report, SlidesToAndFroAreNoTrend)
 {
   SlideSummary back = make_slide(3, 1., -0.11, 0.12, 0.11);

@@ -39,10 +39,11 @@ namespace SlipStep
     /// Write data and script and draw.
     /// @return "" or, when gnuplot is missing, fails or hangs, a warning for the user
     /// @throws RunError if the files cannot be written
-    std::string write() const;
+    std::string write();
 
     /// The picture for inclusion in an HTML page: without XML prologue, its
-    /// ids made unique by the name; "" if it was not drawn.
+    /// ids made unique by the name, with a label for screen readers and the
+    /// place of its axes for the page's script; "" if it was not drawn.
     std::string inline_svg() const;
 
     std::filesystem::path svg_file() const;
@@ -56,6 +57,7 @@ namespace SlipStep
     const unsigned int          width;
     const unsigned int          height;
 
+    std::string        axes; ///< pixels and values of its frame, as text
     unsigned int       n_blocks = 0;
     std::ostringstream data;
     std::ostringstream commands;
