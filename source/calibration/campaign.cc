@@ -92,22 +92,22 @@ namespace SlipStep
 
 
 
+  double Campaign::stated_noise(const Parameters &parameters)
+  {
+    const std::string text = parameters.text(noise_key);
+    if (text == "estimated")
+      return 0.;
+    const Quantity noise(Dimension::number, 0., 1e30, true);
+    if (!noise.match(text))
+      parameters.reject(noise_key,
+                        "must be 'estimated' or a number greater than 0");
+    return noise.value(text);
+  }
+
+
+
   namespace
   {
-    double stated_noise(const Parameters &parameters)
-    {
-      const std::string text = parameters.text(noise_key);
-      if (text == "estimated")
-        return 0.;
-      const Quantity noise(Dimension::number, 0., 1e30, true);
-      if (!noise.match(text))
-        parameters.reject(noise_key,
-                          "must be 'estimated' or a number greater than 0");
-      return noise.value(text);
-    }
-
-
-
     double noted_noise(const MeasuredTest &test)
     {
       const auto note = test.notes.find("noise");
@@ -193,8 +193,9 @@ namespace SlipStep
                                  parameters.number("Calibration/Lead-in"),
                                  row_distance)};
       keep_rows(result.rows, rows);
-      const double noted     = noted_noise(test);
-      const double stated    = noted > 0. ? noted : stated_noise(parameters);
+      const double noted = noted_noise(test);
+      const double stated =
+        noted > 0. ? noted : Campaign::stated_noise(parameters);
       result.noise_is_stated = stated > 0.;
       result.noise =
         result.noise_is_stated ? stated : estimated_noise(result.rows);
@@ -223,36 +224,32 @@ namespace SlipStep
 
 
 
-  namespace
+  std::vector<CampaignTest> Campaign::read_tests(const Parameters &parameters)
   {
-    std::vector<CampaignTest> prepared_tests(const Parameters &parameters)
-    {
-      std::vector<MeasuredTest> measured;
-      for (const fs::path &file : Campaign::test_files(parameters))
-        if (fs::is_directory(file))
-          for (MeasuredTest &test : read_test_set(file))
-            measured.push_back(std::move(test));
-        else
-          measured.push_back(read_measured_test(file));
-      check_conditions(measured);
-      std::vector<CampaignTest> tests;
-      std::set<fs::path>        files;
-      for (const MeasuredTest &test : measured)
-        {
-          if (!files.insert(fs::canonical(test.file)).second)
-            parameters.reject(tests_key,
-                              test.file.string() + " is listed twice");
-          tests.push_back(prepare(test, parameters));
-        }
-      keep_noise_visible(tests);
-      return tests;
-    }
-  } // namespace
+    std::vector<MeasuredTest> measured;
+    for (const fs::path &file : Campaign::test_files(parameters))
+      if (fs::is_directory(file))
+        for (MeasuredTest &test : read_test_set(file))
+          measured.push_back(std::move(test));
+      else
+        measured.push_back(read_measured_test(file));
+    check_conditions(measured);
+    std::vector<CampaignTest> tests;
+    std::set<fs::path>        files;
+    for (const MeasuredTest &test : measured)
+      {
+        if (!files.insert(fs::canonical(test.file)).second)
+          parameters.reject(tests_key, test.file.string() + " is listed twice");
+        tests.push_back(prepare(test, parameters));
+      }
+    keep_noise_visible(tests);
+    return tests;
+  }
 
 
 
   Campaign::Campaign(const Parameters &parameters)
-    : Campaign(parameters, prepared_tests(parameters))
+    : Campaign(parameters, read_tests(parameters))
   {}
 
 

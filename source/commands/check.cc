@@ -32,6 +32,26 @@ namespace SlipStep
 
 
 
+    // What calibrate and diagnose would read.
+    // @return a line about the tests, "" if the case names none
+    std::string check_campaign(const Parameters &parameters)
+    {
+      Campaign::stated_noise(parameters);
+      const bool fits = !parameters.text("Calibration/Parameters").empty();
+      if (!fits && !parameters.is_set("Calibration/Tests"))
+        return "";
+      const auto tests = Campaign::read_tests(parameters);
+      print_warnings(
+        (fits ? Campaign(parameters, tests) : Campaign(parameters, {}, tests))
+          .warnings());
+      std::vector<MeasuredTest> rows;
+      for (const CampaignTest &test : tests)
+        rows.push_back(test.rows);
+      return describe(rows);
+    }
+
+
+
     void check_case_file(const fs::path &file, const CommandLine &line)
     {
       const Case the_case = read_case(file, line);
@@ -39,9 +59,9 @@ namespace SlipStep
       if (!line.output.empty())
         check_output(the_case, line);
       print_warnings(warnings_of_programmes(the_case));
+      std::set<std::string> campaigns;
       for (const Parameters &parameters : the_case.complete)
-        if (!parameters.text("Calibration/Parameters").empty())
-          print_warnings(Campaign(parameters).warnings());
+        campaigns.insert(check_campaign(parameters));
       if (!line.quiet)
         std::cout << file.string() << ": OK"
                   << (the_case.is_sweep() ?
@@ -49,6 +69,10 @@ namespace SlipStep
                           " variants" :
                         "")
                   << std::endl;
+      if (!line.quiet)
+        for (const std::string &campaign : campaigns)
+          if (!campaign.empty())
+            std::cout << "  " << campaign << std::endl;
       if (!line.quiet)
         print_rate_and_state(the_case);
     }
@@ -70,6 +94,8 @@ namespace SlipStep
             std::cout << test.file.string() << ": OK, " << describe(test)
                       << std::endl;
         }
+      if (!line.quiet && tests.size() > 1)
+        std::cout << describe(tests) << std::endl;
     }
   } // namespace
 

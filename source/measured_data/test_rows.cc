@@ -57,6 +57,8 @@ namespace SlipStep
 
       void check_sign_of_friction() const;
 
+      void warn_of_scales();
+
       std::size_t size() const
       {
         return kept.size();
@@ -265,6 +267,43 @@ namespace SlipStep
                     "displacement, to be reversed? Say so in a map of "
                     "slipstep import (Convention)");
     }
+
+
+
+    // What no laboratory measures is a unit, a scale or an offset that went
+    // wrong. A few rows do not count: loads that open have any friction.
+    void RowsOfTest::warn_of_scales()
+    {
+      constexpr double share            = 0.95;
+      constexpr double largest_friction = 2.;
+      constexpr double largest_pressure = 1e5;  // MPa, a tenth of a megabar
+      constexpr double fastest          = 1e6;  // mm/s
+      constexpr double slowest          = 1e-8; // mm/s, a third of a mm a year
+
+      std::vector<double> friction;
+      for (std::size_t i = 0; i < kept.size(); ++i)
+        friction.push_back(
+          std::hypot(test.friction[i],
+                     test.friction_y.empty() ? 0. : test.friction_y[i]));
+      const auto exceeded_by = friction.begin() + share * (kept.size() - 1);
+      std::nth_element(friction.begin(), exceeded_by, friction.end());
+      if (*exceeded_by > largest_friction)
+        warn("friction reaches " + rounded_text(*exceeded_by, 3) +
+               " of the pressure: is it a force, a percentage, or the pressure "
+               "wrong?",
+             kept[0]);
+      if (median(test.pressure) > largest_pressure)
+        warn("the pressure is " + rounded_text(median(test.pressure), 3) +
+               " MPa: is its unit right?",
+             kept[0]);
+      const double speed =
+        std::hypot(range_of(test.displacement), range_of(test.displacement_y)) /
+        (test.time.back() - test.time.front());
+      if (speed > fastest || (speed > 0. && speed < slowest))
+        warn("it moves at " + rounded_text(speed, 3) +
+               " mm/s: are the units of displacement and time right?",
+             kept[0]);
+    }
   } // namespace
 
 
@@ -285,6 +324,7 @@ namespace SlipStep
                           ""));
     rows.check_pressure();
     rows.check_sign_of_friction();
+    rows.warn_of_scales();
   }
 
 

@@ -162,4 +162,35 @@ namespace SlipStep
            rounded_text(*least, 3) + " to " + rounded_text(*most, 3) +
            ", noise " + rounded_text(noise_level(test.friction), 2);
   }
+
+
+
+  std::string describe(const std::vector<MeasuredTest> &tests)
+  {
+    constexpr std::size_t              most_shown = 12;
+    std::vector<std::string>           conditions;
+    std::map<std::string, std::size_t> number;
+    for (const MeasuredTest &test : tests)
+      if (number[test.condition]++ == 0 && !test.condition.empty())
+        conditions.push_back(test.condition);
+
+    std::string text =
+      std::to_string(tests.size()) + (tests.size() == 1 ? " test" : " tests");
+    const char *separator = ": condition ";
+    for (std::size_t i = 0; i < conditions.size(); ++i)
+      {
+        text +=
+          separator + (i < most_shown ?
+                         "'" + conditions[i] +
+                           "': " + std::to_string(number[conditions[i]]) :
+                         std::to_string(conditions.size() - i) + " others");
+        separator = ", ";
+        if (i == most_shown)
+          break;
+      }
+    if (number[""] > 0)
+      text += std::string(conditions.empty() ? ": " : ", ") +
+              std::to_string(number[""]) + " without a condition";
+    return text;
+  }
 } // namespace SlipStep

@@ -71,6 +71,25 @@ TEST(MeasuredTests, WarningsAreShownAndRightFilesDescribed)
 
 
 
+// Also those of a case that only 'slipstep diagnose' will read.
+TEST(MeasuredTests, OfACaseAreChecked)
+{
+  const SlipstepProcess process;
+  process.write("a.csv", header + "0,0,1,0\n1,1,1,0.1\n2,2,1,0.1\n");
+  process.write("case.prm", "set Calibration/Tests = a.csv\n");
+  const auto right = process.run({"check", "case.prm"});
+  EXPECT_EQ(right.exit_code, 0) << right.err;
+  EXPECT_EQ(right.out, "case.prm: OK\n  1 test: 1 without a condition\n");
+  process.write("case.prm", "set Calibration/Noise = much\n");
+  expect_refusal(process.run({"check", "case.prm"}),
+                 {"case.prm:1", "Calibration/Noise", "estimated"});
+  process.write("case.prm", "set Calibration/Tests = nowhere.csv\n");
+  expect_refusal(process.run({"check", "case.prm"}),
+                 {"case.prm:1", "nowhere.csv"});
+}
+
+
+
 TEST(MeasuredTests, MapsCanBeChecked)
 {
   const SlipstepProcess process;

@@ -247,3 +247,32 @@ TEST(TestRows, ACleanWaveIsNoNoise)
   EXPECT_LT(noise_level(clean), 1e-3);
   EXPECT_NEAR(noise_level(noisy), 0.01, 0.002);
 }
+
+
+
+// A wrong unit is nothing that a program can be sure of.
+TEST(TestRows, ScalesOfNoLaboratoryAreWarnedOf)
+{
+  const auto slide = [](const double mm, const double MPa, const double mu) {
+    std::string rows;
+    for (int i = 0; i <= 40; ++i)
+      rows += std::to_string(i) + "," + std::to_string(mm * i) + "," +
+              std::to_string(MPa) + "," + std::to_string(i == 0 ? 0. : mu) +
+              "\n";
+    return read(rows);
+  };
+  for (const double mm : {1e-4, 0.1, 1e5})
+    for (const double MPa : {1e-3, 5., 1e4})
+      for (const double mu : {0.02, 0.3, 1.9})
+        EXPECT_TRUE(slide(mm, MPa, mu).warnings.empty()) << mm << " " << MPa;
+  expect_warning(slide(0.1, 5., 30.),
+                 "friction reaches 30 of the pressure: is it a force");
+  expect_warning(slide(0.1, 5e6, 0.3), "the pressure is 5e+06 MPa");
+  expect_warning(slide(1e8, 5., 0.3), "it moves at 1e+08 mm/s");
+  // At rest nothing is slow, and one open row is no scale.
+  EXPECT_TRUE(slide(0., 5., 0.3).warnings.empty());
+  std::string rows = "0,0,1e-3,90\n";
+  for (int i = 1; i <= 40; ++i)
+    rows += std::to_string(i) + "," + std::to_string(i) + ",5,0.2\n";
+  EXPECT_TRUE(read(rows).warnings.empty());
+}

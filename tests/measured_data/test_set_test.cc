@@ -121,3 +121,16 @@ TEST(TestSet, ThePathIsToldInFull)
   EXPECT_EQ(length(strokes), "50");
   EXPECT_EQ(length(diagonal), "5");
 }
+
+
+
+TEST(TestSet, ConditionsAreCounted)
+{
+  std::vector<MeasuredTest> tests(3);
+  EXPECT_EQ(describe(tests), "3 tests: 3 without a condition");
+  tests[0].condition = tests[2].condition = "dry";
+  EXPECT_EQ(describe(tests),
+            "3 tests: condition 'dry': 2, 1 without a condition");
+  tests[1].condition = "wet";
+  EXPECT_EQ(describe(tests), "3 tests: condition 'dry': 2, 'wet': 1");
+}

@@ -73,6 +73,14 @@ namespace SlipStep
     /// What was done to the rows of the tests.
     std::vector<std::string> warnings() const;
 
+    /// The tests that Calibration/Tests names, ready to be simulated.
+    /// @throws InputError if one cannot be read or its noise makes no sense
+    static std::vector<CampaignTest> read_tests(const Parameters &parameters);
+
+    /// Calibration/Noise, 0 if it is to be estimated.
+    /// @throws InputError if it is neither
+    static double stated_noise(const Parameters &parameters);
+
     /// Paths of the tests' files.
     static std::vector<std::filesystem::path>
     test_files(const Parameters &parameters);

@@ -30,6 +30,9 @@ namespace SlipStep
 
   /// A line about a test: rows, duration, path, pressure, friction, noise.
   std::string describe(const MeasuredTest &test);
+
+  /// A line about a set: how many tests, and of each condition how many.
+  std::string describe(const std::vector<MeasuredTest> &tests);
 } // namespace SlipStep
 
 #endif
