@@ -106,6 +106,12 @@ namespace SlipStep
       result.explained_share = judgement.explained_share;
       result.remainder_p     = judgement.remainder.p;
       final_model            = judgement.found.model;
+      result.is_cut_short    = judgement.found.is_cut_short;
+      if (result.is_cut_short)
+        result.warnings.push_back(
+          "Diagnosis/Most time = " + parameters.text("Diagnosis/Most time") +
+          " was over before the search was: what is proven so far stands; more "
+          "effects, or other ones, may be missing");
       const std::vector<double> &costs = judgement.found.costs;
       std::vector<std::size_t>   order(final_model.parts.size());
       std::iota(order.begin(), order.end(), 0);
@@ -279,7 +285,7 @@ namespace SlipStep
           result.where =
             localise(*ingested.workspace, ingested.base, judgement.gap);
         }
-      if (result.verdict == Verdict::unnamed)
+      if (result.verdict == Verdict::unnamed && !ingested.workspace->is_late())
         {
           suspect_condition();
           correct();

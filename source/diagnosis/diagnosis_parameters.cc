@@ -50,6 +50,12 @@ namespace SlipStep
                        Integer(1, 4),
                        "How many effects may be added, one after the other. 1 "
                        "to 4.");
+    parameters.declare(section + "Most time",
+                       "1 h",
+                       Quantity(Dimension::time, 0., 1e9, true),
+                       "Of the search. Then what is proven so far is the "
+                       "answer, with a warning that says so. More than 0, with "
+                       "its unit.");
     parameters.declare(section + "Draws",
                        "999",
                        Integer(99, 100000),

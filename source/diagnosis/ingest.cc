@@ -230,6 +230,17 @@ namespace SlipStep
 
 
 
+    // From now on.
+    std::chrono::steady_clock::time_point deadline_of(const Parameters &start)
+    {
+      return std::chrono::steady_clock::now() +
+             std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+               std::chrono::duration<double>(
+                 start.number("Diagnosis/Most time")));
+    }
+
+
+
     void Preparer::begin(const std::vector<CampaignTest> &tests)
     {
       const unsigned int most_effects = start.integer("Diagnosis/Most effects");
@@ -243,6 +254,7 @@ namespace SlipStep
                                            start.number("Diagnosis/Level"),
                                            most_effects,
                                            0,
+                                           deadline_of(start),
                                            stage});
       Workspace &workspace = *result.workspace;
       workspace.comparison.set_noise(stated, workspace.comparison.measured);

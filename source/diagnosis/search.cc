@@ -261,6 +261,8 @@ namespace SlipStep
 
       bool examine(const std::size_t part);
 
+      bool is_out_of_time();
+
       bool
       try_rivals(const Model &less, const std::string &name, const double cost);
 
@@ -300,6 +302,8 @@ namespace SlipStep
         {
           if (!is_evident(seen, level) || n_tried == most_tried)
             continue;
+          if (is_out_of_time())
+            return false;
           ++n_tried;
           const std::optional<Model> tried =
             refit_with(workspace, result.model, seen);
@@ -329,6 +333,14 @@ namespace SlipStep
           return true;
         }
       return false;
+    }
+
+
+
+    bool Searcher::is_out_of_time()
+    {
+      result.is_cut_short = result.is_cut_short || workspace.is_late();
+      return result.is_cut_short;
     }
 
 
@@ -377,6 +389,8 @@ namespace SlipStep
               promised < promising_share * cost - promising_slack ||
               n_tried == most_rivals)
             continue;
+          if (is_out_of_time())
+            return false;
           ++n_tried;
           const std::optional<Model> tried = refit_with(workspace, less, seen);
           if (!tried.has_value() || is_at_bound(*tried))
@@ -406,7 +420,9 @@ namespace SlipStep
       result.costs.clear();
       result.left_out_gains.clear();
       for (std::size_t part = 0; part < result.model.parts.size(); ++part)
-        if (examine(part))
+        if (is_out_of_time())
+          return false;
+        else if (examine(part))
           return true;
       return false;
     }
@@ -460,26 +476,35 @@ namespace SlipStep
 
     SearchResult Searcher::run()
     {
+      SearchResult proven = result;
       for (unsigned int round = 0; round < workspace.most_effects; ++round)
         {
           if (!add())
             break;
           prove();
+          if (is_out_of_time())
+            break;
           // What was added and taken away again would come back.
           if (result.model.parts.size() <= round)
             break;
           if (is_soaking_up(workspace.most_effects - round - 1))
             break;
+          proven = result;
         }
-      while (is_soaking_up(0))
+      while (!result.is_cut_short && is_soaking_up(0))
         {
           const std::size_t n = result.model.parts.size();
           drop_weakest();
           if (result.model.parts.size() == n)
             break;
           prove();
+          is_out_of_time();
         }
-      return result;
+      if (!result.is_cut_short)
+        return result;
+      proven.gains        = result.gains;
+      proven.is_cut_short = true;
+      return proven;
     }
   } // namespace
 

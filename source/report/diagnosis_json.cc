@@ -234,6 +234,7 @@ namespace SlipStep
       return {{"candidates", diagnosis.n_candidates},
               {"refits", diagnosis.n_refits},
               {"draws", diagnosis.n_draws},
+              {"cut_short", diagnosis.is_cut_short},
               {"level", diagnosis.level},
               {"confidence", diagnosis.confidence},
               {"wall_s", diagnosis.wall_time},

@@ -205,7 +205,10 @@ namespace SlipStep
                 !is_all_explained(diagnosis) ?
               "; not all of it is explained" :
               "") +
-           outlier_words(diagnosis.outliers) + ".";
+           outlier_words(diagnosis.outliers) + "." +
+           (diagnosis.is_cut_short ? " The search was cut short: not all was "
+                                     "tried (Diagnosis/Most time)." :
+                                     "");
   }
 
 

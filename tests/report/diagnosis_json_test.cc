@@ -95,6 +95,7 @@ TEST(DiagnosisJson, TheBlocksAreTheDocumentedOnes)
               {"candidates",
                "refits",
                "draws",
+               "cut_short",
                "level",
                "confidence",
                "wall_s",

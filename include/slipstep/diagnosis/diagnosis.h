@@ -238,9 +238,11 @@ namespace SlipStep
     // ---- honesty
     unsigned int n_candidates = 0; ///< without those in the model
     /// Whether the case asks for some candidates only.
-    bool                     is_restricted = false;
-    unsigned int             n_refits      = 0;
-    unsigned int             n_draws       = 0;
+    bool         is_restricted = false;
+    unsigned int n_refits      = 0;
+    unsigned int n_draws       = 0;
+    /// Whether Diagnosis/Most time was over before all was tried.
+    bool                     is_cut_short = false;
     std::vector<std::string> would_overturn; ///< sentences
     std::vector<std::string> warnings;
     double                   wall_time = 0.; ///< [s]

@@ -5,6 +5,7 @@
 #include <slipstep/diagnosis/comparison.h>
 #include <slipstep/diagnosis/covariates.h>
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -24,8 +25,16 @@ namespace SlipStep
     double                    level        = 0.04;
     unsigned int              most_effects = 4;
     unsigned int              n_refits     = 0; ///< counted here
+    /// When the search has to come to an end, see is_late().
+    std::chrono::steady_clock::time_point deadline =
+      std::chrono::steady_clock::time_point::max();
     /// Told what is being done.
     std::function<void(const std::string &)> progress;
+
+    bool is_late() const
+    {
+      return std::chrono::steady_clock::now() > deadline;
+    }
   };
 } // namespace SlipStep
 

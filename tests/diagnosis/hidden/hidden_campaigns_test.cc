@@ -341,3 +341,35 @@ TEST_F(CampaignFolder, StatesTheNoiseWithoutReplicates)
               parameters.number("Diagnosis/Gain"),
               1e-12);
 }
+
+
+
+// Out of time before anything is tried, and when a name is added but not proven
+// yet: no name is given, and the search tells why.
+TEST_F(CampaignFolder, HasNoNameBeforeItIsProven)
+{
+  plant(CampaignClass::one, 7);
+  ingested               = ingest(parameters, {});
+  Workspace   &workspace = *ingested.workspace;
+  const auto   past      = std::chrono::steady_clock::now();
+  unsigned int n_added   = 0;
+
+  workspace.deadline      = past;
+  const Judgement at_once = judge(workspace, ingested.base);
+  EXPECT_EQ(name_of(at_once.verdict), name_of(Verdict::unnamed));
+  EXPECT_TRUE(at_once.found.is_cut_short);
+  EXPECT_TRUE(at_once.found.gains.empty());
+
+  workspace.deadline = std::chrono::steady_clock::time_point::max();
+  workspace.progress = [&](const std::string &text) {
+    if (text.rfind("added ", 0) != 0)
+      return;
+    ++n_added;
+    workspace.deadline = past;
+  };
+  const Judgement half_way = judge(workspace, ingested.base);
+  EXPECT_EQ(n_added, 1u);
+  EXPECT_EQ(name_of(half_way.verdict), name_of(Verdict::unnamed));
+  EXPECT_TRUE(half_way.found.is_cut_short);
+  EXPECT_FALSE(half_way.found.gains.empty());
+}
