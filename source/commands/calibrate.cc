@@ -2,15 +2,13 @@
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/report/calibration_report.h>
 #include <slipstep/commands/calibrate.h>
-#include <slipstep/experiment/point_driver.h>
+#include <slipstep/commands/new_case.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/commands/case.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
-#include <slipstep/utilities/write_file.h>
 
 #include <iostream>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -22,10 +20,9 @@ namespace SlipStep
     {
       remove_earlier_results(options.output);
       const std::filesystem::path file = options.output / "fitted.prm";
-      std::ostringstream          text;
-      relocated_case(fitted_case(parameters, calibration), options.output)
-        .print(text, Parameters::Format::prm, options.inactive_sections);
-      write_file(file, text.str());
+      write_new_case(file,
+                     fitted_case(parameters, calibration),
+                     options.inactive_sections);
       write_calibration_json(options.output / "calibration.json",
                              parameters,
                              calibration);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/commands/diagnose.h>
 #include <slipstep/commands/element_check.h>
+#include <slipstep/commands/new_case.h>
 #include <slipstep/diagnosis/diagnose.h>
 #include <slipstep/report/diagnosis_json.h>
 #include <slipstep/report/diagnosis_report.h>
@@ -8,12 +9,10 @@
 #include <slipstep/diagnosis/element_tests.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/commands/sweep.h>
-#include <slipstep/report/case_text.h>
 #include <slipstep/commands/case.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
-#include <slipstep/utilities/write_file.h>
 
 #include <iostream>
 
@@ -26,12 +25,11 @@ namespace SlipStep
                        const RunOptions    &options)
     {
       const Diagnosis &diagnosis = diagnosed.diagnosis;
-      write_file(options.output / diagnosis.improved_case,
-                 case_text(diagnosed.after,
-                           options.output,
-                           options.inactive_sections,
-                           diagnosed.parameters,
-                           {headline(diagnosis)}));
+      write_new_case(options.output / diagnosis.improved_case,
+                     diagnosed.after,
+                     options.inactive_sections,
+                     diagnosed.parameters,
+                     {headline(diagnosis)});
       write_diagnosis_json(options.output / "diagnosis.json",
                            parameters,
                            diagnosis);

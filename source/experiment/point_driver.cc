@@ -4,6 +4,7 @@
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/pushed_contact.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/path_from.h>
 
 #include <algorithm>
 #include <cmath>
@@ -69,8 +70,7 @@ namespace SlipStep
         for (const std::string &file :
              dealii::Utilities::split_string_list(text, ","))
           files += (files.empty() ? "" : ", ") +
-                   std::filesystem::proximate(parameters.resolve(file), folder)
-                     .generic_string();
+                   path_from(folder, parameters.resolve(file));
         return files;
       });
     // Written down, what a later setting has made idle would be an error.

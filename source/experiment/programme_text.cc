@@ -2,6 +2,7 @@
 #include <slipstep/experiment/programme.h>
 #include <slipstep/experiment/programme_text.h>
 #include <slipstep/utilities/home_folder.h>
+#include <slipstep/utilities/path_from.h>
 #include <slipstep/utilities/pattern_words.h>
 
 #include <algorithm>
@@ -54,9 +55,8 @@ namespace SlipStep
         if (name.empty())
           result += text.substr(begin, end - begin);
         else
-          result +=
-            text.substr(begin, piece.column - begin) + verb + " " +
-            std::filesystem::proximate(from / with_home(name), to).string();
+          result += text.substr(begin, piece.column - begin) + verb + " " +
+                    path_from(to, from / with_home(name));
         if (end < text.size())
           result += text[end];
         begin = end + 1;

@@ -20,6 +20,14 @@ namespace SlipStep
       "output/case/point. It is created; an existing one must be empty or hold "
       "earlier results of the same command, which are overwritten. The option "
       "--output goes before it and names the folder itself.");
+    parameters.declare(
+      "Output/New cases",
+      "changes",
+      dealii::Patterns::Selection("changes|complete"),
+      "What 'slipstep calibrate' and 'slipstep diagnose' write into fitted.prm "
+      "and improved.prm: 'changes', an include of this case and the values that "
+      "are others, or 'complete', all values, with which the file can go "
+      "anywhere.");
   }
 
 

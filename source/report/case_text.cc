@@ -43,6 +43,18 @@ namespace SlipStep
         }
       return out.str();
     }
+
+
+
+    std::string as_comments(const std::vector<std::string> &paragraphs)
+    {
+      std::string result;
+      for (const std::string &paragraph : paragraphs)
+        for (const std::string &line :
+             dealii::Utilities::break_text_into_lines(paragraph, 76))
+          result += "# " + line + '\n';
+      return result + (paragraphs.empty() ? "" : "\n");
+    }
   } // namespace
 
 
@@ -61,12 +73,21 @@ namespace SlipStep
     std::ostringstream text;
     relocated_case(the_case, folder)
       .print(text, Parameters::Format::prm, inactive);
-    std::string result;
-    for (const std::string &paragraph : head)
-      for (const std::string &line :
-           dealii::Utilities::break_text_into_lines(paragraph, 76))
-        result += "# " + line + '\n';
-    return result + (head.empty() ? "" : "\n") +
+    return as_comments(head) + with_intervals(text.str(), parameters);
+  }
+
+
+
+  std::string changes_text(const Parameters                      &begin,
+                           const Parameters                      &the_case,
+                           const std::string                     &included,
+                           const std::filesystem::path           &folder,
+                           const std::vector<DiagnosedParameter> &parameters,
+                           const std::vector<std::string>        &head)
+  {
+    std::ostringstream text;
+    relocated_case(the_case, folder).print_changes(text, begin);
+    return as_comments(head) + "include " + included + "\n\n" +
            with_intervals(text.str(), parameters);
   }
 } // namespace SlipStep

@@ -60,30 +60,32 @@ namespace SlipStep
     void print_prm_section(std::ostream                &out,
                            const ParameterSection      &section,
                            const std::string           &indent,
-                           const std::set<std::string> &disabled_sections)
+                           const std::set<std::string> &disabled_sections,
+                           const bool                   explains = true)
     {
       bool is_first = true;
       for (const auto &[entry, value] : section.parameters)
         {
-          out << (is_first ? "" : "\n");
+          if (explains)
+            {
+              out << (is_first ? "" : "\n");
+              print_comment(out,
+                            indent,
+                            entry.documentation + " [" +
+                              allowed_in_words(*entry.pattern) + "]");
+            }
           is_first = false;
-          print_comment(out,
-                        indent,
-                        entry.documentation + " [" +
-                          allowed_in_words(*entry.pattern) + "]");
           print_setting(out, indent, key_of(entry.path), value);
         }
       for (const ParameterSection &child : section.subsections)
         {
-          out << (is_first ? "" : "\n");
+          out << (is_first || !explains ? "" : "\n");
           is_first = false;
           const std::string mark =
             disabled_sections.count(child.path) ? "# " : "";
           out << indent << mark << "subsection " << child.name << '\n';
-          print_prm_section(out,
-                            child,
-                            indent + mark + "  ",
-                            disabled_sections);
+          print_prm_section(
+            out, child, indent + mark + "  ", disabled_sections, explains);
           out << indent << mark << "end\n";
         }
     }
@@ -152,6 +154,13 @@ namespace SlipStep
         out << "  end\n";
       }
     out << "end\n";
+  }
+
+
+
+  void print_settings(std::ostream &out, const ParameterSection &root)
+  {
+    print_prm_section(out, root, "", {}, false);
   }
 
 

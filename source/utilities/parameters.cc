@@ -499,4 +499,27 @@ namespace SlipStep
           break;
       }
   }
+
+
+
+  void Parameters::print_changes(std::ostream     &out,
+                                 const Parameters &other) const
+  {
+    std::vector<PrintedParameter> shown;
+    for (const Entry &entry : entries)
+      if (text(entry.path) != other.text(entry.path))
+        shown.push_back({entry, text(entry.path)});
+    if (variant_list.empty() && !other.variant_list.empty())
+      out << "subsection Variants\nend\n";
+    print_settings(out, parameter_tree(shown));
+  }
+
+
+
+  bool Parameters::has_values_of(const Parameters &other) const
+  {
+    return std::all_of(entries.begin(), entries.end(), [&](const Entry &entry) {
+      return text(entry.path) == other.text(entry.path);
+    });
+  }
 } // namespace SlipStep

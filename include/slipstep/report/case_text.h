@@ -19,6 +19,15 @@ namespace SlipStep
                         const std::set<std::string> &inactive_sections,
                         const std::vector<DiagnosedParameter> &parameters = {},
                         const std::vector<std::string>        &head       = {});
+
+  /// The same as an "include" and what has other values than in @p begin.
+  /// @param included the case file of @p begin, as to be written
+  std::string changes_text(const Parameters                      &begin,
+                           const Parameters                      &the_case,
+                           const std::string                     &included,
+                           const std::filesystem::path           &folder,
+                           const std::vector<DiagnosedParameter> &parameters,
+                           const std::vector<std::string>        &head);
 } // namespace SlipStep
 
 #endif

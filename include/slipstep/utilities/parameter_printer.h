@@ -37,6 +37,9 @@ namespace SlipStep
                  const std::vector<Variant>  &variants,
                  const std::set<std::string> &disabled_sections);
 
+  /// The same without explanations.
+  void print_settings(std::ostream &out, const ParameterSection &root);
+
   /// Nested objects; a parameter is {value, default, documentation, allowed}.
   void print_json(std::ostream &out, const ParameterSection &root);
 

@@ -185,6 +185,13 @@ namespace SlipStep
                const std::set<std::string> &omitted_sections  = {},
                const std::set<std::string> &disabled_sections = {}) const;
 
+    /// Write what has other values than in @p other, as for a file that includes
+    /// the file of @p other.
+    void print_changes(std::ostream &out, const Parameters &other) const;
+
+    /// Whether all values are those of @p other, as text.
+    bool has_values_of(const Parameters &other) const;
+
   private:
     /// It cannot be copied.
     std::unique_ptr<dealii::ParameterHandler> values =
