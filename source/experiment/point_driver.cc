@@ -64,15 +64,16 @@ namespace SlipStep
     result.rewrite("Loading/Programme", [&](const std::string &text) {
       return relocated_programme(text, parameters.resolve("."), folder);
     });
-    for (const std::string &key : parameters.paths("Calibration/Tests"))
-      result.rewrite(key, [&](const std::string &text) {
-        std::string files;
-        for (const std::string &file :
-             dealii::Utilities::split_string_list(text, ","))
-          files += (files.empty() ? "" : ", ") +
-                   path_from(folder, parameters.resolve(file));
-        return files;
-      });
+    for (const std::string prefix : {"Calibration/Tests", "Report/Measured"})
+      for (const std::string &key : parameters.paths(prefix))
+        result.rewrite(key, [&](const std::string &text) {
+          std::string files;
+          for (const std::string &file :
+               dealii::Utilities::split_string_list(text, ","))
+            files += (files.empty() ? "" : ", ") +
+                     path_from(folder, parameters.resolve(file));
+          return files;
+        });
     // Written down, what a later setting has made idle would be an error.
     for (const std::string &key : StepControl::idle_keys(parameters))
       result.rewrite(key, [&](const std::string &) {

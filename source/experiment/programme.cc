@@ -65,6 +65,9 @@ namespace SlipStep
 
       std::vector<Segment> parse();
 
+      /// Every test once.
+      std::vector<FollowedTest> followed;
+
       /// What was done to the rows of tests that are followed.
       std::vector<std::string> warnings;
 
@@ -494,6 +497,9 @@ namespace SlipStep
                           read.warnings.begin(),
                           read.warnings.end());
           tests[name.text] = read;
+          followed.push_back({read,
+                              segments.empty() ? 0. : segments.back().end_time,
+                              present.displacement});
         }
       const MeasuredTest  &test   = tests.at(name.text);
       const auto           origin = present.displacement;
@@ -674,7 +680,8 @@ namespace SlipStep
                        const std::filesystem::path &directory)
   {
     Parser parser(text, default_speed, directory);
-    segment_list = parser.parse();
-    warning_list = parser.warnings;
+    segment_list  = parser.parse();
+    warning_list  = parser.warnings;
+    followed_list = parser.followed;
   }
 } // namespace SlipStep

@@ -4,6 +4,7 @@
 #include <slipstep/report/drawing.h>
 #include <slipstep/report/block_view.h>
 #include <slipstep/report/run_faces.h>
+#include <slipstep/report/run_measured.h>
 #include <slipstep/report/run_pictures.h>
 
 #include <slipstep/report/figure.h>
@@ -391,6 +392,7 @@ namespace SlipStep
     // What the case asks for comes first.
     add_requested_pictures(
       folder, parameters, runs, reference, pictures, warnings);
+    add_measured_pictures(folder, parameters, runs, pictures, warnings);
     pictures.push_back(friction_picture(folder, runs, reference, warnings));
     add_zoom_picture(folder, runs, reference, pictures, warnings);
     add_speed_picture(folder, runs, reference, pictures, warnings);

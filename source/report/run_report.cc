@@ -5,6 +5,7 @@
 #include <slipstep/report/run_results.h>
 #include <slipstep/report/run_figures.h>
 #include <slipstep/report/run_law.h>
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/report/run_pictures.h>
 #include <slipstep/report/page.h>
 #include <slipstep/report/figure.h>
@@ -59,6 +60,13 @@ namespace SlipStep
         ". A value is of a slide or of an instant, and only the like go "
         "together; over direction the picture is polar. What spans decades "
         "has a logarithmic axis.");
+    parameters.declare(
+      "Report/Measured",
+      "",
+      Anything(),
+      "Measured tests that the report draws beside the runs, separated by "
+      "commas, relative to the folder of the case. Tests that the programme "
+      "follows are drawn anyway.");
     parameters.declare("Report/Reference speeds",
                        "",
                        Anything(),
@@ -74,6 +82,8 @@ namespace SlipStep
     const Reference reference(parameters);
     (void)reference;
     check_pictures(parameters);
+    for (const std::string &name : parameters.list("Report/Measured"))
+      read_measured_test(parameters.resolve(name));
   }
 
 

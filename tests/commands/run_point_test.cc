@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "tests/experiment/point_run.h"
@@ -58,4 +60,44 @@ TEST(RunPoint, StepsTooLongForTheEnergyAreWarnedOf)
   EXPECT_NE(warnings("Time stepping/Equal steps per statement", "1")
               .find("more Time stepping/Equal steps per statement than 1 "),
             std::string::npos);
+}
+
+
+
+// Simulated: 0 and ten times 0.2; measured 0 and ten times 0.25.
+TEST(RunPoint, ATestThatIsFollowedIsDrawnBesideIt)
+{
+  const auto folder = test_folder();
+  {
+    std::ofstream file(folder / "slide.csv");
+    file << "# name: a slide\ntime_s,displacement_mm,pressure_MPa,friction\n";
+    for (int i = 0; i <= 10; ++i)
+      file << i << ',' << i << ",5," << (i == 0 ? 0. : 0.25) << '\n';
+  }
+  Parameters parameters = point_parameters({});
+  declare_report_parameters(parameters);
+  declare_quantities(parameters);
+  parameters.set("Loading/Programme",
+                 "press 5 MPa in 1 s; follow " +
+                   (folder / "slide.csv").string(),
+                 "here");
+  parameters.set("Friction/Effects", "", "here");
+  parameters.set("Friction/Static coefficient", "0.2", "here");
+  RunOptions options;
+  options.quiet  = true;
+  options.output = folder / "results";
+  std::filesystem::create_directory(options.output);
+  run_point(parameters, options);
+  write_report(options.output, parameters, {{"", options.output}});
+  const std::string page = content(options.output / "report.html");
+  EXPECT_TRUE(contains(page,
+                       "Root mean square of their difference: a slide: 0.048, "
+                       "20 % of friction."));
+  EXPECT_TRUE(contains(page, "Measured and simulated"));
+  // Without its file there are the other pictures, and a word.
+  std::filesystem::remove(folder / "slide.csv");
+  write_report(options.output, parameters, {{"", options.output}});
+  const std::string without = content(options.output / "report.html");
+  EXPECT_FALSE(contains(without, "Measured and simulated"));
+  EXPECT_TRUE(contains(without, "no measured tests in the pictures"));
 }

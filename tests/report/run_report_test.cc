@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/history.h>
 #include <slipstep/friction/law.h>
+#include <slipstep/experiment/point_driver.h>
 #include <slipstep/report/run_report.h>
 #include <slipstep/report/run_results.h>
 #include <slipstep/experiment/summary.h>
@@ -25,6 +26,7 @@ namespace
     const std::vector<std::pair<std::string, std::string>> &values)
   {
     Parameters parameters;
+    declare_loading_parameters(parameters);
     declare_report_parameters(parameters);
     for (const auto &[key, value] : values)
       parameters.set("Report/" + key, value, "test");
@@ -588,6 +590,7 @@ TEST(Report, TheLawIsShownAtWorkAndItsEffectsByFormula)
   summary.effects           = {"softening"};
   write_summary(run.folder / "summary.json", summary);
   Parameters parameters;
+  declare_loading_parameters(parameters);
   declare_report_parameters(parameters);
   FrictionLaw::declare_parameters(parameters);
   parameters.set("Friction/softening/Rate", "50 1/m", "test");

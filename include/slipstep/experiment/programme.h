@@ -4,6 +4,8 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <slipstep/measured_data/measured_test.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -38,6 +40,14 @@ namespace SlipStep
     /// Tangential load per nominal area at the end [MPa], reached evenly from
     /// the one at the start.
     dealii::Tensor<1, 2> push;
+  };
+
+  /// A measured test whose motion the programme repeats.
+  struct FollowedTest
+  {
+    MeasuredTest         test;
+    double               start_time = 0.; ///< of the programme [s]
+    dealii::Tensor<1, 2> origin;          ///< displacement there [mm]
   };
 
   /// The loading programme, written to be read aloud:
@@ -90,6 +100,12 @@ namespace SlipStep
     /// Largest nominal pressure met [MPa].
     double largest_pressure() const;
 
+    /// Measured tests that are followed, each where it is first.
+    const std::vector<FollowedTest> &followed() const
+    {
+      return followed_list;
+    }
+
     /// What was done to the rows of tests that are followed, to be shown.
     const std::vector<std::string> &warnings() const
     {
@@ -97,8 +113,9 @@ namespace SlipStep
     }
 
   private:
-    std::vector<Segment>     segment_list;
-    std::vector<std::string> warning_list;
+    std::vector<Segment>      segment_list;
+    std::vector<FollowedTest> followed_list;
+    std::vector<std::string>  warning_list;
   };
 
   /// The text of a programme whose file names are relative to @p from, as it

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/experiment/point_driver.h>
+#include <slipstep/measured_data/test_rows.h>
+#include <slipstep/report/drawing.h>
+#include <slipstep/report/run_measured.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// A measured test beside the run that it is compared with.
+    struct MeasuredBeside
+    {
+      MeasuredTest test;
+      std::size_t  run         = 0;
+      bool         is_repeated = false; ///< by the programme, row by row
+      double       start_time  = 0.;    ///< in the run [s]
+      double       start       = 0.;    ///< displacement in the run [mm]
+    };
+
+
+
+    Parameters parameters_of(const Parameters &parameters,
+                             const RunResults &run)
+    {
+      for (const Variant &variant : parameters.variants())
+        if (variant.label == run.label)
+          return parameters.with_variant(variant);
+      return parameters;
+    }
+
+
+
+    std::vector<MeasuredBeside>
+    measured_tests(const Parameters              &parameters,
+                   const std::vector<RunResults> &runs,
+                   std::vector<std::string>      &warnings)
+    {
+      std::vector<MeasuredBeside> result;
+      try
+        {
+          for (std::size_t i = 0; i < runs.size(); ++i)
+            {
+              const Programme programme =
+                parse_programme(parameters_of(parameters, runs[i]));
+              for (const FollowedTest &followed : programme.followed())
+                result.push_back({followed.test,
+                                  i,
+                                  true,
+                                  followed.start_time,
+                                  followed.origin[0]});
+            }
+          for (const std::string &name : parameters.list("Report/Measured"))
+            result.push_back(
+              {read_measured_test(parameters.resolve(name)), 0, false, 0., 0.});
+        }
+      catch (const InputError &error)
+        {
+          warnings.push_back(
+            std::string("no measured tests in the pictures: ") + error.what());
+          result.clear();
+        }
+      return result;
+    }
+
+
+
+    /// Friction of a run at a time, NaN outside.
+    double friction_at(const RunResults &run, const double time)
+    {
+      const auto &rows  = run.history;
+      const auto  after = std::lower_bound(rows.begin(),
+                                          rows.end(),
+                                          time,
+                                          [](const HistoryRow &row, double t) {
+                                            return row.time < t;
+                                          });
+      if (after == rows.end() || (after == rows.begin() && after->time > time))
+        return std::numeric_limits<double>::quiet_NaN();
+      if (after == rows.begin())
+        return after->friction;
+      const HistoryRow &before = *(after - 1);
+      const double share = (time - before.time) / (after->time - before.time);
+      return before.friction + share * (after->friction - before.friction);
+    }
+
+
+
+    /// By how much run and test differ, in words; "" if no time is common.
+    std::string difference_in_words(const MeasuredBeside &measured,
+                                    const RunResults     &run)
+    {
+      double      squares = 0., friction = 0.;
+      std::size_t n = 0;
+      for (std::size_t i = 0; i < measured.test.time.size(); ++i)
+        {
+          const double simulated =
+            friction_at(run,
+                        measured.start_time + measured.test.time[i] -
+                          measured.test.time[0]);
+          if (!std::isfinite(simulated))
+            continue;
+          squares += std::pow(simulated - measured.test.friction[i], 2);
+          friction += std::pow(measured.test.friction[i], 2);
+          ++n;
+        }
+      if (n == 0)
+        return "";
+      const double rms = std::sqrt(squares / n);
+      return measured.test.name + ": " + rounded_text(rms, 2) +
+             (friction > 0. ?
+                ", " + rounded_text(100. * rms / std::sqrt(friction / n), 2) +
+                  " % of friction" :
+                "");
+    }
+
+
+
+    /// Rests and strokes lie on top of each other over displacement.
+    bool is_better_over_time(const MeasuredBeside &measured)
+    {
+      const auto  &x    = measured.test.displacement;
+      const double band = 0.01 * SlipStep::range_of(x);
+      return measured.is_repeated && !turning_rows(x, band).empty();
+    }
+
+
+
+    void draw_measured(const std::filesystem::path       &folder,
+                       const std::vector<MeasuredBeside> &measured,
+                       const bool                         is_over_time,
+                       const std::vector<RunResults>     &runs,
+                       std::vector<Picture>              &pictures,
+                       std::vector<std::string>          &warnings)
+    {
+      const std::string abscissa = is_over_time ? "time" : "displacement";
+      Figure            figure(folder,
+                    "measured_over_" + abscissa,
+                    "Measured and simulated friction over " + abscissa,
+                    picture_width,
+                    400);
+      const std::vector<std::string> greys = {"#777777", "#aaaaaa", "#444444"};
+      Range                          friction;
+      std::string                    plots, differences;
+      std::vector<bool>              is_drawn(runs.size(), false);
+      std::size_t                    n = 0;
+      for (const MeasuredBeside &beside : measured)
+        {
+          const MeasuredTest &test = beside.test;
+          Rows                points;
+          for (std::size_t i = 0; i < test.time.size(); ++i)
+            points.push_back(
+              {is_over_time ?
+                 beside.start_time + test.time[i] - test.time[0] :
+                 beside.start + test.displacement[i] - test.displacement[0],
+               test.friction[i]});
+          for (const auto &point : points)
+            friction.add(point[1]);
+          plots += (plots.empty() ? "plot " : ", \\\n  ") +
+                   figure.add_data(test.name,
+                                   {abscissa, "friction"},
+                                   thinned(points)) +
+                   " with points pt 7 ps 0.4 lc rgb '" +
+                   greys[n++ % greys.size()] + "' title " +
+                   gnuplot_text(test.name + ", measured");
+          if (beside.is_repeated)
+            {
+              is_drawn[beside.run] = true;
+              const std::string difference =
+                difference_in_words(beside, runs[beside.run]);
+              differences += (difference.empty()  ? "" :
+                              differences.empty() ? "" :
+                                                    "; ") +
+                             difference;
+            }
+        }
+      const bool draws_all = std::none_of(is_drawn.begin(),
+                                          is_drawn.end(),
+                                          [](bool is) { return is; });
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        {
+          if (!draws_all && !is_drawn[i])
+            continue;
+          Rows points;
+          for (const HistoryRow &row : runs[i].history)
+            points.push_back(
+              {is_over_time ? row.time : row.displacement, row.friction});
+          if (!points.empty())
+            plots += ", \\\n  " +
+                     figure.add_data(legend(runs[i]),
+                                     {abscissa, "friction"},
+                                     thinned(points)) +
+                     " with lines lw 1.8 " + run_style(i) + " title " +
+                     gnuplot_text(legend(runs[i]));
+        }
+      figure.script() << axes_style
+                      << "set key outside below Left reverse\n"
+                         "set xrange [] noextend\n"
+                      << (friction.lower >= -1e-3 ? "set yrange [0:*]\n" : "")
+                      << "set xlabel '"
+                      << (is_over_time ? "Time  [s]" :
+                                         "Displacement of the drive  [mm]")
+                      << "'\nset ylabel 'Friction  (tangential / normal "
+                         "load)'\n"
+                      << plots << '\n';
+      pictures.push_back(
+        finish(figure,
+               "Measured and simulated",
+               differences.empty() ?
+                 "" :
+                 "Root mean square of their difference: " + differences + ".",
+               warnings));
+    }
+  } // namespace
+
+
+
+  void add_measured_pictures(const std::filesystem::path   &folder,
+                             const Parameters              &parameters,
+                             const std::vector<RunResults> &runs,
+                             std::vector<Picture>          &pictures,
+                             std::vector<std::string>      &warnings)
+  {
+    std::vector<MeasuredBeside> over[2];
+    for (const MeasuredBeside &measured :
+         measured_tests(parameters, runs, warnings))
+      over[is_better_over_time(measured)].push_back(measured);
+    for (const bool is_over_time : {false, true})
+      if (!over[is_over_time].empty())
+        draw_measured(
+          folder, over[is_over_time], is_over_time, runs, pictures, warnings);
+  }
+} // namespace SlipStep
