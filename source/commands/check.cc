@@ -32,13 +32,26 @@ namespace SlipStep
 
 
 
+    // A file in which every key is written names the default folder, whether
+    // there are tests or not.
+    bool names_tests(const Parameters &parameters)
+    {
+      const std::string key   = "Calibration/Tests";
+      const std::string value = parameters.text(key);
+      return parameters.is_set(key) && (fs::path(value).filename() !=
+                                          parameters.entry(key).default_value ||
+                                        fs::exists(parameters.resolve(value)));
+    }
+
+
+
     // What calibrate and diagnose would read.
     // @return a line about the tests, "" if the case names none
     std::string check_campaign(const Parameters &parameters)
     {
       Campaign::stated_noise(parameters);
       const bool fits = !parameters.text("Calibration/Parameters").empty();
-      if (!fits && !parameters.is_set("Calibration/Tests"))
+      if (!fits && !names_tests(parameters))
         return "";
       const auto tests = Campaign::read_tests(parameters);
       print_warnings(
