@@ -43,6 +43,7 @@ namespace SlipStep
                        all_constraints,
                        std::vector<dealii::QGauss<1>>{dealii::QGauss<1>(n_1d)},
                        settings);
+    forget_categories(dof_handlers.size());
     nodes = find_nodes(constraints, 0);
     if (with_plain_product)
       plain_nodes = find_nodes(none, 1);
@@ -519,6 +520,20 @@ namespace SlipStep
     forget_unknowns(nodes, 0);
     if (with_plain_product)
       forget_unknowns(nodes_without_constraints(), 1);
+  }
+
+
+
+  // The library keeps categories where it keeps the elements of hp methods, and
+  // its checks would take cells of two categories for cells of two elements.
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::forget_categories(
+    const unsigned int n_dof_handlers)
+  {
+    using DoFInfo = dealii::internal::MatrixFreeFunctions::DoFInfo;
+    for (unsigned int i = 0; i < n_dof_handlers; ++i)
+      const_cast<DoFInfo &>(matrix_free.get_dof_info(i))
+        .cell_active_fe_index.clear();
   }
 
 
