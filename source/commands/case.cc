@@ -91,6 +91,8 @@ namespace SlipStep
   {
     Parameters as_written = declared_parameters();
     as_written.read(file);
+    for (const auto &[path, values] : line.sweeps)
+      as_written.sweep(path, values, "--sweep");
 
     Case result;
     result.parameters = as_written;

@@ -5,6 +5,7 @@
 #include <slipstep/commands/calibrate.h>
 #include <slipstep/commands/check.h>
 #include <slipstep/commands/commands.h>
+#include <slipstep/commands/compare.h>
 #include <slipstep/commands/diagnose.h>
 #include <slipstep/commands/export_law.h>
 #include <slipstep/commands/print_parameters.h>
@@ -49,6 +50,7 @@ namespace SlipStep
         {"run", run},
         {"point", run},
         {"check", check},
+        {"compare", guarding(compare_results)},
         {"refine", guarding(refine_block)},
         {"calibrate", guarding(calibrate_case)},
         {"diagnose", guarding(diagnose_case)},

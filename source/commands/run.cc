@@ -6,6 +6,7 @@
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/report/run_report.h>
+#include <slipstep/commands/job_array.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/commands/sweep.h>
@@ -143,6 +144,9 @@ namespace SlipStep
 
     Outcome Runner::run()
     {
+      if (!line.slurm.empty())
+        return guarded(
+          [this]() { return write_job_array(the_case, line, output); });
       if (the_case.variants.size() > 1 && !is_under_mpirun())
         return guarded([this]() { return run_children(); });
       const auto work = [this]() { return run_in_process(); };
@@ -299,6 +303,8 @@ namespace SlipStep
                                    variant.folder));
           for (const std::string &setting : line.settings_as_typed)
             jobs.back().arguments.push_back("--set=" + setting);
+          for (const std::string &sweep : line.sweeps_as_typed)
+            jobs.back().arguments.push_back("--sweep=" + sweep);
           if (earlier[i] == EarlierRun::none)
             remove_earlier_results(output / variant.folder);
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/repeat_command.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace SlipStep
@@ -39,6 +40,31 @@ namespace SlipStep
       if (parameters.is_set(path) &&
           parameters.origin(path).compare(0, 5, "--set") == 0)
         text += " --set \"" + path + "=" + parameters.text(path) + "\"";
+    // Every value once, in the order of the variants.
+    std::vector<std::pair<std::string, std::vector<std::string>>> sweeps;
+    for (const Variant &variant : parameters.variants())
+      for (const Variant::Override &setting : variant.overrides)
+        if (setting.origin == "--sweep")
+          {
+            auto sweep = std::find_if(sweeps.begin(),
+                                      sweeps.end(),
+                                      [&](const auto &known) {
+                                        return known.first == setting.path;
+                                      });
+            if (sweep == sweeps.end())
+              sweep = sweeps.insert(sweep, {setting.path, {}});
+            auto &values = sweep->second;
+            if (std::find(values.begin(), values.end(), setting.value) ==
+                values.end())
+              values.push_back(setting.value);
+          }
+    for (const auto &[path, values] : sweeps)
+      {
+        text += " --sweep \"" + path;
+        for (std::size_t i = 0; i < values.size(); ++i)
+          text += (i == 0 ? "=" : "|") + values[i];
+        text += "\"";
+      }
     return text;
   }
 } // namespace SlipStep

@@ -4,6 +4,7 @@
 #include <slipstep/report/drawing.h>
 #include <slipstep/report/block_view.h>
 #include <slipstep/report/run_faces.h>
+#include <slipstep/report/run_grid.h>
 #include <slipstep/report/run_measured.h>
 #include <slipstep/report/run_pictures.h>
 
@@ -392,6 +393,7 @@ namespace SlipStep
     // What the case asks for comes first.
     add_requested_pictures(
       folder, parameters, runs, reference, pictures, warnings);
+    add_grid_pictures(folder, parameters, runs, reference, pictures, warnings);
     add_measured_pictures(folder, parameters, runs, pictures, warnings);
     pictures.push_back(friction_picture(folder, runs, reference, warnings));
     add_zoom_picture(folder, runs, reference, pictures, warnings);

@@ -143,7 +143,8 @@ namespace SlipStep
                     "measured_over_" + abscissa,
                     "Measured and simulated friction over " + abscissa,
                     picture_width,
-                    400);
+                    // The legend is below.
+                    390 + 12 * (measured.size() + runs.size()));
       const std::vector<std::string> greys = {"#777777", "#aaaaaa", "#444444"};
       Range                          friction;
       std::string                    plots, differences;

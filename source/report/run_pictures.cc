@@ -330,6 +330,7 @@ namespace SlipStep
         std::all_of(runs.begin(), runs.end(), [&](const auto &run) {
           return points_of(requested, run, reference).size() <= 1;
         });
+      bool       is_zigzag = false;
       const auto plot =
         [&](const Rows &points, const std::size_t i, const std::string &of) {
           if (points.empty())
@@ -342,8 +343,9 @@ namespace SlipStep
           plots +=
             (plots.empty() ? "plot " : ", \\\n  ") +
             figure.add_data(of, {requested.x.name, requested.y.name}, points) +
-            (is_curve ? " with lines lw 1.8 " :
-                        " with linespoints pt 7 ps 0.8 lw 1.2 ") +
+            (is_curve  ? " with lines lw 1.8 " :
+             is_zigzag ? " with points pt 7 ps 0.8 " :
+                         " with linespoints pt 7 ps 0.8 lw 1.2 ") +
             run_style(i) +
             (of.empty() ? " notitle" : " title " + gnuplot_text(of));
         };
@@ -356,6 +358,13 @@ namespace SlipStep
             plot(points, i, runs.size() > 1 ? legend(runs[i]) : "");
         }
       std::sort(all.begin(), all.end());
+      // Where something else varies, too, a line would be a zigzag.
+      is_zigzag = std::adjacent_find(all.begin(),
+                                     all.end(),
+                                     [](const auto &one, const auto &other) {
+                                       return other[0] - one[0] <=
+                                              1e-6 * std::abs(one[0]);
+                                     }) != all.end();
       plot(all, 0, "");
       if (plots.empty())
         {

@@ -575,9 +575,12 @@ namespace SlipStep
 
     /// How to get these results again.
     std::string repetition(const Parameters              &parameters,
-                           const std::vector<RunResults> &runs)
+                           const std::vector<RunResults> &runs,
+                           const bool                     is_one_case)
     {
-      std::string html = "<p>The whole case, as its file is now:</p>\n<pre>" +
+      std::string html =
+        !is_one_case ? "" :
+                       "<p>The whole case, as its file is now:</p>\n<pre>" +
                          html_text(program_call(runs[0].summary.command,
                                                 parameters.case_file().string(),
                                                 runs[0].summary.ranks) +
@@ -621,6 +624,7 @@ namespace SlipStep
                      const std::vector<Picture>     &pictures,
                      const std::string              &law,
                      const std::string              &study,
+                     const bool                      is_one_case,
                      const std::vector<std::string> &warnings)
     {
       const auto         rows = result_rows(runs, reference);
@@ -634,16 +638,22 @@ namespace SlipStep
         {
           html << heading("Energy") << html_table(energy_lines(runs))
                << quantities(runs) << heading("Cost")
-               << html_table(cost_lines(runs)) << heading("Friction law")
-               << html_table(effect_table(parameters, runs), "law")
-               << heading("Conditions")
-               << html_table(condition_lines(parameters, runs), "values")
-               << heading("Repeat it") << repetition(parameters, runs);
+               << html_table(cost_lines(runs));
+          // Of several cases the parameters are of none.
+          if (is_one_case)
+            html << heading("Friction law")
+                 << html_table(effect_table(parameters, runs), "law")
+                 << heading("Conditions")
+                 << html_table(condition_lines(parameters, runs), "values");
+          html << heading("Repeat it")
+               << repetition(parameters, runs, is_one_case);
         }
       return html_page(case_title(parameters, runs),
                        rows.empty() ?
                          headline_of_pushes(runs) :
-                         headline(rows, reference, has_one_law(parameters)),
+                         headline(rows,
+                                  reference,
+                                  is_one_case && has_one_law(parameters)),
                        html.str());
     }
   } // namespace
@@ -653,7 +663,8 @@ namespace SlipStep
   std::vector<std::string> write_report(const std::filesystem::path &folder,
                                         const Parameters            &parameters,
                                         const std::vector<ReportedRun> &runs,
-                                        const std::string              &study)
+                                        const std::string              &study,
+                                        const bool is_one_case)
   {
     const Reference             reference(parameters);
     std::vector<std::string>    warnings;
@@ -664,9 +675,15 @@ namespace SlipStep
       draw_pictures(picture_folder, parameters, results, reference, warnings);
 
     const std::string law = law_at_work(picture_folder, results, warnings);
-    write_file(
-      folder / "report.html",
-      page(parameters, reference, results, pictures, law, study, warnings));
+    write_file(folder / "report.html",
+               page(parameters,
+                    reference,
+                    results,
+                    pictures,
+                    law,
+                    study,
+                    is_one_case,
+                    warnings));
     return warnings;
   }
 } // namespace SlipStep

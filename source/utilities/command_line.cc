@@ -49,7 +49,7 @@ namespace SlipStep
          "there and keeps the variants that are finished.\n",
          1,
          1,
-         {"set", "output", "variant", "resume", "quiet"},
+         {"set", "sweep", "slurm", "output", "variant", "resume", "quiet"},
          {}},
         {"point",
          "CASE.prm",
@@ -58,7 +58,7 @@ namespace SlipStep
          "checkpoints. --resume keeps the variants that are finished.\n",
          1,
          1,
-         {"set", "output", "variant", "resume", "quiet"},
+         {"set", "sweep", "slurm", "output", "variant", "resume", "quiet"},
          {}},
         {"refine",
          "CASE.prm",
@@ -75,6 +75,16 @@ namespace SlipStep
          1,
          1,
          {"set", "output", "variant", "resume", "quiet"},
+         {}},
+        {"compare",
+         "RESULTS ...",
+         "put results of several runs into one page",
+         "RESULTS are folders that run or point wrote, of single runs or whole\n"
+         "sweeps, and measured tests (.csv) to be drawn beside. The page has\n"
+         "their curves and tables together, and the keys in which they differ.\n",
+         1,
+         any,
+         {"output", "quiet"},
          {}},
         {"calibrate",
          "CASE.prm",
@@ -156,7 +166,7 @@ namespace SlipStep
          "a .csv file, or a folder of them, whose replicates are compared.\n",
          1,
          any,
-         {"set", "output", "variant", "quiet"},
+         {"set", "sweep", "output", "variant", "quiet"},
          {}},
         {"effects",
          "",
@@ -224,10 +234,14 @@ namespace SlipStep
       options.add_options()
         ("set", po::value<std::vector<std::string>>()->value_name("\"PATH=VALUE\""),
          "override a parameter, e.g. --set \"Friction/softening/Rate=0.05\"; repeatable")
+        ("sweep", po::value<std::vector<std::string>>()->value_name("\"PATH=A|B|C\""),
+         "run with each of these values; repeatable, for all combinations")
         ("output", po::value<std::string>()->value_name("DIR"),
          "folder of the results, instead of Output/Directory")
         ("variant", po::value<std::string>()->value_name("NAME"),
          "only this member of the case's sweep")
+        ("slurm", po::value<std::string>()->value_name("FILE"),
+         "write the sweep as a job array for a cluster, run nothing")
         ("format", po::value<std::string>()->value_name("NAME"),
          "prm, json, md (parameters); text, md (effects); law, abaqus (export)")
         ("resume", "go on where an earlier run of the case was stopped")
@@ -338,9 +352,9 @@ namespace SlipStep
       const std::string place = "--set \"" + excerpt(text) + "\": ";
       if (word == "sweep" || word == "variants")
         throw InputError(place +
-                         "only a case file defines a sweep; --set changes "
-                         "one key for all of its members, --variant NAME "
-                         "chooses one");
+                         "--set changes one key for all members of a sweep, "
+                         "--variant NAME chooses one; --sweep "
+                         "\"Section/Key=A|B|C\" sweeps one more");
       if (word == "include" || word == "subsection" || word == "end")
         throw InputError(place + "only a case file has lines with '" + word +
                          "'; write --set \"Section/Key = value\"");
@@ -351,15 +365,38 @@ namespace SlipStep
 
 
 
-    std::pair<std::string, std::string> parse_setting(const std::string &text)
+    // @param option "--set" or "--sweep"
+    std::pair<std::string, std::string> parse_setting(const std::string &option,
+                                                      const std::string &text)
     {
-      reject_statement(text);
+      if (option == "--set")
+        reject_statement(text);
       const std::size_t sign = text.find('=');
       if (sign == std::string::npos || sign == 0)
-        throw InputError("--set \"" + excerpt(text) +
-                         "\": write it as --set \"Section/Key = value\"");
+        throw InputError(option + " \"" + excerpt(text) + "\": write it as " +
+                         option + " \"Section/Key = value" +
+                         (option == "--set" ? "" : " | value") + "\"");
       return {dealii::Utilities::trim(text.substr(0, sign)),
               dealii::Utilities::trim(text.substr(sign + 1))};
+    }
+
+
+
+    std::pair<std::string, std::vector<std::string>>
+    parse_sweep(const std::string &text)
+    {
+      const auto setting = parse_setting("--sweep", text);
+      auto values = dealii::Utilities::split_string_list(setting.second, '|');
+      // A last one that is empty is not in the list.
+      const auto n_values =
+        1 + std::count(setting.second.begin(), setting.second.end(), '|');
+      if (static_cast<std::ptrdiff_t>(values.size()) != n_values ||
+          std::find(values.begin(), values.end(), "") != values.end())
+        throw InputError("--sweep \"" + excerpt(text) +
+                         "\": a value is missing; write the values with | "
+                         "between them, as in --sweep \"Loading/Speed=1 "
+                         "mm/min|10 mm/min\"");
+      return {setting.first, values};
     }
 
 
@@ -373,7 +410,10 @@ namespace SlipStep
       };
       if (line.files.size() < command.least_files)
         throw InputError("slipstep " + command.name +
-                         ": the name of a .prm file is missing" + usage());
+                         (command.arguments.rfind("CASE.prm", 0) == 0 ?
+                            ": the name of a .prm file is missing" :
+                            ": an argument is missing") +
+                         usage());
       if (line.files.size() > command.most_files)
         throw InputError("slipstep " + command.name + ": \"" +
                          line.files[command.most_files].string() +
@@ -418,6 +458,7 @@ namespace SlipStep
     line.output            = with_home(text("output")).string();
     line.format            = text("format");
     line.variant           = text("variant");
+    line.slurm             = with_home(text("slurm")).string();
     line.quiet             = values.count("quiet") > 0;
     line.resume            = values.count("resume") > 0;
     line.is_child          = values.count("child") > 0;
@@ -445,15 +486,25 @@ namespace SlipStep
         line.plant_options[name];
     for (const std::string &typed : line.settings_as_typed)
       {
-        const auto setting = parse_setting(typed);
+        const auto setting = parse_setting("--set", typed);
         for (const auto &other : line.settings)
           if (other.first == setting.first)
             throw InputError("--set " + setting.first + " is given twice: " +
                              other.second + " and " + setting.second);
         line.settings.push_back(setting);
       }
+    line.sweeps_as_typed = list("sweep");
+    for (const std::string &typed : line.sweeps_as_typed)
+      line.sweeps.push_back(parse_sweep(typed));
+    for (const auto &sweep : line.sweeps)
+      for (const auto &setting : line.settings)
+        if (setting.first == sweep.first)
+          throw InputError("--sweep " + sweep.first +
+                           ": --set gives it, too: leave out one of the two");
     if (values.count("output") && line.output.empty())
       throw InputError("--output: the name of a folder is needed");
+    if (values.count("slurm") && line.slurm.empty())
+      throw InputError("--slurm: the name of a file is needed");
     if (values.count("variant") && line.variant.empty())
       throw InputError("--variant: the name of a variant is needed");
 

@@ -7,49 +7,31 @@
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/parameter_reader.h>
 #include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/sweep.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace SlipStep
 {
   namespace
   {
-    // The sections that define a sweep, as far as one file gives them.
-    struct SweepText
+    // A key that is swept: "Key" and "Values", "Key 2" and "Values 2", ...
+    struct SweptKey
     {
-      bool                 has_variants = false;
-      bool                 has_sweep    = false;
-      std::string          key, key_origin;
-      std::string          values, values_origin;
-      std::vector<Variant> variants;
+      std::string key, key_origin;
+      std::string values, values_origin;
     };
 
 
 
-    // File systems take 255 bytes.
-    constexpr std::size_t longest_folder = 200;
-
-    // A legend as a folder name: nothing that a shell or a URL would need
-    // quoted.
-    std::string folder_name(const std::string &label)
+    // The sections that define a sweep, as far as one file gives them.
+    struct SweepText
     {
-      std::string folder;
-      for (const char c : label)
-        {
-          const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) ||
-                                c == '.' || c == '-' || c == '+' || c == '_';
-          const char safe = is_plain ? c : (c == '/' ? '-' : '_');
-          if (safe != '_' || folder.empty() || folder.back() != '_')
-            folder += safe;
-        }
-      // Hidden folders, "..", and the report's own folder.
-      if (folder.empty() || folder.front() == '.' || folder.front() == '-')
-        folder.insert(0, "_");
-      if (folder == "report")
-        folder += "_";
-      return folder;
-    }
+      bool                             has_variants = false;
+      bool                             has_sweep    = false;
+      std::map<unsigned int, SweptKey> keys; ///< by their numbers
+      std::vector<Variant>             variants;
+    };
 
 
 
@@ -127,10 +109,6 @@ namespace SlipStep
 
       std::vector<Variant> variants_of_sweep(const SweepText &sweep,
                                              const FileState &state) const;
-
-      static void add_variant(std::vector<Variant> &variants,
-                              const std::string    &label,
-                              const std::string    &origin);
 
       static std::string path_of(const FileState   &state,
                                  const std::string &name,
@@ -352,18 +330,35 @@ namespace SlipStep
 
 
 
+    // "Key", "Values", or with a number from 2 behind it.
     void CaseReader::set_sweep_key(FileState          &state,
                                    const PrmStatement &statement) const
     {
-      const std::string where  = place(state.file, statement.line);
-      SweepText        &sweep  = state.sweep;
-      const bool        is_key = statement.name == "Key";
-      std::string      &value  = is_key ? sweep.key : sweep.values;
-      std::string &origin = is_key ? sweep.key_origin : sweep.values_origin;
-      if (!is_key && statement.name != "Values")
-        throw InputError(where + ": unknown key Sweep/" + statement.name +
-                         did_you_mean(statement.name, {"Key", "Values"}) +
-                         " Known are Key and Values");
+      const std::string where    = place(state.file, statement.line);
+      const std::size_t blank    = statement.name.find(' ');
+      const std::string word     = statement.name.substr(0, blank);
+      const bool        is_key   = word == "Key";
+      unsigned int      number   = 1;
+      bool              is_known = is_key || word == "Values";
+      if (blank != std::string::npos)
+        {
+          const std::string digits =
+            dealii::Utilities::trim(statement.name.substr(blank));
+          is_known =
+            is_known && !digits.empty() && digits.size() < 4 &&
+            digits.find_first_not_of("0123456789") == std::string::npos &&
+            digits != "0" && digits != "1";
+          if (is_known)
+            number = std::stoi(digits);
+        }
+      if (!is_known)
+        throw InputError(
+          where + ": unknown key Sweep/" + statement.name +
+          did_you_mean(statement.name, {"Key", "Values", "Key 2", "Values 2"}) +
+          " Known are Key and Values, Key 2 and Values 2, and so on");
+      SweptKey    &swept  = state.sweep.keys[number];
+      std::string &value  = is_key ? swept.key : swept.values;
+      std::string &origin = is_key ? swept.key_origin : swept.values_origin;
       if (!origin.empty())
         throw InputError(where + ": Sweep/" + statement.name +
                          " is given twice, first at " + origin);
@@ -453,68 +448,52 @@ namespace SlipStep
 
 
 
-    void CaseReader::add_variant(std::vector<Variant> &variants,
-                                 const std::string    &label,
-                                 const std::string    &origin)
+    // Values are separated by commas, or by ';' if one contains a comma.
+    std::vector<std::string> separate_values(const SweptKey &swept)
     {
-      const std::string folder = folder_name(label);
-      if (folder.size() > longest_folder)
-        throw InputError(origin + ": the variant \"" + excerpt(label) +
-                         "\" has " + std::to_string(folder.size()) +
-                         " letters, more than a folder's name can have; "
-                         "allowed are " +
-                         std::to_string(longest_folder));
-      for (const Variant &other : variants)
-        {
-          if (other.label == label)
-            throw InputError(origin + ": the variant \"" + label +
-                             "\" is given twice");
-          if (other.folder == folder)
-            throw InputError(origin + ": the variants \"" + other.label +
-                             "\" and \"" + label +
-                             "\" would share the folder " + folder);
-        }
-      variants.push_back({label, folder, {}});
+      const char separator =
+        swept.values.find(';') == std::string::npos ? ',' : ';';
+      const std::string hint = decimal_comma_hint(swept.values);
+      if (separator == ',' && !hint.empty() &&
+          swept.values.find(", ") != std::string::npos)
+        throw InputError(
+          swept.values_origin + ": Sweep/Values = " + excerpt(swept.values) +
+          ": " + hint + " (commas separate; write a blank behind them)");
+      const auto values =
+        dealii::Utilities::split_string_list(swept.values, separator);
+      if (values.empty())
+        throw InputError(swept.values_origin + ": Sweep/Values is empty");
+      return values;
     }
 
 
 
+    // The first key changes last.
     std::vector<Variant>
     CaseReader::variants_of_sweep(const SweepText &sweep,
                                   const FileState &state) const
     {
-      if (sweep.key_origin.empty() || sweep.values_origin.empty())
-        throw InputError(
-          (sweep.key_origin.empty() && sweep.values_origin.empty() ?
-             state.file.string() :
-             sweep.key_origin + sweep.values_origin) +
-          ": Sweep needs both \"set Key = ...\" and \"set Values = ...\"");
-      const char separator =
-        sweep.values.find(';') == std::string::npos ? ',' : ';';
-      const std::string name = sweep.key.substr(sweep.key.rfind('/') + 1);
-      const std::string hint = decimal_comma_hint(sweep.values);
-      if (separator == ',' && !hint.empty() &&
-          sweep.values.find(", ") != std::string::npos)
-        throw InputError(
-          sweep.values_origin + ": Sweep/Values = " + excerpt(sweep.values) +
-          ": " + hint + " (commas separate; write a blank behind them)");
-
       std::vector<Variant> variants;
-      for (const std::string &value :
-           dealii::Utilities::split_string_list(sweep.values, separator))
+      if (sweep.keys.empty())
+        throw InputError(
+          state.file.string() +
+          ": Sweep needs both \"set Key = ...\" and \"set Values = ...\"");
+      for (const auto &[number, swept] : sweep.keys)
         {
-          known.check(sweep.key, value, sweep.values_origin);
-          // A bare number says nothing in a legend.
-          const bool is_bare =
-            value.find_first_not_of("0123456789.+-eE") == std::string::npos;
-          add_variant(variants,
-                      is_bare ? name + " " + value : value,
-                      sweep.values_origin);
-          variants.back().overrides.push_back(
-            {sweep.key, value, sweep.values_origin});
+          const std::string n = number == 1 ? "" : " " + std::to_string(number);
+          if (swept.key_origin.empty() || swept.values_origin.empty())
+            throw InputError(swept.key_origin + swept.values_origin +
+                             ": Sweep needs both \"set Key" + n +
+                             " = ...\" and \"set Values" + n + " = ...\"");
+          const auto of_key = variants_of_values(known,
+                                                 swept.key,
+                                                 separate_values(swept),
+                                                 swept.values_origin,
+                                                 sweep.keys.size() == 1);
+          variants          = variants.empty() ?
+                                of_key :
+                                product(variants, of_key, swept.key_origin);
         }
-      if (variants.empty())
-        throw InputError(sweep.values_origin + ": Sweep/Values is empty");
       return variants;
     }
 

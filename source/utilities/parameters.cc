@@ -9,6 +9,7 @@
 #include <slipstep/utilities/parameter_reader.h>
 #include <slipstep/utilities/parameters.h>
 #include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/sweep.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 
@@ -443,6 +444,19 @@ namespace SlipStep
   const std::vector<Variant> &Parameters::variants() const
   {
     return variant_list;
+  }
+
+
+
+  void Parameters::sweep(const std::string              &path,
+                         const std::vector<std::string> &values,
+                         const std::string              &origin)
+  {
+    check_path(path, origin);
+    const std::vector<Variant> more =
+      variants_of_values(*this, path, values, origin, variant_list.empty());
+    variant_list =
+      variant_list.empty() ? more : product(variant_list, more, origin);
   }
 
 

@@ -92,9 +92,11 @@ TEST(CommandLine, WhatOnlyAFileCanSayIsToldSo)
     return process.run({"point", "case.prm", "--set", setting});
   };
   expect_refusal(with("Sweep/Key = Loading/Speed"),
-                 {"only a case file defines a sweep", "--variant NAME"});
+                 {"changes one key for all members",
+                  "--variant NAME",
+                  "--sweep"});
   expect_refusal(with("variants/fast/Block/Degree = 1"),
-                 {"only a case file defines a sweep"});
+                 {"changes one key for all members"});
   expect_refusal(with("include other.prm"), {"lines with 'include'"});
   expect_refusal(with("subsection Friction"), {"lines with 'subsection'"});
   expect_refusal(with("set Block/Degree = 1"), {"leave out the word 'set'"});

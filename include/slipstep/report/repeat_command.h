@@ -14,7 +14,8 @@ namespace SlipStep
                            const std::string &file,
                            const unsigned int n_ranks = 1);
 
-  /// The options --set that the user gave, each preceded by a blank.
+  /// The options --set and --sweep that the user gave, each preceded by a
+  /// blank.
   std::string given_settings(const Parameters &parameters);
 } // namespace SlipStep
 

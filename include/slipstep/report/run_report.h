@@ -30,11 +30,14 @@ namespace SlipStep
   /// `<folder>/report/`. Without gnuplot the data and scripts are still written
   /// and a warning is returned.
   /// @param study HTML about all runs together, shown first
+  /// @param is_one_case whether the runs are of the case of these parameters,
+  ///   so that its values are theirs
   /// @return warnings for the user
   std::vector<std::string> write_report(const std::filesystem::path &folder,
                                         const Parameters            &parameters,
                                         const std::vector<ReportedRun> &runs,
-                                        const std::string &study = "");
+                                        const std::string &study       = "",
+                                        const bool         is_one_case = true);
 
   /// The table printed at the end: one row per slide and run: speed, peak,
   /// kinetic coefficient, reference, difference in %.

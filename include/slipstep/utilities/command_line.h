@@ -20,9 +20,14 @@ namespace SlipStep
     std::vector<std::pair<std::string, std::string>> settings;
     /// The options --set as typed, to be handed to a child.
     std::vector<std::string> settings_as_typed;
-    std::string              output; ///< "" = not given
-    std::string              format; ///< "" = the command's default
-    std::string              variant;
+    /// Keys to be swept with their values, and the same as typed.
+    std::vector<std::pair<std::string, std::vector<std::string>>> sweeps;
+    std::vector<std::string> sweeps_as_typed;
+    /// The file for a job array of the sweep, "" for none.
+    std::string slurm;
+    std::string output; ///< "" = not given
+    std::string format; ///< "" = the command's default
+    std::string variant;
     /// Options of slipstep plant, by name; "" for those without a value.
     std::map<std::string, std::string> plant_options;
     bool                               quiet = false;

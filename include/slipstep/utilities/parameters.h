@@ -162,11 +162,18 @@ namespace SlipStep
 
     /// The members of the sweep in order, empty if the case is a single run.
     /// Either `subsection Sweep` with `set Key = <path>` and
-    /// `set Values = a, b, c` (separated by `;` if one contains a comma), or
+    /// `set Values = a, b, c` (separated by `;` if one contains a comma), with
+    /// `Key 2` and `Values 2` and so on for all combinations, or
     /// `subsection Variants` holding one subsection per variant whose entries
     /// are `set <full path> = value`. An empty `Variants` undoes an included
     /// sweep.
     const std::vector<Variant> &variants() const;
+
+    /// Sweep one more key: every variant there is with each of these values.
+    /// @throws InputError for a key that is swept already, or wrong values
+    void sweep(const std::string              &path,
+               const std::vector<std::string> &values,
+               const std::string              &origin);
 
     /// The complete parameters of one variant, which is no sweep any more.
     Parameters with_variant(const Variant &variant) const;

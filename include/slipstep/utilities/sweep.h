@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef slipstep_utilities_sweep_h
+#define slipstep_utilities_sweep_h
+
+#include <slipstep/utilities/parameters.h>
+
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Add a variant that differs in nothing yet.
+  /// @throws InputError if its label or folder is taken or too long
+  void add_variant(std::vector<Variant> &variants,
+                   const std::string    &label,
+                   const std::string    &origin);
+
+  /// One variant for each value of a key.
+  /// @param is_alone whether no other key is swept: then a value with a unit
+  ///   says enough in a legend
+  /// @throws InputError if a value is not allowed or is there twice
+  std::vector<Variant>
+  variants_of_values(const Parameters               &known,
+                     const std::string              &path,
+                     const std::vector<std::string> &values,
+                     const std::string              &origin,
+                     const bool                      is_alone);
+
+  /// Every variant of one sweep with every one of another, which changes first.
+  /// @throws InputError if both change the same key, or there are too many
+  std::vector<Variant> product(const std::vector<Variant> &slow,
+                               const std::vector<Variant> &fast,
+                               const std::string          &origin);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/commands/case.h>
+#include <slipstep/commands/compare.h>
+#include <slipstep/commands/outcome.h>
+#include <slipstep/commands/results_folder.h>
+#include <slipstep/experiment/summary.h>
+#include <slipstep/measured_data/measured_test.h>
+#include <slipstep/report/page.h>
+#include <slipstep/report/run_report.h>
+#include <slipstep/utilities/exceptions.h>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <set>
+
+namespace SlipStep
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /// Results that one argument names: a run, or all runs of a sweep.
+    struct Source
+    {
+      std::string              argument;
+      std::string              case_name;
+      std::vector<ReportedRun> runs;
+    };
+
+
+
+    bool is_run(const fs::path &folder)
+    {
+      return fs::exists(folder / "summary.json") &&
+             fs::exists(folder / "history.csv");
+    }
+
+
+
+    // In the order of the sweep, if the folder tells, or else of their names.
+    std::vector<fs::path> folders_of_runs(const fs::path &folder)
+    {
+      std::vector<fs::path> folders;
+      if (fs::exists(folder / "used_parameters.prm"))
+        {
+          Parameters parameters = declared_parameters();
+          parameters.read(folder / "used_parameters.prm");
+          for (const Variant &variant : parameters.variants())
+            folders.push_back(folder / variant.folder);
+        }
+      std::vector<fs::path> others;
+      for (const auto &entry : fs::directory_iterator(folder))
+        if (std::find(folders.begin(), folders.end(), entry.path()) ==
+            folders.end())
+          others.push_back(entry.path());
+      std::sort(others.begin(), others.end());
+      folders.insert(folders.end(), others.begin(), others.end());
+      folders.erase(std::remove_if(folders.begin(),
+                                   folders.end(),
+                                   [](const fs::path &path) {
+                                     return !is_run(path);
+                                   }),
+                    folders.end());
+      return folders;
+    }
+
+
+
+    Source read_source(const fs::path &path)
+    {
+      const std::string where = path.string() + ": ";
+      std::error_code   error;
+      if (path.extension() == ".prm")
+        throw InputError(where + "this is a case, not results; run it, and "
+                                 "name the folder that it writes");
+      if (!fs::exists(path, error))
+        throw InputError(where + "there is no such folder or measured test");
+      if (!fs::is_directory(path, error))
+        throw InputError(where + "neither a folder of results nor a measured "
+                                 "test (.csv)");
+      Source source{path.string(), "", {}};
+      if (is_run(path))
+        {
+          const Summary summary = read_summary(path / "summary.json");
+          source.case_name      = summary.case_name;
+          source.runs.push_back({summary.label, path});
+        }
+      else
+        for (const fs::path &folder : folders_of_runs(path))
+          {
+            const Summary summary = read_summary(folder / "summary.json");
+            source.case_name      = summary.case_name;
+            source.runs.push_back({summary.label.empty() ?
+                                     folder.filename().string() :
+                                     summary.label,
+                                   folder});
+          }
+      if (source.runs.empty())
+        throw InputError(where + "it holds no results of slipstep run or "
+                                 "slipstep point");
+      return source;
+    }
+
+
+
+    // By the name of the case, or what was typed where those are alike.
+    std::vector<ReportedRun> with_labels(const std::vector<Source> &sources)
+    {
+      std::map<std::string, unsigned int> number;
+      for (const Source &source : sources)
+        ++number[source.case_name];
+      std::vector<ReportedRun> runs;
+      for (const Source &source : sources)
+        for (ReportedRun run : source.runs)
+          {
+            const std::string name =
+              number[source.case_name] > 1 ? source.argument : source.case_name;
+            if (run.label.empty())
+              run.label = name;
+            else if (sources.size() > 1)
+              run.label = name + ": " + run.label;
+            runs.push_back(run);
+          }
+      return runs;
+    }
+
+
+
+    /// What a run used; nothing if it does not tell.
+    Parameters used_parameters(const ReportedRun &run)
+    {
+      Parameters result = declared_parameters();
+      if (fs::exists(run.folder / "used_parameters.prm"))
+        result.read(run.folder / "used_parameters.prm");
+      return result;
+    }
+
+
+
+    // A column for each key in which the cases differ; lines and columns
+    // exchanged where that is the narrower table.
+    std::vector<TableLine>
+    differences_of_keys(const std::vector<ReportedRun> &runs)
+    {
+      std::vector<Parameters> used;
+      for (const ReportedRun &run : runs)
+        used.push_back(used_parameters(run));
+      std::vector<TableLine> table(runs.size() + 1);
+      table[0].push_back("run");
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        table[i + 1].push_back(runs[i].label);
+      for (const std::string &path : used[0].paths())
+        {
+          const std::string section = path.substr(0, path.find('/'));
+          if (section != "Loading" && section != "Friction" &&
+              section != "Block" && section != "Time stepping")
+            continue;
+          if (std::all_of(used.begin(),
+                          used.end(),
+                          [&](const Parameters &other) {
+                            return other.text(path) == used[0].text(path);
+                          }))
+            continue;
+          table[0].push_back(path);
+          for (std::size_t i = 0; i < runs.size(); ++i)
+            table[i + 1].push_back(used[i].text(path));
+        }
+      const std::size_t n_keys = table[0].size() - 1;
+      if (n_keys == 0)
+        return {};
+      if (n_keys <= runs.size())
+        return table;
+      std::vector<TableLine> turned(table[0].size());
+      for (const TableLine &line : table)
+        for (std::size_t i = 0; i < line.size(); ++i)
+          turned[i].push_back(line[i]);
+      turned[0][0] = "key";
+      return turned;
+    }
+
+
+
+    std::string differences_in_html(const std::vector<ReportedRun> &runs)
+    {
+      const auto table = differences_of_keys(runs);
+      return heading("What differs") +
+             (table.empty() ? "<p>Nothing: the cases say the same.</p>\n" :
+                              html_table(table, "values"));
+    }
+  } // namespace
+
+
+
+  int compare_results(const CommandLine &line)
+  {
+    std::vector<Source> sources;
+    std::string         measured;
+    std::set<fs::path>  met;
+    for (const fs::path &file : line.files)
+      {
+        const fs::path path = file.has_filename() ? file : file.parent_path();
+        if (!met.insert(fs::weakly_canonical(path)).second)
+          throw InputError(file.string() + " is named twice");
+        if (path.extension() == ".csv" && !fs::is_directory(path))
+          {
+            read_measured_test(path);
+            if (path.string().find(',') != std::string::npos)
+              throw InputError(path.string() +
+                               ": a name with a comma cannot be listed");
+            measured += (measured.empty() ? "" : ", ") +
+                        fs::absolute(path).lexically_normal().string();
+          }
+        else
+          sources.push_back(read_source(path));
+      }
+    if (sources.empty())
+      throw InputError("slipstep compare: no folder of results is named, only "
+                       "measured tests");
+    const std::vector<ReportedRun> runs = with_labels(sources);
+
+    Parameters parameters = declared_parameters();
+    parameters.set("Report/Title", "Comparison", "compare");
+    if (!measured.empty())
+      parameters.set("Report/Measured", measured, "compare");
+    const fs::path output =
+      line.output.empty() ? fs::path("output/compare") : fs::path(line.output);
+    check_output_folder(output, "--output");
+    const ResultsFolder results(output, line.command);
+    remove_earlier_results(output);
+    print_warnings(
+      write_report(output, parameters, runs, differences_in_html(runs), false));
+    if (!line.quiet)
+      std::cout << result_table(parameters, runs)
+                << "\nReport: " << (output / "report.html").string()
+                << std::endl;
+    return done;
+  }
+} // namespace SlipStep

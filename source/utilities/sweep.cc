@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/sweep.h>
+
+#include <cctype>
+#include <set>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // File systems take 255 bytes.
+    constexpr std::size_t longest_folder = 200;
+
+    // Each has a process and a folder of its own.
+    constexpr std::size_t most_variants = 10000;
+
+    // A legend as a folder name: nothing that a shell or a URL would need
+    // quoted.
+    std::string folder_name(const std::string &label)
+    {
+      std::string folder;
+      for (const char c : label)
+        {
+          const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) ||
+                                c == '.' || c == '-' || c == '+' || c == '_';
+          const char safe = is_plain ? c : (c == '/' ? '-' : '_');
+          if (safe != '_' || folder.empty() || folder.back() != '_')
+            folder += safe;
+        }
+      // Hidden folders, "..", and the report's own folder.
+      if (folder.empty() || folder.front() == '.' || folder.front() == '-')
+        folder.insert(0, "_");
+      if (folder == "report")
+        folder += "_";
+      return folder;
+    }
+  } // namespace
+
+
+
+  void add_variant(std::vector<Variant> &variants,
+                   const std::string    &label,
+                   const std::string    &origin)
+  {
+    const std::string folder = folder_name(label);
+    if (folder.size() > longest_folder)
+      throw InputError(origin + ": the variant \"" + excerpt(label) +
+                       "\" has " + std::to_string(folder.size()) +
+                       " letters, more than a folder's name can have; "
+                       "allowed are " +
+                       std::to_string(longest_folder));
+    for (const Variant &other : variants)
+      {
+        if (other.label == label)
+          throw InputError(origin + ": the variant \"" + label +
+                           "\" is given twice");
+        if (other.folder == folder)
+          throw InputError(origin + ": the variants \"" + other.label +
+                           "\" and \"" + label + "\" would share the folder " +
+                           folder);
+      }
+    variants.push_back({label, folder, {}});
+  }
+
+
+
+  std::vector<Variant>
+  variants_of_values(const Parameters               &known,
+                     const std::string              &path,
+                     const std::vector<std::string> &values,
+                     const std::string              &origin,
+                     const bool                      is_alone)
+  {
+    const std::string    name = path.substr(path.rfind('/') + 1);
+    std::vector<Variant> variants;
+    for (const std::string &value : values)
+      {
+        known.check(path, value, origin);
+        // A bare number says nothing in a legend.
+        const bool is_bare =
+          value.find_first_not_of("0123456789.+-eE") == std::string::npos;
+        add_variant(variants,
+                    is_bare || !is_alone ? name + " " + value : value,
+                    origin);
+        variants.back().overrides.push_back({path, value, origin});
+      }
+    return variants;
+  }
+
+
+
+  std::vector<Variant> product(const std::vector<Variant> &slow,
+                               const std::vector<Variant> &fast,
+                               const std::string          &origin)
+  {
+    std::set<std::string> swept;
+    for (const Variant &variant : slow)
+      for (const Variant::Override &setting : variant.overrides)
+        swept.insert(setting.path);
+    for (const Variant &variant : fast)
+      for (const Variant::Override &setting : variant.overrides)
+        if (swept.count(setting.path) > 0)
+          throw InputError(origin + ": " + setting.path + " is swept twice");
+    if (slow.size() * fast.size() > most_variants)
+      throw InputError(
+        origin + ": " + std::to_string(slow.size()) + " times " +
+        std::to_string(fast.size()) + " values are more runs than the " +
+        std::to_string(most_variants) + " that a sweep may have");
+    std::vector<Variant> variants;
+    for (const Variant &one : slow)
+      for (const Variant &other : fast)
+        {
+          add_variant(variants, one.label + ", " + other.label, origin);
+          variants.back().overrides = one.overrides;
+          variants.back().overrides.insert(variants.back().overrides.end(),
+                                           other.overrides.begin(),
+                                           other.overrides.end());
+        }
+    return variants;
+  }
+} // namespace SlipStep

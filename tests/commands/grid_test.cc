@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Sweeps of several keys, as a job array, and results put side by side.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/bad_input/slipstep_process.h"
+#include "tests/file_text.h"
+
+namespace fs = std::filesystem;
+
+namespace
+{
+  const std::string grid_case =
+    "set Loading/Programme = press 5 MPa in 1 s; slide for 1 mm\n"
+    "set Friction/Effects = subloading, overstress\n";
+
+  class Grid : public testing::Test
+  {
+  protected:
+    Grid()
+    {
+      process.write("one.prm", grid_case);
+      process.write("grid.prm",
+                    "include one.prm\nsubsection Sweep\n"
+                    "  set Key      = Friction/overstress/Exponent\n"
+                    "  set Values   = 8, 16\n"
+                    "  set Key 2    = Loading/Speed\n"
+                    "  set Values 2 = 1 mm/min, 20 mm/min\nend\n");
+    }
+
+    SlipstepProcess::Result run(const std::vector<std::string> &arguments) const
+    {
+      const auto result = process.run(arguments);
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      return result;
+    }
+
+    bool are_same(const std::string &a, const std::string &b) const
+    {
+      return !process.read(a).empty() && process.read(a) == process.read(b);
+    }
+
+    const std::vector<std::string> folders = {"Exponent_8_Speed_1_mm-min",
+                                              "Exponent_8_Speed_20_mm-min",
+                                              "Exponent_16_Speed_1_mm-min",
+                                              "Exponent_16_Speed_20_mm-min"};
+    SlipstepProcess                process;
+  };
+} // namespace
+
+
+
+TEST_F(Grid, IsTheSameFromTheFileAndTheCommandLine)
+{
+  run({"point", "grid.prm", "--output", "file", "--quiet"});
+  run({"point",
+       "one.prm",
+       "--sweep",
+       "Friction/overstress/Exponent = 8 | 16",
+       "--sweep",
+       "Loading/Speed=1 mm/min|20 mm/min",
+       "--output",
+       "line",
+       "--quiet"});
+  run({"point",
+       "one.prm",
+       "--set",
+       "Friction/overstress/Exponent=16",
+       "--set",
+       "Loading/Speed=20 mm/min",
+       "--output",
+       "alone",
+       "--quiet"});
+  EXPECT_TRUE(are_same("alone/history.csv",
+                       "file/Exponent_16_Speed_20_mm-min/history.csv"));
+  for (const std::string &folder : folders)
+    EXPECT_TRUE(are_same("file/" + folder + "/history.csv",
+                         "line/" + folder + "/history.csv"))
+      << folder;
+  const std::string page = process.read("line/report.html");
+  EXPECT_TRUE(contains(page,
+                       "--sweep &quot;Friction/overstress/Exponent=8|16&quot; "
+                       "--sweep &quot;Loading/Speed=1 mm/min|20 mm/min&quot;"));
+  if (has_gnuplot())
+    {
+      EXPECT_TRUE(contains(page, "aria-label=\"Kinetic friction\""));
+    }
+}
+
+
+
+TEST_F(Grid, OfThreeKeysHasAllCombinations)
+{
+  const auto result = run({"check",
+                           "grid.prm",
+                           "--sweep",
+                           "Friction/Static coefficient=0.1|0.2|0.3"});
+  EXPECT_EQ(result.out, "grid.prm: OK, 12 variants\n");
+}
+
+
+
+TEST_F(Grid, MistakesAreRefused)
+{
+  const auto refused = [&](const std::vector<std::string> &options,
+                           const std::vector<std::string> &words) {
+    std::vector<std::string> arguments = {"check", "grid.prm"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    expect_refusal(process.run(arguments), words);
+  };
+  refused({"--sweep", "Loading/Speed=5 mm/s|6 mm/s"},
+          {"Loading/Speed is swept twice"});
+  refused({"--sweep", "Block/Degre=1|2"}, {"Block/Degre", "Block/Degree"});
+  refused({"--sweep", "Block/Degree=1|"}, {"a value is missing"});
+  refused({"--sweep", "Block/Degree=1|one"}, {"Block/Degree = one"});
+  refused({"--sweep", "Block/Degree=1|1"}, {"given twice"});
+  refused({"--sweep", "Block/Degree=1|2", "--set", "Block/Degree=1"},
+          {"leave out one"});
+  process.write("wrong.prm",
+                grid_case + "subsection Sweep\n"
+                            "  set Key = Loading/Speed\n"
+                            "  set Values = 1 mm/s\n"
+                            "  set Values 3 = 1, 2\nend\n");
+  expect_refusal(process.run({"check", "wrong.prm"}),
+                 {"wrong.prm:6", "Key 3", "Values 3"});
+  process.write("wrong.prm",
+                grid_case + "subsection Sweep\n  set Keys 2 = a\nend\n");
+  expect_refusal(process.run({"check", "wrong.prm"}),
+                 {"wrong.prm:4", "Sweep/Keys 2", "did you mean"});
+}
+
+
+
+// Jobs in any order, one of them twice; then the page of the whole.
+TEST_F(Grid, IsComputedByAJobArray)
+{
+  run({"point", "grid.prm", "--output", "here", "--quiet"});
+  run({"point", "grid.prm", "--output", "there's a", "--slurm", "jobs.sh"});
+  EXPECT_FALSE(fs::exists(process.folder() / "there's a"));
+  const std::string script =
+    "bash '" + (process.folder() / "jobs.sh").string() + "'";
+  for (const std::string number : {"3", "1", "4", "2", "1"})
+    EXPECT_EQ(
+      std::system(("SLURM_ARRAY_TASK_ID=" + number + " " + script).c_str()), 0);
+  for (const std::string &folder : folders)
+    EXPECT_TRUE(are_same("here/" + folder + "/history.csv",
+                         "there's a/" + folder + "/history.csv"))
+      << folder;
+  run({"point", "grid.prm", "--output", "there's a", "--resume", "--quiet"});
+  EXPECT_FALSE(process.read("there's a/report.html").empty());
+  expect_refusal(process.run({"point", "grid.prm", "--slurm", "jobs.sh"}),
+                 {"jobs.sh", "is there already"});
+  expect_refusal(process.run({"point", "one.prm", "--slurm", "other.sh"}),
+                 {"no sweep"});
+}
+
+
+
+TEST_F(Grid, IsComparedWithOtherResults)
+{
+  run({"point", "grid.prm", "--output", "grid", "--quiet"});
+  run({"point",
+       "one.prm",
+       "--set",
+       "Friction/Static coefficient=0.25",
+       "--output",
+       "one",
+       "--quiet"});
+  process.write("test.csv",
+                "# name: a test\n"
+                "time_s,displacement_mm,pressure_MPa,friction\n"
+                "0,0,5,0\n1,0.5,5,0.2\n2,1,5,0.2\n");
+  const auto result =
+    run({"compare", "grid/", "one", "test.csv", "--output", "both"});
+  for (const std::string label :
+       {"grid: Exponent 8, Speed 1 mm/min", "grid: Exponent 16", "\n  one"})
+    EXPECT_TRUE(contains(result.out, label)) << label << result.out;
+  const std::string page = process.read("both/report.html");
+  EXPECT_TRUE(contains(page, "What differs"));
+  EXPECT_TRUE(contains(page, "Friction/Static coefficient"));
+  EXPECT_FALSE(contains(page, "Friction/Normal stiffness"));
+  // Its values are those of no case.
+  EXPECT_FALSE(contains(page, "<h2>Conditions</h2>"));
+  if (has_gnuplot())
+    {
+      EXPECT_TRUE(contains(page, "a test, measured"));
+    }
+  const auto refused = [&](const std::vector<std::string> &names,
+                           const std::vector<std::string> &words) {
+    std::vector<std::string> arguments = {"compare"};
+    arguments.insert(arguments.end(), names.begin(), names.end());
+    expect_refusal(process.run(arguments), words);
+  };
+  fs::create_directory(process.folder() / "empty");
+  refused({"empty"}, {"empty: it holds no results"});
+  refused({"one", "./one/"}, {"named twice"});
+  refused({"grid.prm"}, {"this is a case"});
+  refused({"test.csv"}, {"no folder of results"});
+  refused({"nowhere"}, {"there is no such folder"});
+}
