@@ -190,7 +190,7 @@ namespace SlipStep
                            const dealii::AffineConstraints<Number> &constraints,
                            const unsigned int                       index,
                            std::vector<unsigned int>               &offsets) const;
-    void forget_categories(const unsigned int n_dof_handlers);
+    void      forget_categories(const unsigned int n_dof_handlers);
     void      forget_unknowns(const NodeTable &table, const unsigned int index);
     void      find_contact_cells();
     void      find_face_nodes();
