@@ -9,10 +9,21 @@ add_custom_command(OUTPUT "${man_page}"
           > "${man_page}"
   DEPENDS slipstep "${PROJECT_SOURCE_DIR}/doc/man_page.sh"
   COMMENT "Writing the man page")
-add_custom_target(man_page ALL DEPENDS "${man_page}")
+set(completions "${PROJECT_BINARY_DIR}/generated/completions/slipstep")
+add_custom_command(OUTPUT "${completions}"
+  COMMAND ${CMAKE_COMMAND} -E make_directory
+          "${PROJECT_BINARY_DIR}/generated/completions"
+  COMMAND "${PROJECT_SOURCE_DIR}/doc/bash_completion.sh"
+          $<TARGET_FILE:slipstep> > "${completions}"
+  DEPENDS slipstep "${PROJECT_SOURCE_DIR}/doc/bash_completion.sh"
+  COMMENT "Writing the completions of bash")
+add_custom_target(man_page ALL DEPENDS "${man_page}" "${completions}")
 
 install(TARGETS slipstep RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(FILES "${man_page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+install(FILES "${completions}"
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+install(DIRECTORY doc/editor DESTINATION "${CMAKE_INSTALL_DATADIR}/slipstep")
 install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md LICENSE
         DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY doc/guide DESTINATION "${CMAKE_INSTALL_DOCDIR}/doc")
