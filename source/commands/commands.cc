@@ -29,7 +29,10 @@ namespace SlipStep
   {
     int list_effects(const CommandLine &line)
     {
-      print_effects(std::cout, line.format == "md");
+      std::vector<std::string> names;
+      for (const auto &name : line.files)
+        names.push_back(name.string());
+      print_effects(std::cout, line.format == "md", names);
       return done;
     }
 

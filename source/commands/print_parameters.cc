@@ -2,31 +2,51 @@
 #include <slipstep/commands/print_parameters.h>
 #include <slipstep/measured_data/import_map.h>
 #include <slipstep/commands/case.h>
-#include <slipstep/utilities/exceptions.h>
+#include <slipstep/report/parameters_page.h>
 
 #include <iostream>
 
 namespace SlipStep
 {
+  namespace
+  {
+    Parameters::Format format_of(const std::string &name)
+    {
+      return name == "json"   ? Parameters::Format::json :
+             name == "schema" ? Parameters::Format::schema :
+             name == "keys"   ? Parameters::Format::keys :
+             name == "md"     ? Parameters::Format::markdown :
+                                Parameters::Format::prm;
+    }
+  } // namespace
+
+
+
   int print_parameters(const CommandLine &line)
   {
-    const bool of_a_map = !line.files.empty();
-    if (of_a_map && line.files.front() != "import")
-      throw InputError("slipstep parameters: \"" + line.files.front().string() +
-                       "\" is not known; allowed is: import");
+    const bool of_a_map = !line.files.empty() && line.files.front() == "import";
     Parameters parameters;
     if (of_a_map)
       declare_import_parameters(parameters);
     else
       declare_all_parameters(parameters);
     apply_settings(line, parameters);
-    parameters.print(std::cout,
-                     line.format == "json" ? Parameters::Format::json :
-                     line.format == "md"   ? Parameters::Format::markdown :
-                                             Parameters::Format::prm,
-                     {},
-                     of_a_map ? std::set<std::string>() :
-                                inactive_sections(parameters));
+    std::vector<std::string> only;
+    for (std::size_t i = of_a_map ? 1 : 0; i < line.files.size(); ++i)
+      for (const std::string &path :
+           parameters.find(line.files[i].string(), "slipstep parameters"))
+        only.push_back(path);
+    if (line.format == "html")
+      std::cout << parameters_page(parameters, only);
+    else
+      parameters.print(std::cout,
+                       format_of(line.format),
+                       {},
+                       // What is asked for is not put behind "#".
+                       of_a_map || !only.empty() ?
+                         std::set<std::string>() :
+                         inactive_sections(parameters),
+                       only);
     return done;
   }
 } // namespace SlipStep

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/law.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/text.h>
+
+#include <algorithm>
 
 namespace SlipStep
 {
@@ -39,15 +43,31 @@ namespace SlipStep
             << "   # " << parameter.symbol
             << (parameter.symbol.empty() ? "" : ": ") << allowed << '\n';
     }
+    std::vector<std::string> effect_names()
+    {
+      std::vector<std::string> names;
+      for (const auto &item : effect_registry())
+        names.push_back(item.first);
+      return names;
+    }
   } // namespace
 
 
 
-  void print_effects(std::ostream &out, const bool as_markdown)
+  void print_effects(std::ostream                   &out,
+                     const bool                      as_markdown,
+                     const std::vector<std::string> &names)
   {
+    for (const std::string &name : names)
+      if (effect_registry().count(name) == 0)
+        throw InputError("there is no effect " + name +
+                         did_you_mean(name, effect_names()));
     for (const auto &item : effect_registry())
       {
         const EffectInfo &info = item.second;
+        if (!names.empty() &&
+            std::find(names.begin(), names.end(), info.name) == names.end())
+          continue;
         if (as_markdown)
           out << "## " << info.name << "\n\n"
               << capitalised(info.words) << ".\n\n\\f[ " << info.latex

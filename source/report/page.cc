@@ -274,10 +274,12 @@ for (const table of all(document, 'table')) {
            "</style>\n</head>\n<body>\n<h1>" + html_text(title) +
            "</h1>\n<p class='headline'>" + html_text(headline) + "</p>\n" +
            content + "<p class='origin'>slipstep " + html_text(version()) +
-           " (" + html_text(git_hash()) +
-           "). Data and gnuplot scripts of the pictures: folder report/ "
-           "beside this file.</p>\n<script>" +
-           script + "</script>\n</body>\n</html>\n";
+           " (" + html_text(git_hash()) + ")." +
+           (content.find("<svg") == std::string::npos ?
+              "" :
+              " Data and gnuplot scripts of the pictures: folder report/ "
+              "beside this file.") +
+           "</p>\n<script>" + script + "</script>\n</body>\n</html>\n";
   }
 
 

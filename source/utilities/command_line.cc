@@ -169,23 +169,25 @@ namespace SlipStep
          {"set", "sweep", "output", "variant", "quiet"},
          {}},
         {"effects",
-         "",
+         "[NAME ...]",
          "list the effects of the friction law",
-         "With formula, parameters, units and source of each.\n",
+         "With formula, parameters, units and source of each, or of those named.\n",
          0,
-         0,
+         any,
          {"format"},
          {"text", "md"}},
         {"parameters",
-         "[import]",
+         "[import] [NAME ...]",
          "list all parameters with their defaults",
-         "As a commented .prm file to start from, for programs (json), or as\n"
-         "tables (md). \"slipstep parameters import\" lists the keys of a map for\n"
-         "slipstep import.\n",
+         "Or those of the keys and sections named: Friction/healing, healing,\n"
+         "\"Time stepping/Tolerance\". As a commented .prm file to start from, a\n"
+         "page to search in (html), tables (md), one key per line (keys), for\n"
+         "programs (json), or as a JSON schema (schema). \"slipstep parameters\n"
+         "import\" lists the keys of a map for slipstep import.\n",
          0,
-         1,
+         any,
          {"set", "format"},
-         {"prm", "json", "md"}},
+         {"prm", "html", "md", "keys", "json", "schema"}},
         {"help",
          "[COMMAND]",
          "explain the program or a command",
@@ -243,7 +245,8 @@ namespace SlipStep
         ("slurm", po::value<std::string>()->value_name("FILE"),
          "write the sweep as a job array for a cluster, run nothing")
         ("format", po::value<std::string>()->value_name("NAME"),
-         "prm, json, md (parameters); text, md (effects); law, abaqus (export)")
+         "prm, html, md, keys, json, schema (parameters); text, md (effects); "
+         "law, abaqus (export)")
         ("resume", "go on where an earlier run of the case was stopped")
         ("class", po::value<std::string>()->value_name("NAME"),
          "what is hidden: none, one, two, other_formula, outside, ablated, "

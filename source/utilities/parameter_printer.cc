@@ -108,6 +108,35 @@ namespace SlipStep
 
 
 
+    nlohmann::ordered_json schema_of(const Parameters::Entry &entry)
+    {
+      nlohmann::ordered_json schema = {
+        {"type", "string"},
+        {"default", entry.default_value},
+        {"description",
+         entry.documentation + " [" + allowed_in_words(*entry.pattern) + "]"}};
+      const std::vector<std::string> choices = choices_of(*entry.pattern);
+      if (!choices.empty())
+        schema["enum"] = choices;
+      return schema;
+    }
+
+
+
+    nlohmann::ordered_json schema_of(const ParameterSection &section)
+    {
+      auto properties = nlohmann::ordered_json::object();
+      for (const auto &[entry, value] : section.parameters)
+        properties[key_of(entry.path)] = schema_of(entry);
+      for (const ParameterSection &child : section.subsections)
+        properties[child.name] = schema_of(child);
+      return {{"type", "object"},
+              {"additionalProperties", false},
+              {"properties", properties}};
+    }
+
+
+
     // A cell of a table: no bars, no line breaks.
     std::string cell(std::string text)
     {
@@ -168,6 +197,17 @@ namespace SlipStep
   void print_json(std::ostream &out, const ParameterSection &root)
   {
     out << json_section(root).dump(2) << '\n';
+  }
+
+
+
+  void print_schema(std::ostream &out, const ParameterSection &root)
+  {
+    nlohmann::ordered_json schema = {
+      {"$schema", "http://json-schema.org/draft-07/schema#"},
+      {"title", "slipstep"}};
+    schema.update(schema_of(root));
+    out << schema.dump(2) << '\n';
   }
 
 

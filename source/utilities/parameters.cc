@@ -243,22 +243,28 @@ namespace SlipStep
 
 
 
-  void Parameters::check_section(const std::string &path,
-                                 const std::string &origin) const
+  std::vector<std::string> Parameters::sections() const
   {
-    if (!paths(path + "/").empty())
-      return;
-    std::vector<std::string> sections = {"Variants", "Sweep"};
+    std::vector<std::string> found = {"Variants", "Sweep"};
     for (const Entry &entry : entries)
       for (std::size_t slash = entry.path.find('/'); slash != std::string::npos;
            slash             = entry.path.find('/', slash + 1))
         {
                       const std::string section = entry.path.substr(0, slash);
-                      if (std::find(sections.begin(), sections.end(), section) ==
-              sections.end())
-            sections.push_back(section);
+                      if (std::find(found.begin(), found.end(), section) == found.end())
+            found.push_back(section);
         }
-    const std::string nearest = nearest_path(path, sections);
+    return found;
+  }
+
+
+
+  void Parameters::check_section(const std::string &path,
+                                 const std::string &origin) const
+  {
+    if (!paths(path + "/").empty())
+      return;
+    const std::string nearest = nearest_path(path, sections());
     if (index_of_path.count(path) != 0)
       throw InputError(place(origin) + path +
                        " is a key, not a section; write \"set\"");
@@ -399,6 +405,36 @@ namespace SlipStep
 
 
 
+  std::vector<std::string> Parameters::find(const std::string &name,
+                                            const std::string &origin) const
+  {
+    std::vector<std::string> known = paths();
+    for (const std::string &section : sections())
+      if (!paths(section + "/").empty())
+        known.push_back(section);
+    const std::vector<std::string> found = endings(name, known);
+    if (found.size() != 1)
+      {
+        std::string near = nearest_path(name, known);
+        if (near.empty())
+          {
+            std::vector<std::string> names;
+            for (const std::string &path : known)
+              names.push_back(last_name(path));
+            near = nearest_name(name, names);
+          }
+        throw InputError(place(origin) +
+                         (found.empty() ? "there is no key or section " :
+                                          "more than one is called ") +
+                         excerpt(name) +
+                         (near.empty() ? "" : "; did you mean " + near + "?"));
+      }
+    return index_of_path.count(found.front()) ? found :
+                                                paths(found.front() + "/");
+  }
+
+
+
   std::string Parameters::origin(const std::string &path) const
   {
     const Entry &found = entry(path);
@@ -485,10 +521,11 @@ namespace SlipStep
 
 
 
-  void Parameters::print(std::ostream                &out,
-                         const Format                 format,
-                         const std::set<std::string> &omitted_sections,
-                         const std::set<std::string> &disabled_sections) const
+  void Parameters::print(std::ostream                   &out,
+                         const Format                    format,
+                         const std::set<std::string>    &omitted_sections,
+                         const std::set<std::string>    &disabled_sections,
+                         const std::vector<std::string> &only) const
   {
     std::vector<PrintedParameter> shown;
     for (const Entry &entry : entries)
@@ -497,7 +534,9 @@ namespace SlipStep
                        [&](const std::string &section) {
                          return boost::algorithm::starts_with(entry.path,
                                                               section + "/");
-                       }))
+                       }) &&
+          (only.empty() ||
+           std::find(only.begin(), only.end(), entry.path) != only.end()))
         shown.push_back({entry, text(entry.path)});
     const ParameterSection root = parameter_tree(shown);
     switch (format)
@@ -507,6 +546,13 @@ namespace SlipStep
           break;
         case Format::json:
           print_json(out, root);
+          break;
+        case Format::schema:
+          print_schema(out, root);
+          break;
+        case Format::keys:
+          for (const PrintedParameter &parameter : shown)
+            out << parameter.entry.path << '\n';
           break;
         case Format::markdown:
           print_markdown(out, root);

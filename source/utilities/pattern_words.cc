@@ -77,6 +77,17 @@ namespace SlipStep
 
 
 
+  std::vector<std::string> choices_of(const PatternBase &pattern)
+  {
+    if (dynamic_cast<const dealii::Patterns::Bool *>(&pattern))
+      return {"true", "false"};
+    return dynamic_cast<const dealii::Patterns::Selection *>(&pattern) ?
+             alternatives(pattern) :
+             std::vector<std::string>();
+  }
+
+
+
   std::string allowed_in_words(const PatternBase &pattern)
   {
     namespace P = dealii::Patterns;

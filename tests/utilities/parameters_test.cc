@@ -607,3 +607,50 @@ TEST_F(ParametersTest, PrintsForProgramsAndPages)
   expect_contains(page.str(), "## Friction/softening\n\n| Key |");
   expect_contains(page.str(), "| Degree | `1` | a whole number from 1 to 2 |");
 }
+
+
+TEST_F(ParametersTest, FindsKeysAndSectionsByTheirLastNames)
+{
+  const Parameters p    = read("");
+  const auto       find = [&](const std::string &name) {
+    return p.find(name, "asked");
+  };
+  using Paths = std::vector<std::string>;
+  EXPECT_EQ(find("Block/Degree"), Paths({"Block/Degree"}));
+  EXPECT_EQ(find("degree"), Paths({"Block/Degree"}));
+  EXPECT_EQ(find("softening"), p.paths("Friction/softening/"));
+  EXPECT_EQ(find("Friction"), p.paths("Friction/"));
+  for (const auto &[name, words] : std::map<std::string, std::string>(
+         {{"sofetning", "did you mean softening?"},
+          {"Friction/Degree", "did you mean Block/Degree?"},
+          {"nothing like it", "there is no key or section"}}))
+    try
+      {
+        find(name);
+        ADD_FAILURE() << name;
+      }
+    catch (const InputError &error)
+      {
+        expect_contains(error.what(), words);
+        expect_contains(error.what(), "asked");
+      }
+
+  std::ostringstream out;
+  p.print(out, Parameters::Format::keys, {}, {}, find("Block"));
+  EXPECT_EQ(out.str().find("Block/"), 0u);
+  EXPECT_EQ(out.str().find("Friction"), std::string::npos);
+}
+
+
+
+TEST_F(ParametersTest, PrintsASchema)
+{
+  std::ostringstream out;
+  read("set Block/Degree = 2\n").print(out, Parameters::Format::schema);
+  const auto schema = nlohmann::json::parse(out.str());
+  EXPECT_EQ(schema.at("type"), "object");
+  const auto degree =
+    schema.at("properties").at("Block").at("properties").at("Degree");
+  EXPECT_EQ(degree.at("default"), "1");
+  expect_contains(degree.at("description"), "a whole number from 1 to 2");
+}

@@ -6,8 +6,9 @@
 
 namespace SlipStep
 {
-  /// The command `slipstep parameters [import]`: all parameters of a case, or
-  /// of a map, with their defaults.
+  /// The command `slipstep parameters [import] [NAME ...]`: all parameters of a
+  /// case, or of a map, with their defaults, or only those of keys and
+  /// sections.
   /// @throws InputError
   int print_parameters(const CommandLine &line);
 } // namespace SlipStep

@@ -256,8 +256,11 @@ namespace SlipStep
   };
 
   /// The catalogue: every registered effect with formula, parameters, units,
-  /// bounds, neutral value and source.
-  void print_effects(std::ostream &out, const bool as_markdown = false);
+  /// bounds, neutral value and source; or the effects of these names.
+  /// @throws InputError if there is none of a name
+  void print_effects(std::ostream                   &out,
+                     const bool                      as_markdown = false,
+                     const std::vector<std::string> &names       = {});
 } // namespace SlipStep
 
 #endif

@@ -43,6 +43,10 @@ namespace SlipStep
   /// Nested objects; a parameter is {value, default, documentation, allowed}.
   void print_json(std::ostream &out, const ParameterSection &root);
 
+  /// A JSON schema (draft-07) of such objects with values alone, for forms and
+  /// programs that write cases.
+  void print_schema(std::ostream &out, const ParameterSection &root);
+
   /// A heading and a table (key, default, allowed, meaning) per section.
   void print_markdown(std::ostream &out, const ParameterSection &root);
 } // namespace SlipStep

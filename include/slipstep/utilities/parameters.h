@@ -55,6 +55,8 @@ namespace SlipStep
     {
       prm,
       json,
+      schema, // JSON schema
+      keys,   // one per line
       markdown
     };
 
@@ -145,6 +147,12 @@ namespace SlipStep
     /// All declared paths that begin with @p prefix, in declared order.
     std::vector<std::string> paths(const std::string &prefix = "") const;
 
+    /// The paths of a key or of all keys of a section. Outer sections may be
+    /// left out, if that is unique.
+    /// @throws InputError "origin: there is no ..." with the nearest
+    std::vector<std::string> find(const std::string &name,
+                                  const std::string &origin) const;
+
     /// Where a value was given, as messages begin: "file:line: key" or
     /// "--set key".
     std::string origin(const std::string &path) const;
@@ -187,10 +195,15 @@ namespace SlipStep
     /// Write all parameters with their values. Sections named in
     /// @p omitted_sections (paths such as "Friction/healing") are left out, in a
     /// .prm file those in @p disabled_sections are put behind "#".
-    void print(std::ostream                &out,
-               const Format                 format,
-               const std::set<std::string> &omitted_sections  = {},
-               const std::set<std::string> &disabled_sections = {}) const;
+    /// @param only the paths to be written, all if empty
+    void print(std::ostream                   &out,
+               const Format                    format,
+               const std::set<std::string>    &omitted_sections  = {},
+               const std::set<std::string>    &disabled_sections = {},
+               const std::vector<std::string> &only              = {}) const;
+
+    /// All sections, as paths, those of sweeps included.
+    std::vector<std::string> sections() const;
 
     /// Write what has other values than in @p other, as for a file that includes
     /// the file of @p other.

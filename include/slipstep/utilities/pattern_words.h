@@ -10,6 +10,10 @@
 
 namespace SlipStep
 {
+  /// The words of which a Selection or Bool allows one; none of others.
+  std::vector<std::string>
+  choices_of(const dealii::Patterns::PatternBase &pattern);
+
   /// What a pattern allows, in a user's words: "one of: cot, log", "a whole
   /// number from 1 to 3", "yes or no".
   std::string allowed_in_words(const dealii::Patterns::PatternBase &pattern);
