@@ -98,6 +98,7 @@ namespace SlipStep
                              "lines.csv",
                              "fields.pvd",
                              "contact.pvd",
+                             "paraview_state.py",
                              "contact_face.csv",
                              "surface.csv",
                              "refinement.json"})

@@ -23,6 +23,8 @@
 #include <functional>
 #include <sstream>
 
+#include "slipstep_paraview_state.h"
+
 namespace SlipStep
 {
   using namespace dealii;
@@ -376,6 +378,8 @@ namespace SlipStep
     std::ostringstream text;
     DataOutBase::write_pvd_record(text, entries);
     write_file(folder / (name + ".pvd"), text.str());
+    if (entries.size() == 1)
+      write_file(folder / "paraview_state.py", paraview_state);
   }
 
 

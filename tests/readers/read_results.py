@@ -82,6 +82,26 @@ def check_collection(file, folder, n_times):
         require(os.path.exists(os.path.join(folder, entry.get("file"))), file)
 
 
+# The picture that ParaView makes of it; where it cannot draw, a word.
+def check_state(script):
+    with open(script) as text:
+        compile(text.read(), script, "exec")
+    draw = shutil.which("pvbatch")
+    if not draw:
+        missing.append("pvbatch (Debian: paraview)")
+        return
+    screen = shutil.which("xvfb-run")
+    picture = script + ".png"
+    result = subprocess.run(([screen, "-a"] if screen else []) +
+                            [draw, script, picture],
+                            capture_output=True, text=True)
+    require("Traceback" not in result.stderr, result.stderr[-2000:])
+    if os.path.exists(picture):
+        require(os.path.getsize(picture) > 10000, picture, "is empty")
+    else:
+        missing.append("a screen on which pvbatch can draw")
+
+
 def check(case, launcher, folder, area, kinds):
     subprocess.run(launcher + [sys.argv[1], "run", os.path.join(here, case),
                                "--quiet", "--output", folder],
@@ -104,6 +124,7 @@ def check(case, launcher, folder, area, kinds):
         final = subprocess.run([jq, ".friction.final", folder + "/summary.json"],
                                check=True, capture_output=True).stdout
         near(float(final), history["friction"], 1e-12, "jq .friction.final")
+    check_state(folder + "/paraview_state.py")
     with open(folder + "/summary.json") as file:
         probes = json.load(file)["probes"]
     require(list(probes) == [n for n in names if n.startswith("probe_")], probes)
