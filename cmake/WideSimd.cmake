@@ -64,12 +64,12 @@ else()
                  slipstep_config "${slipstep_config}")
   file(WRITE "${folder}/config.h" "${slipstep_config}")
   configure_file("${folder}/config.h" "${folder}/${slipstep_config_h}" COPYONLY)
-  list(APPEND SLIPSTEP_SIMD_OPTIONS "-I${folder}")
+  # The compiler warns about its own headers of intrinsics.
+  list(APPEND SLIPSTEP_SIMD_OPTIONS "-I${folder}" -Wno-maybe-uninitialized
+       -Wno-uninitialized)
   if(slipstep_simd_width EQUAL 512)
-    # The compiler warns about its own header of intrinsics.
     set(SLIPSTEP_PROCESSOR "avx512f")
-    list(APPEND SLIPSTEP_SIMD_OPTIONS -march=x86-64-v4 -mprefer-vector-width=512
-         -Wno-maybe-uninitialized -Wno-uninitialized)
+    list(APPEND SLIPSTEP_SIMD_OPTIONS -march=x86-64-v4 -mprefer-vector-width=512)
   elseif(slipstep_simd_width EQUAL 256)
     set(SLIPSTEP_PROCESSOR "avx2")
     list(APPEND SLIPSTEP_SIMD_OPTIONS -march=x86-64-v3)
