@@ -91,6 +91,9 @@ namespace SlipStep
   {
     Parameters as_written = declared_parameters();
     as_written.read(file);
+    // A member of the file's own sweep can be swept further.
+    const bool is_swept_member =
+      !line.sweeps.empty() && as_written.keep_variant(line.variant);
     for (const auto &[path, values] : line.sweeps)
       as_written.sweep(path, values, "--sweep");
 
@@ -98,7 +101,7 @@ namespace SlipStep
     result.parameters = as_written;
     apply_settings(line, result.parameters);
     result.variants = result.parameters.variants();
-    if (!line.variant.empty())
+    if (!line.variant.empty() && !is_swept_member)
       {
         result.selected =
           find_variant(as_written.variants(), line.variant, file);

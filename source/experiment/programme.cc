@@ -366,6 +366,10 @@ namespace SlipStep
     {
       double       speed      = default_speed;
       const Piece &speed_text = statement.parts.at("");
+      if (is_quantity(speed_text, Dimension::length) ||
+          is_quantity(speed_text, Dimension::time))
+        fail(speed_text.column,
+             "how far or how long follows 'for': slide for " + speed_text.text);
       if (!speed_text.text.empty())
         speed = quantity(speed_text, Dimension::speed);
       if (speed == 0. || !std::isfinite(speed))

@@ -497,6 +497,19 @@ namespace SlipStep
 
 
 
+  bool Parameters::keep_variant(const std::string &name)
+  {
+    for (const Variant &variant : variant_list)
+      if (variant.label == name || variant.folder == name)
+        {
+          variant_list = {Variant(variant)};
+          return true;
+        }
+    return false;
+  }
+
+
+
   Parameters Parameters::with_variant(const Variant &variant) const
   {
     Parameters result = *this;

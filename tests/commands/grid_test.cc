@@ -56,6 +56,35 @@ namespace
 
 
 
+// Of a case that is a sweep, one member is swept on.
+TEST_F(Grid, SweepsAMemberOfASweep)
+{
+  process.write("sweep.prm",
+                "include one.prm\nsubsection Sweep\n"
+                "  set Key    = Loading/Speed\n"
+                "  set Values = 1 mm/min, 20 mm/min\nend\n");
+  for (const std::string speed : {"1 mm/min", "20 mm/min"})
+    run({"point",
+         "sweep.prm",
+         "--variant",
+         speed,
+         "--sweep",
+         "Friction/overstress/Exponent=8|16",
+         "--output",
+         "at " + speed.substr(0, speed.find(' ')),
+         "--quiet"});
+  run({"point", "grid.prm", "--output", "all", "--quiet"});
+  for (const std::string exponent : {"8", "16"})
+    for (const std::string speed : {"1", "20"})
+      EXPECT_TRUE(are_same("at " + speed + "/" + speed + "_mm-min_Exponent_" +
+                             exponent + "/history.csv",
+                           "all/Exponent_" + exponent + "_Speed_" + speed +
+                             "_mm-min/history.csv"))
+        << exponent << " " << speed;
+}
+
+
+
 TEST_F(Grid, IsTheSameFromTheFileAndTheCommandLine)
 {
   run({"point", "grid.prm", "--output", "file", "--quiet"});

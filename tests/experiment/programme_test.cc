@@ -268,6 +268,16 @@ TEST(Programme, TheCaretMarksTheFault)
 
 
 
+TEST(Programme, ALengthWithoutForIsTold)
+{
+  for (const std::string extent : {"60 mm", "5 s"})
+    EXPECT_NE(
+      message_about_programme("slide " + extent).find("slide for " + extent),
+      std::string::npos);
+}
+
+
+
 TEST(Programme, TheNearestVerbIsNamed)
 {
   EXPECT_NE(message_about_programme("sldie 1 mm/s for 1 mm").find("'slide'"),

@@ -183,6 +183,10 @@ namespace SlipStep
                const std::vector<std::string> &values,
                const std::string              &origin);
 
+    /// Leave out all members of the sweep but that of this label or folder.
+    /// @return whether there is one
+    bool keep_variant(const std::string &name);
+
     /// The complete parameters of one variant, which is no sweep any more.
     Parameters with_variant(const Variant &variant) const;
 
