@@ -247,6 +247,61 @@ TEST(Ratchet, slips_per_cycle_as_the_subloading_surface_says)
 
 
 
+// Jumps, what comes after them, and rests, of both laws of evolution.
+TEST(RateAndState, steps_and_rests_follow_the_closed_forms)
+{
+  const double mu = 0.5, b = 0.025, t_0 = 0.01, D = 0.01;
+  struct Phase
+  {
+    double begin, speed, ageing, slip_law; // [s], [mm/s], states at begin [s]
+  };
+  const std::vector<Phase> phases = {{101., 0.01, 10., 10.},
+                                     {111., 0.001, 1., 1.},
+                                     {221., 0.001, 20., 10.},
+                                     {521., 0.001, 110., 10.},
+                                     {1721., 0.001, 1010., 10.},
+                                     {11921., 0.001, 10010., 10.}};
+  for (const std::string evolution : {"ageing", "slip_law"})
+    {
+      const bool       is_ageing = evolution == "ageing";
+      const Parameters parameters =
+        make_parameters({{"Friction/Effects",
+                          "subloading, overstress, " + evolution}},
+                        "rate_and_state/rate_and_state.prm");
+      const FrictionLaw law(parameters);
+      const auto        history = point_history(parameters);
+      unsigned int      n_rows  = 0;
+      for (std::size_t i = 0; i < phases.size(); ++i)
+        {
+          const Phase &phase = phases[i];
+          const double r     = law.steady_ratio(phase.speed);
+          const double end   = i == 0 ? 111. : phase.begin + 100.;
+          const double start = is_ageing ? phase.ageing : phase.slip_law;
+          const double last  = D / phase.speed;
+          double       slip  = 0.;
+          for (const HistoryRow &row : history)
+            if (row.time < phase.begin + 1e-9)
+              slip = row.slip;
+            else if (row.time < end + 1e-9 && row.slip - slip > 0.02 * D)
+              {
+                const double left  = std::exp(-(row.slip - slip) / D);
+                const double state = is_ageing ?
+                                       last + (start - last) * left :
+                                       last * std::pow(start / last, left);
+                ASSERT_NEAR(row.friction /
+                              (r * mu * (1. + b * std::log1p(state / t_0))),
+                            1.,
+                            1e-4)
+                  << evolution << " at " << row.time;
+                ++n_rows;
+              }
+        }
+      EXPECT_GT(n_rows, 500u);
+    }
+}
+
+
+
 TEST(StickSlip, is_an_undamped_swing_about_kinetic_friction)
 {
   // Stick from low to high at the speed of the load point, then half a swing of
