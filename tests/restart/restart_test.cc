@@ -118,6 +118,17 @@ TEST_F(Restart, OfAMachineGoesOnBitForBit)
 
 
 
+TEST_F(Restart, OfACurvedFaceWithAWeakPatchGoesOnBitForBit)
+{
+  kill_and_resume("set Contact/Gap = (x - 5)^2/(2*200)\n"
+                  "set Contact/Strength = 1 + 0.4*(abs(x - 5) > 0.5)\n"
+                  "set Block/Young modulus = 1e3 MPa\n"
+                  "set Friction/Static coefficient = 0.3\n" +
+                  pushed + "0.05 MPa in 1 s; slide 1 mm/s for 0.004 mm\n");
+}
+
+
+
 TEST_F(Restart, Sigusr1WritesACheckpointAndTheRunGoesOn)
 {
   {

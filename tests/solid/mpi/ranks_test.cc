@@ -122,6 +122,30 @@ TEST(Ranks, agree_with_a_flat_face_in_many_steps)
 
 
 
+// Contact that opens and closes, at points of which other ranks know nothing.
+TEST(Ranks, agree_on_a_curved_face_with_a_weak_patch_in_many_steps)
+{
+  const Settings curved = {{"Contact/Gap", "(x - 5)^2/(2*200)"},
+                           {"Contact/Strength", "1 - 0.4*(abs(x - 5) < 0.5)"},
+                           {"Friction/Effects", "subloading"},
+                           {"Friction/Static coefficient", "0.3"},
+                           {"Block/Young modulus", "1e4 MPa"},
+                           {"Block/Newton tolerance", "1e-11"},
+                           {"Loading/Programme",
+                            "press 20 MPa in 1 s; slide 1 mm/s for 0.004 mm"}};
+  for (const std::string refinement : {"uniform 0", "adaptive 1"})
+    compare<2>(curved + Settings{{"Block/Dimension", "2"},
+                                 {"Block/Size", "10 mm, 5 mm"},
+                                 {"Block/Subdivisions", "12, 6"},
+                                 {"Block/Refinement", refinement}},
+               false);
+  compare<3>(curved + Settings{{"Block/Size", "10 mm, 2 mm, 5 mm"},
+                               {"Block/Subdivisions", "8, 2, 4"}},
+             false);
+}
+
+
+
 // Meshes with hanging nodes on several levels, supports and histories that move
 // from rank to rank.
 TEST(Ranks, agree_on_a_drive_that_gives_way_in_many_steps)
