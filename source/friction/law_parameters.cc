@@ -194,6 +194,16 @@ namespace SlipStep
 
 
 
+  double FrictionLaw::wear_rate() const
+  {
+    double sum = 0.;
+    for (const StrengthEffect *effect : strength_effects)
+      sum += effect->wear_rate();
+    return sum;
+  }
+
+
+
   std::vector<ContactMemory> FrictionLaw::memories() const
   {
     std::vector<ContactMemory> used;

@@ -42,7 +42,8 @@ namespace SlipStep
       for (const auto dof : supported_dofs[d])
         work += unbalanced(dof) *
                 (solution(dof) - stage_solution(dof) + frame_motion[d]);
-    work = Utilities::MPI::sum(work, communicator) +
+    // Of a load that comes down as material wears away the friction pays.
+    work = Utilities::MPI::sum(work - contact.wear_work(), communicator) +
            drive.work_beyond(force_on_drive(unbalanced));
 
     Vector &loads = right_hand_side;

@@ -16,6 +16,7 @@ namespace SlipStep
                                 const FrictionLaw     &law)
     : parameters(parameters)
     , law(law)
+    , worn_depth(contact_memory("worn_depth_mm"))
     , face_quadrature(parameters.degree + 1)
   {}
 
@@ -130,12 +131,15 @@ namespace SlipStep
         for (unsigned int q = 0; q < values.size(); ++q)
           {
             QuadraturePoint &point = cell_face.points[q];
-            point.distance         = point.gap - sign * values[q][normal];
+            point.distance =
+              point.gap + worn_at_start(point) - sign * values[q][normal];
             if (!is_second_stage)
               point.distance_at_start =
                 point.point.committed().normal_traction > 0. ?
                   0. :
-                  std::max(0., point.gap - sign * old_values[q][normal]);
+                  std::max(0.,
+                           point.gap + worn_at_start(point) -
+                             sign * old_values[q][normal]);
             Tensor<1, 2> slip;
             for (unsigned int i = 0; i < dim - 1; ++i)
               slip[i] =
@@ -156,6 +160,36 @@ namespace SlipStep
   // that touches later than at its end says nothing of the second: it is one
   // step of backward Euler, and every point makes such a step once.
 
+  //
+  // What wears away in a stage gives way at once. With a depth
+  // @f$k f_n s@f$ worn over a slip path s the plane answers
+  // @f$f_n = \alpha_n (g - k f_n s)@f$, as a spring of the stiffness
+  // @f$\alpha_n / (1 + \alpha_n k s)@f$ would. The path depends on f_n by no
+  // more than the elastic slip, so that the third time is as good as exact; the
+  // tangent takes it for given.
+
+  template <int dim>
+  double ContactFace<dim>::worn_at_start(const QuadraturePoint &point) const
+  {
+    return law.wear_rate() > 0. ? point.point.stage_start()[worn_depth] : 0.;
+  }
+
+
+
+  template <int dim>
+  double ContactFace<dim>::wear_work() const
+  {
+    double work = 0.;
+    if (law.wear_rate() > 0.)
+      for (const CellFace &cell_face : faces)
+        for (const QuadraturePoint &point : cell_face.points)
+          work += point.JxW * point.point.trial().normal_traction *
+                  (point.point.trial()[worn_depth] - worn_at_start(point));
+    return work;
+  }
+
+
+
   template <int dim>
   void ContactFace<dim>::respond(QuadraturePoint    &point,
                                  const Tensor<1, 2> &slip,
@@ -163,8 +197,8 @@ namespace SlipStep
   {
     const unsigned int normal      = parameters.normal_axis();
     const double       sign        = parameters.outward_sign();
-    const double       alpha_n     = law.normal_stiffness();
     const double       penetration = -point.distance;
+    double             alpha_n     = law.normal_stiffness();
     point.slip_of_stage            = slip;
     point.time_of_stage            = time_step;
     point.force                    = Tensor<1, dim>();
@@ -179,12 +213,25 @@ namespace SlipStep
         share            = penetration / way;
         d_share          = point.distance_at_start / (way * way);
       }
-    const ContactResponse response =
-      point.point.update(law,
-                         was_off ? share * all_slip : slip,
-                         alpha_n * penetration,
-                         was_off ? time_step + point.time_before : time_step);
-    point.slips = response.slips;
+    const auto answer = [&]() {
+      return point.point.update(law,
+                                was_off ? share * all_slip : slip,
+                                alpha_n * penetration,
+                                was_off ? time_step + point.time_before :
+                                          time_step);
+    };
+    ContactResponse response = answer();
+    if (law.wear_rate() > 0. && penetration > 0.)
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const double path =
+            point.point.trial().slip_path - point.point.stage_start().slip_path;
+          alpha_n = law.normal_stiffness() /
+                    (1. + law.normal_stiffness() * law.wear_rate() * path);
+          response = answer();
+        }
+    point.slips    = response.slips;
+    point.distance = -penetration * alpha_n / law.normal_stiffness();
 
     // A point just touching counts as closed, and as sticking: otherwise the
     // first load would meet no resistance.

@@ -60,6 +60,12 @@ namespace SlipStep
       return start.state.traction;
     }
 
+    /// What the present stage starts from.
+    const ContactState &stage_start() const
+    {
+      return start.state;
+    }
+
     /// Both states, for boost::serialization.
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)

@@ -194,6 +194,13 @@ namespace SlipStep
                           ContactState & /*end*/) const
     {}
 
+    /// Depth that the block loses per normal traction and slip [1/MPa]. The
+    /// effect remembers it as the memory "worn_depth_mm".
+    virtual double wear_rate() const
+    {
+      return 0.;
+    }
+
     /// The memories that remember() writes, so that they are shown.
     virtual std::vector<ContactMemory> memories() const
     {

@@ -97,6 +97,9 @@ namespace SlipStep
       return range_of_coefficient;
     }
 
+    /// Depth that the block loses per normal traction and slip [1/MPa].
+    double wear_rate() const;
+
     double normal_stiffness() const ///< alpha_n [MPa/mm]
     {
       return alpha_n;

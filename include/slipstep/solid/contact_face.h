@@ -151,6 +151,10 @@ namespace SlipStep
     /// Linearisation of the last update.
     ContactTangent<dim> tangent() const;
 
+    /// What the pressure did on the depth that wore away in the present stage,
+    /// of this rank's points [N mm].
+    double wear_work() const;
+
     /// Of the last update.
     ContactTotals totals(const MPI_Comm &communicator) const;
 
@@ -179,6 +183,7 @@ namespace SlipStep
       std::vector<double> values; // at the quadrature points
     };
 
+    double                worn_at_start(const QuadraturePoint &point) const;
     void                  respond(QuadraturePoint            &point,
                                   const dealii::Tensor<1, 2> &slip,
                                   const double                time_step);
@@ -196,6 +201,7 @@ namespace SlipStep
 
     const BlockParameters          parameters;
     const FrictionLaw             &law;
+    const ContactMemory           &worn_depth;
     const dealii::QGauss<dim - 1>  face_quadrature;
     const dealii::DoFHandler<dim> *dof_handler = nullptr;
     std::vector<ShapeFunction>     shape_functions;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// A block that wears, against Archard's law for the whole face and for each
+// point of it.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "block_test_tools.h"
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  constexpr double pressure = 10., path = 0.5; // [MPa], [mm]
+
+  // Its top stays flat, so that the moment of friction does not tilt it.
+  Settings worn(const double specific_rate)
+  {
+    return {{"Friction/Effects", "wear"},
+            {"Friction/wear/Specific rate", std::to_string(specific_rate)},
+            {"Friction/Static coefficient", "0.2"},
+            {"Friction/Normal stiffness", "1e4 MPa/mm"},
+            {"Friction/Tangential stiffness", "1e5 MPa/mm"},
+            {"Block/Dimension", "2"},
+            {"Block/Size", "10 mm, 5 mm"},
+            {"Block/Subdivisions", "16, 8"},
+            {"Block/Young modulus", "1e4 MPa"},
+            {"Block/Faces/top", "pressure programme; drive; flat"},
+            {"Loading/Programme",
+             "press 10 MPa in 1 s; slide 1 mm/s for 0.5 mm"}};
+  }
+
+  struct Worn
+  {
+    BlockResult result;
+    double      volume = 0.; ///< per width [mm^2]
+    double      spread = 0.; ///< of the pressure, relative to its mean
+  };
+
+  Worn wear(const Settings &settings)
+  {
+    const ContactMemory &depth = contact_memory("worn_depth_mm");
+    Worn                 worn;
+    worn.result = run_block_case<2>(
+      make_parameters(settings), MPI_COMM_SELF, [&](const Block<2> &block) {
+        for (const auto &face : block.contact_face().cell_faces())
+          for (const auto &point : face.points)
+            {
+              const ContactState &state = point.point.committed();
+              worn.volume += point.JxW * state[depth];
+              worn.spread =
+                std::max(worn.spread,
+                         std::abs(state.normal_traction / pressure - 1.));
+            }
+      });
+    EXPECT_EQ(worn.result.failure, "");
+    return worn;
+  }
+} // namespace
+
+
+
+// Load times path times k, wherever the pressure is.
+TEST(BlockWear, loses_load_times_path_times_k)
+{
+  for (const double specific_rate : {0.1, 1., 10.})
+    {
+      const Worn        worn_block = wear(worn(specific_rate));
+      const HistoryRow &last       = worn_block.result.history.back();
+      const double      load       = pressure * 10.;
+      EXPECT_NEAR(last.normal_load, load, 1e-6 * load);
+      // Part of the path is shear of the block.
+      EXPECT_NEAR(last.slip, path, 0.01 * path);
+      EXPECT_NEAR(worn_block.volume / (1e-3 * specific_rate * load * last.slip),
+                  1.,
+                  1e-3)
+        << specific_rate;
+      EXPECT_NEAR(last.stored_energy + last.dissipated_energy,
+                  last.external_work,
+                  2e-3 * last.external_work)
+        << specific_rate;
+    }
+}
+
+
+
+// Where the pressure is high more wears away, until it is the same everywhere.
+TEST(BlockWear, evens_the_pressure_out)
+{
+  const double fresh = wear(worn(0.)).spread;
+  EXPECT_GT(fresh, 0.1);
+  EXPECT_LT(wear(worn(1.)).spread, 0.7 * fresh);
+  EXPECT_LT(wear(worn(20.)).spread, 0.01);
+}
+
+
+
+// Steps may be longer than what wears away is deep.
+TEST(BlockWear, hardly_depends_on_the_steps)
+{
+  std::vector<double> volumes, spreads;
+  for (const std::string n : {"10", "20", "40"})
+    {
+      const Worn result = wear(
+        worn(2.) + Settings{{"Time stepping/Equal steps per statement", n}});
+      volumes.push_back(result.volume);
+      spreads.push_back(result.spread);
+    }
+  EXPECT_NEAR(volumes[0], volumes[2], 1e-3 * volumes[2]);
+  EXPECT_LT(std::abs(spreads[1] - spreads[2]),
+            0.5 * std::abs(spreads[0] - spreads[1]) + 1e-6);
+}
