@@ -46,6 +46,7 @@ namespace SlipStep
   {
     make_grid();
     setup_system();
+    old_solution.update_ghost_values();
   }
 
 

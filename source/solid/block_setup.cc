@@ -77,7 +77,6 @@ namespace SlipStep
                            &stage_solution,
                            &right_hand_side})
       vector->reinit(solution);
-    old_solution.update_ghost_values();
   }
 
 
