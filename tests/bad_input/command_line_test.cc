@@ -20,7 +20,7 @@ TEST(CommandLine, UnknownWordsComeWithTheNearest)
   expect_refusal(process.run({"run"}), {".prm file is missing"});
   expect_refusal(process.run({"run", "a.prm", "b.prm"}), {"b.prm", "usage"});
   expect_refusal(process.run({"parameters", "--format", "xml"}),
-                 {"xml", "prm, json, md"});
+                 {"xml", "prm, html, md, keys, json, schema"});
   expect_refusal(process.run({"parameters", "--format="}), {"--format"});
   expect_refusal(process.run({"a.prm"}), {"mean slipstep run a.prm?"});
   expect_refusal(process.run({"effects", "--set", "Block/Degree=2"}),
