@@ -2,6 +2,7 @@
 #include <slipstep/experiment/programme.h>
 #include <slipstep/experiment/programme_text.h>
 #include <slipstep/utilities/home_folder.h>
+#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/path_from.h>
 #include <slipstep/utilities/pattern_words.h>
 
