@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The law and the results as Python has them. Arguments: folder of the cases."""
+import json
+import os
 import sys
 import tempfile
 from pathlib import Path
@@ -56,3 +58,25 @@ for wrong in (lambda: slipstep.Law("nowhere.prm"),
         print("refused:", str(error).splitlines()[0])
     else:
         sys.exit("not refused")
+
+# The notebook runs, and says what the case says.
+notebook = cases.parent / "doc" / "guide" / "flat_surface_test.ipynb"
+os.chdir(notebook.parent)
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+    can_plot = True
+except ImportError:
+    print("without the picture: matplotlib is missing (Debian: python3-matplotlib)")
+    can_plot = False
+names = {}
+for cell in json.loads(notebook.read_text())["cells"]:
+    source = "".join(cell["source"])
+    if cell["cell_type"] == "code" and (can_plot or "matplotlib" not in source):
+        exec(source, names)
+for speed, kinetic in ((1., 0.0980), (10., 0.1074), (50., 0.1138), (200., 0.1191)):
+    assert abs(names["slides"][speed][1][-1] - kinetic) < 1e-4
+assert names["difference"] < 1e-10
+assert max(names["without_rate"]) - min(names["without_rate"]) < 1e-6
+if can_plot:
+    assert len(names["axes"].lines) == 4
