@@ -39,128 +39,107 @@ namespace SlipStep
     // The first unit of each list is the base unit.
     const DimensionEntry &entry(const Dimension dimension)
     {
-      static const DimensionEntry number{"a number", {}};
-      static const DimensionEntry length{"a length",
-                                         {{"mm", 1, 1},
-                                          {"um", 1, 1e3},
-                                          {"nm", 1, 1e6},
-                                          {"cm", 10, 1},
-                                          {"m", 1e3, 1},
-                                          {"µm", 1, 1e3}}};
-      static const DimensionEntry time{"a time",
-                                       {{"s", 1, 1},
-                                        {"ms", 1, 1e3},
-                                        {"us", 1, 1e6},
-                                        {"min", 60, 1},
-                                        {"h", 3600, 1},
-                                        {"d", 86400, 1}}};
-      static const DimensionEntry speed{"a speed",
-                                        {{"mm/s", 1, 1},
-                                         {"mm/min", 1, 60},
-                                         {"mm/h", 1, 3600},
-                                         {"um/s", 1, 1e3},
-                                         {"nm/s", 1, 1e6},
-                                         {"cm/s", 10, 1},
-                                         {"m/s", 1e3, 1},
-                                         {"m/min", 1e3, 60},
-                                         {"µm/s", 1, 1e3}}};
-      static const DimensionEntry stress{"a stress",
-                                         {{"MPa", 1, 1},
-                                          {"Pa", 1, 1e6},
-                                          {"kPa", 1, 1e3},
-                                          {"GPa", 1e3, 1},
-                                          {"bar", 1, 10},
-                                          {"N/mm^2", 1, 1}}};
-      static const DimensionEntry stiffness{"a stiffness",
-                                            {{"MPa/mm", 1, 1},
-                                             {"kPa/mm", 1, 1e3},
-                                             {"GPa/mm", 1e3, 1},
-                                             {"MPa/m", 1, 1e3},
-                                             {"GPa/m", 1, 1},
-                                             {"N/mm^3", 1, 1}}};
-      static const DimensionEntry per_length{
-        "a value per length",
-        {{"1/mm", 1, 1}, {"1/um", 1e3, 1}, {"1/cm", 1, 10}, {"1/m", 1, 1e3}}};
-      static const DimensionEntry per_time{
-        "a rate per time",
-        {{"1/s", 1, 1}, {"1/ms", 1e3, 1}, {"1/min", 1, 60}, {"1/h", 1, 3600}}};
-      static const DimensionEntry viscosity{
-        "a viscosity",
-        {{"s/mm", 1, 1}, {"min/mm", 60, 1}, {"s/um", 1e3, 1}, {"s/m", 1, 1e3}}};
-      static const DimensionEntry drag{"a drag",
-                                       {{"MPa s/mm", 1, 1},
-                                        {"MPa min/mm", 60, 1},
-                                        {"MPa s/m", 1, 1e3}}};
-      static const DimensionEntry areal_mass{"a mass per area",
-                                             {{"MPa s^2/mm", 1, 1},
-                                              {"kg/mm^2", 1, 1e3},
-                                              {"kg/cm^2", 1, 1e5},
-                                              {"kg/m^2", 1, 1e9},
-                                              {"g/mm^2", 1, 1e6},
-                                              {"g/cm^2", 1, 1e8}}};
-      static const DimensionEntry per_temperature{"a value per temperature",
-                                                  {{"1/degC", 1, 1},
-                                                   {"1/K", 1, 1}}};
-      static const DimensionEntry heating{"a temperature per work and area",
-                                          {{"degC mm/N", 1, 1},
-                                           {"K mm/N", 1, 1},
-                                           {"K m^2/kJ", 1, 1}}};
-      static const DimensionEntry angle{"an angle",
-                                        {{"deg", 1, 1},
-                                         {"rad", 180, dealii::numbers::PI}}};
-      static const DimensionEntry force{"a force",
-                                        {{"N", 1, 1},
-                                         {"kN", 1e3, 1},
-                                         {"mN", 1, 1e3},
-                                         {"uN", 1, 1e6},
-                                         {"MN", 1e6, 1},
-                                         {"kgf", 9.80665, 1},
-                                         {"gf", 9.80665, 1e3},
-                                         {"lbf", 4.4482216152605, 1}}};
-      static const DimensionEntry area{
-        "an area",
-        {{"mm^2", 1, 1}, {"um^2", 1, 1e6}, {"cm^2", 100, 1}, {"m^2", 1e6, 1}}};
-      static const DimensionEntry temperature{
-        "a temperature", {{"degC", 1, 1}, {"C", 1, 1}, {"K", 1, 1, -273.15}}};
-      switch (dimension)
-        {
-          case Dimension::number:
-            return number;
-          case Dimension::length:
-            return length;
-          case Dimension::time:
-            return time;
-          case Dimension::speed:
-            return speed;
-          case Dimension::stress:
-            return stress;
-          case Dimension::stiffness:
-            return stiffness;
-          case Dimension::per_length:
-            return per_length;
-          case Dimension::per_time:
-            return per_time;
-          case Dimension::viscosity:
-            return viscosity;
-          case Dimension::drag:
-            return drag;
-          case Dimension::areal_mass:
-            return areal_mass;
-          case Dimension::per_temperature:
-            return per_temperature;
-          case Dimension::heating:
-            return heating;
-          case Dimension::angle:
-            return angle;
-          case Dimension::force:
-            return force;
-          case Dimension::area:
-            return area;
-          case Dimension::temperature:
-            return temperature;
-        }
-      Assert(false, dealii::ExcInternalError());
-      return number;
+      static const std::map<Dimension, DimensionEntry> entries = {
+        {Dimension::number, {"a number", {}}},
+        {Dimension::length,
+         {"a length",
+          {{"mm", 1, 1},
+           {"um", 1, 1e3},
+           {"nm", 1, 1e6},
+           {"cm", 10, 1},
+           {"m", 1e3, 1},
+           {"µm", 1, 1e3}}}},
+        {Dimension::time,
+         {"a time",
+          {{"s", 1, 1},
+           {"ms", 1, 1e3},
+           {"us", 1, 1e6},
+           {"min", 60, 1},
+           {"h", 3600, 1},
+           {"d", 86400, 1}}}},
+        {Dimension::speed,
+         {"a speed",
+          {{"mm/s", 1, 1},
+           {"mm/min", 1, 60},
+           {"mm/h", 1, 3600},
+           {"um/s", 1, 1e3},
+           {"nm/s", 1, 1e6},
+           {"cm/s", 10, 1},
+           {"m/s", 1e3, 1},
+           {"m/min", 1e3, 60},
+           {"µm/s", 1, 1e3}}}},
+        {Dimension::stress,
+         {"a stress",
+          {{"MPa", 1, 1},
+           {"Pa", 1, 1e6},
+           {"kPa", 1, 1e3},
+           {"GPa", 1e3, 1},
+           {"bar", 1, 10},
+           {"N/mm^2", 1, 1}}}},
+        {Dimension::stiffness,
+         {"a stiffness",
+          {{"MPa/mm", 1, 1},
+           {"kPa/mm", 1, 1e3},
+           {"GPa/mm", 1e3, 1},
+           {"MPa/m", 1, 1e3},
+           {"GPa/m", 1, 1},
+           {"N/mm^3", 1, 1}}}},
+        {Dimension::per_length,
+         {"a value per length",
+          {{"1/mm", 1, 1},
+           {"1/um", 1e3, 1},
+           {"1/cm", 1, 10},
+           {"1/m", 1, 1e3}}}},
+        {Dimension::per_time,
+         {"a rate per time",
+          {{"1/s", 1, 1},
+           {"1/ms", 1e3, 1},
+           {"1/min", 1, 60},
+           {"1/h", 1, 3600}}}},
+        {Dimension::viscosity,
+         {"a viscosity",
+          {{"s/mm", 1, 1},
+           {"min/mm", 60, 1},
+           {"s/um", 1e3, 1},
+           {"s/m", 1, 1e3}}}},
+        {Dimension::drag,
+         {"a drag",
+          {{"MPa s/mm", 1, 1}, {"MPa min/mm", 60, 1}, {"MPa s/m", 1, 1e3}}}},
+        {Dimension::areal_mass,
+         {"a mass per area",
+          {{"MPa s^2/mm", 1, 1},
+           {"kg/mm^2", 1, 1e3},
+           {"kg/cm^2", 1, 1e5},
+           {"kg/m^2", 1, 1e9},
+           {"g/mm^2", 1, 1e6},
+           {"g/cm^2", 1, 1e8}}}},
+        {Dimension::per_temperature,
+         {"a value per temperature", {{"1/degC", 1, 1}, {"1/K", 1, 1}}}},
+        {Dimension::heating,
+         {"a temperature per work and area",
+          {{"degC mm/N", 1, 1}, {"K mm/N", 1, 1}, {"K m^2/kJ", 1, 1}}}},
+        {Dimension::angle,
+         {"an angle", {{"deg", 1, 1}, {"rad", 180, dealii::numbers::PI}}}},
+        {Dimension::force,
+         {"a force",
+          {{"N", 1, 1},
+           {"kN", 1e3, 1},
+           {"mN", 1, 1e3},
+           {"uN", 1, 1e6},
+           {"MN", 1e6, 1},
+           {"kgf", 9.80665, 1},
+           {"gf", 9.80665, 1e3},
+           {"lbf", 4.4482216152605, 1}}}},
+        {Dimension::area,
+         {"an area",
+          {{"mm^2", 1, 1},
+           {"um^2", 1, 1e6},
+           {"cm^2", 100, 1},
+           {"m^2", 1e6, 1}}}},
+        {Dimension::temperature,
+         {"a temperature",
+          {{"degC", 1, 1}, {"C", 1, 1}, {"K", 1, 1, -273.15}}}}};
+      return entries.at(dimension);
     }
 
 
