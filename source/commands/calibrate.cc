@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/report/calibration_report.h>
-#include <slipstep/commands/calibrate.h>
+#include <slipstep/commands/commands.h>
 #include <slipstep/commands/new_case.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/commands/case.h>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/campaign.h>
-#include <slipstep/commands/check.h>
+#include <slipstep/commands/commands.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/rate_and_state.h>
-#include <slipstep/commands/import_tests.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/commands/case.h>
 

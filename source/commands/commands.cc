@@ -2,18 +2,8 @@
 
 // The table of all commands.
 
-#include <slipstep/commands/calibrate.h>
-#include <slipstep/commands/check.h>
 #include <slipstep/commands/commands.h>
-#include <slipstep/commands/compare.h>
-#include <slipstep/commands/diagnose.h>
-#include <slipstep/commands/export_law.h>
-#include <slipstep/commands/print_parameters.h>
-#include <slipstep/commands/run.h>
 #include <slipstep/friction/law.h>
-#include <slipstep/commands/import_tests.h>
-#include <slipstep/commands/refine_block.h>
-#include <slipstep/commands/plant.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/commands/case.h>
-#include <slipstep/commands/compare.h>
-#include <slipstep/commands/outcome.h>
+#include <slipstep/commands/commands.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/experiment/summary.h>
 #include <slipstep/measured_data/measured_test.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/commands/diagnose.h>
+#include <slipstep/commands/commands.h>
 #include <slipstep/commands/element_check.h>
 #include <slipstep/commands/new_case.h>
 #include <slipstep/diagnosis/diagnose.h>

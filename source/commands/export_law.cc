@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/commands/export_law.h>
+#include <slipstep/commands/commands.h>
 
 #include <slipstep/commands/case.h>
 #include <slipstep/friction/law.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/synthetic_tests/answer.h>
-#include <slipstep/commands/plant.h>
+#include <slipstep/commands/commands.h>
 #include <slipstep/synthetic_tests/hidden_effects.h>
 #include <slipstep/synthetic_tests/planted_campaign.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/commands/print_parameters.h>
+#include <slipstep/commands/commands.h>
 #include <slipstep/measured_data/import_map.h>
 #include <slipstep/commands/case.h>
 #include <slipstep/report/parameters_page.h>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
 
-#include <slipstep/commands/run.h>
-#include <slipstep/commands/run_point.h>
+#include <slipstep/commands/commands.h>
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/report/run_report.h>
@@ -13,7 +12,6 @@
 #include <slipstep/solid/attempt_together.h>
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/commands/case.h>
-#include <slipstep/commands/run_block.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>

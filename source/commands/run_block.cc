@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/commands/run_block.h>
+#include <slipstep/commands/commands.h>
 
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/run_recorder.h>

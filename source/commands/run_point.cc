@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/numbers.h>
 
-#include <slipstep/commands/run_point.h>
+#include <slipstep/commands/commands.h>
 #include <slipstep/experiment/rate_and_state.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/run_recorder.h>

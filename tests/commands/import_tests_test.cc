@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/commands/import_tests.h>
+#include <slipstep/commands/commands.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/exceptions.h>
 

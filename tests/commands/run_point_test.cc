@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/commands/run_point.h>
+#include <slipstep/commands/commands.h>
 #include <slipstep/experiment/quantities.h>
 #include <slipstep/report/run_report.h>
 
