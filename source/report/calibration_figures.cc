@@ -163,28 +163,25 @@ namespace SlipStep
                              const std::vector<ConditionFrame> &frames,
                              std::vector<std::string>          &warnings)
     {
-      Gallery     gallery{"What is left over",
+      Gallery gallery{"What is left over",
                       "With a law that fits, nearly all lies within the band "
-                          "and the local mean, over a fortieth of the width, "
-                          "stays near zero.",
+                      "and the local mean, over a fortieth of the width, "
+                      "stays near zero.",
                       {residual_line},
                       {}};
-      std::string warning;
-      bool        has_replicates = false;
+      bool    has_replicates = false;
       for (std::size_t i = 0; i < frames.size(); ++i)
         {
           SmallPicture picture(folder,
                                "residuals_" + std::to_string(i + 1),
                                frames[i].title);
           draw_residuals(picture, frames[i]);
-          picture.finish(gallery, warning);
+          picture.finish(gallery, warnings);
           has_replicates = has_replicates || frames[i].tests.size() > 1;
         }
       if (has_replicates)
         gallery.legend.push_back(replicate_line);
       gallery.legend.insert(gallery.legend.end(), {mean_line, noise_band_line});
-      if (!warning.empty())
-        warnings.push_back(warning);
       return gallery;
     }
   } // namespace

@@ -122,15 +122,14 @@ namespace SlipStep
                               const Diagnosis             &diagnosis,
                               std::vector<std::string>    &warnings)
   {
-    Gallery     gallery{"",
+    Gallery gallery{"",
                     "",
                     {measured_line,
-                         {"block before", Colour::before, LegendLine::dashed},
-                         {"block after", Colour::after},
-                         {"contact point before", "#f0b58c"},
-                         {"contact point after", "#8fc3e6"}},
+                     {"block before", Colour::before, LegendLine::dashed},
+                     {"block after", Colour::after},
+                     {"contact point before", "#f0b58c"},
+                     {"contact point after", "#8fc3e6"}},
                     {}};
-    std::string warning;
     for (std::size_t i = 0; i < diagnosis.element_checks.size(); ++i)
       {
         const ElementCheck &check = diagnosis.element_checks[i];
@@ -140,10 +139,8 @@ namespace SlipStep
                              "block_" + std::to_string(i + 1),
                              check.test);
         draw_element_check(picture, check);
-        picture.finish(gallery, warning);
+        picture.finish(gallery, warnings);
       }
-    if (!warning.empty())
-      warnings.push_back(warning);
     return gallery;
   }
 } // namespace SlipStep

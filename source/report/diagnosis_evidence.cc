@@ -131,7 +131,6 @@ namespace SlipStep
         gallery.legend[0].text = "left over";
       }
     gallery.legend.insert(gallery.legend.end(), lines.begin(), lines.end());
-    std::string warning;
     for (std::size_t i = 0; i < diagnosis.panels.size(); ++i)
       {
         const CovariatePanel &panel = diagnosis.panels[i];
@@ -141,10 +140,8 @@ namespace SlipStep
                              "covariate_" + std::to_string(i + 1),
                              "Against " + panel.covariate);
         draw_panel(picture, panel, lines);
-        picture.finish(gallery, warning);
+        picture.finish(gallery, warnings);
       }
-    if (!warning.empty())
-      warnings.push_back(warning);
     return gallery;
   }
 

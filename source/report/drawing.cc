@@ -93,6 +93,24 @@ namespace SlipStep
 
 
 
+  void plot_run(Figure                         &figure,
+                const RunResults               &run,
+                const std::size_t               i,
+                const std::vector<std::string> &columns,
+                const Rows                     &points,
+                const double                    line_width,
+                const bool                      is_named)
+  {
+    figure.plot(legend(run),
+                columns,
+                thinned(points),
+                "with lines lw " + exact_text(line_width) + " " + run_style(i) +
+                  (is_named ? " title " + gnuplot_text(legend(run)) :
+                              " notitle"));
+  }
+
+
+
   Picture finish(Figure                   &figure,
                  const std::string        &title,
                  const std::string        &caption,
@@ -103,6 +121,7 @@ namespace SlipStep
       warnings.push_back(warning);
     return {title, caption, figure.inline_svg()};
   }
+
 
 
   std::string few_tics(const char   axis,

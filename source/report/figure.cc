@@ -31,18 +31,18 @@ namespace SlipStep
                  const std::string           &title,
                  const unsigned int           width,
                  const unsigned int           height)
-    : folder(folder)
+    : title(title)
+    , folder(folder)
     , name(name)
-    , title(title)
     , width(width)
     , height(height)
   {}
 
 
 
-  std::string Figure::add_data(const std::string                      &title,
-                               const std::vector<std::string>         &columns,
-                               const std::vector<std::vector<double>> &rows)
+  std::string Figure::add_data(const std::string              &title,
+                               const std::vector<std::string> &columns,
+                               const Rows                     &rows)
   {
     // Two blank lines separate the blocks that gnuplot calls an index.
     data << (n_blocks > 0 ? "\n\n" : "") << "# " << title << "\n#";
@@ -63,6 +63,23 @@ namespace SlipStep
 
 
 
+  void Figure::plot(const std::string              &title,
+                    const std::vector<std::string> &columns,
+                    const Rows                     &rows,
+                    const std::string              &style)
+  {
+    plot(add_data(title, columns, rows) + ' ' + style);
+  }
+
+
+
+  void Figure::plot(const std::string &plotted)
+  {
+    plots += (plots.empty() ? "plot " : ", \\\n  ") + plotted;
+  }
+
+
+
   std::ostream &Figure::script()
   {
     return commands;
@@ -77,7 +94,9 @@ namespace SlipStep
     const bool is_single =
       commands.str().find("multiplot") == std::string::npos;
     const std::string axes_file = name + ".axes";
-    std::error_code   ignored;
+    if (!plots.empty())
+      commands << plots << '\n';
+    std::error_code ignored;
     std::filesystem::remove(svg_file(), ignored);
     write_file(folder / (name + ".dat"), data.str());
     write_file(folder / (name + ".gp"),

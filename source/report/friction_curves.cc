@@ -294,7 +294,6 @@ namespace SlipStep
   {
     const LegendLine simulated_line{simulated, Colour::after};
     Gallery          gallery{title, "", {measured_line}, {}};
-    std::string      warning;
     bool             has_replicates = false, has_before = false;
     for (std::size_t i = 0; i < frames.size(); ++i)
       {
@@ -302,7 +301,7 @@ namespace SlipStep
                              name + "_" + std::to_string(i + 1),
                              frames[i].title);
         draw_frame(picture, frames[i], simulated_line);
-        picture.finish(gallery, warning);
+        picture.finish(gallery, warnings);
         has_replicates = has_replicates || frames[i].tests.size() > 1;
         has_before     = has_before || !frames[i].tests.front()->before.empty();
       }
@@ -312,8 +311,6 @@ namespace SlipStep
       gallery.legend.push_back(before_line);
     gallery.legend.push_back(simulated_line);
     gallery.legend.push_back(noise_band_line);
-    if (!warning.empty())
-      warnings.push_back(warning);
     return gallery;
   }
 } // namespace SlipStep

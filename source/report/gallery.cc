@@ -68,13 +68,12 @@ namespace SlipStep
   SmallPicture::SmallPicture(const std::filesystem::path &folder,
                              const std::string           &name,
                              const std::string           &title)
-    : title(title)
-    , figure(folder, name, title, small_width, small_height)
+    : Figure(folder, name, title, small_width, small_height)
   {
-    figure.script() << axes_style
-                    << "unset key\nset lmargin at screen 0.19\nset rmargin at "
-                       "screen 0.97\nset tmargin at screen 0.96\nset bmargin "
-                       "at screen 0.19\n";
+    script() << axes_style
+             << "unset key\nset lmargin at screen 0.19\nset rmargin at "
+                "screen 0.97\nset tmargin at screen 0.96\nset bmargin "
+                "at screen 0.19\n";
   }
 
 
@@ -94,53 +93,35 @@ namespace SlipStep
     if (y.lower != 0.)
       y.lower -= margin;
     y.upper += margin;
-    figure.script() << "set xlabel " << gnuplot_text(cut_text(x_label, 46))
-                    << " offset 0,0.6\nset ylabel " << gnuplot_text(y_label)
-                    << " offset 0.4\nset xrange " << range_text(x)
-                    << "set yrange " << range_text(y)
-                    << (is_x_logarithmic ? "set logscale x\n" : "")
-                    << few_tics('x', x.lower, x.upper, is_x_logarithmic)
-                    << "set ytics " << round_up(y.width() / 8.) << '\n';
-  }
-
-
-
-  void SmallPicture::plot(const std::string              &title,
-                          const std::vector<std::string> &columns,
-                          const Rows                     &rows,
-                          const std::string              &style)
-  {
-    plots += (plots.empty() ? "plot " : ", ") +
-             figure.add_data(title, columns, rows) + ' ' + style;
+    script() << "set xlabel " << gnuplot_text(cut_text(x_label, 46))
+             << " offset 0,0.6\nset ylabel " << gnuplot_text(y_label)
+             << " offset 0.4\nset xrange " << range_text(x) << "set yrange "
+             << range_text(y) << (is_x_logarithmic ? "set logscale x\n" : "")
+             << few_tics('x', x.lower, x.upper, is_x_logarithmic)
+             << "set ytics " << round_up(y.width() / 8.) << '\n';
   }
 
 
 
   void SmallPicture::plot_level(const double level, const std::string &style)
   {
-    plots += (plots.empty() ? "plot " : ", ") + exact_text(level) +
-             " with lines " + style;
+    plot(exact_text(level) + " with lines " + style);
   }
 
 
 
-  std::ostream &SmallPicture::script()
+  void SmallPicture::finish(Gallery                  &gallery,
+                            std::vector<std::string> &warnings)
   {
-    return figure.script();
-  }
-
-
-
-  void SmallPicture::finish(Gallery &gallery, std::string &warning)
-  {
-    figure.script() << plots << '\n';
-    std::vector<std::string> warnings;
-    const Picture picture = SlipStep::finish(figure, title, "", warnings);
+    const std::string warning = write();
+    const Picture     picture{title, "", inline_svg()};
     if (!picture.svg.empty())
       gallery.pictures.push_back(picture);
-    if (warning.empty() && !warnings.empty())
-      warning = warnings[0];
+    if (!warning.empty() && !gallery.has_warned)
+      warnings.push_back(warning);
+    gallery.has_warned = gallery.has_warned || !warning.empty();
   }
+
 
 
   std::string figures_html(const Gallery &gallery)

@@ -197,7 +197,6 @@ namespace SlipStep
                           "flat curve says that they do not care.",
                     {profile_line},
                     {}};
-    std::string warning;
     bool        has_parabola = false, has_bound = false;
     std::size_t n = 0;
     for (const DrawnProfile &profile : profiles)
@@ -207,7 +206,7 @@ namespace SlipStep
                                "profile_" + std::to_string(++n),
                                profile.name);
           draw_profile(picture, profile);
-          picture.finish(gallery, warning);
+          picture.finish(gallery, warnings);
           has_parabola = has_parabola || std::isfinite(profile.distance);
           has_bound    = has_bound || std::isfinite(profile.lower_bound) ||
                       std::isfinite(profile.upper_bound);
@@ -218,8 +217,6 @@ namespace SlipStep
     if (has_bound)
       gallery.legend.push_back(bound_line);
     gallery.legend.push_back(value_line);
-    if (!warning.empty())
-      warnings.push_back(warning);
     return gallery;
   }
 } // namespace SlipStep

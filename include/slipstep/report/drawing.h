@@ -3,7 +3,6 @@
 #define slipstep_report_drawing_h
 
 #include <slipstep/report/run_figures.h>
-#include <slipstep/report/figure.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +10,6 @@
 
 namespace SlipStep
 {
-  /// A block of data of a picture: lines of numbers.
-  using Rows = std::vector<std::vector<double>>;
-
   /// Interval that grows over what it is shown.
   struct Range
   {
@@ -68,6 +64,15 @@ namespace SlipStep
 
   /// Drop points that a reader could not tell from the one before.
   Rows thinned(const Rows &points);
+
+  /// Plot a curve of the i-th run in its colour and dash.
+  void plot_run(Figure                         &figure,
+                const RunResults               &run,
+                const std::size_t               i,
+                const std::vector<std::string> &columns,
+                const Rows                     &points,
+                const double                    line_width = 2.,
+                const bool                      is_named   = true);
 
   /// Draw; a picture that could not be drawn has no SVG and gives a warning.
   Picture finish(Figure                   &figure,

@@ -9,6 +9,9 @@
 
 namespace SlipStep
 {
+  /// A block of data of a picture: lines of numbers.
+  using Rows = std::vector<std::vector<double>>;
+
   /// A picture made by gnuplot: collects data and commands, then writes
   /// `<name>.dat`, `<name>.gp` and `<name>.svg`, so that a user can change the
   /// script and draw again with `gnuplot <name>.gp`.
@@ -29,9 +32,19 @@ namespace SlipStep
     /// @param columns their names with units, for the reader of the file
     /// @param rows one vector of as many numbers as there are columns each
     /// @return what to plot: "'<name>.dat' index N"
-    std::string add_data(const std::string                      &title,
-                         const std::vector<std::string>         &columns,
-                         const std::vector<std::vector<double>> &rows);
+    std::string add_data(const std::string              &title,
+                         const std::vector<std::string> &columns,
+                         const Rows                     &rows);
+
+    /// A block of data in the plot at the end of the script.
+    /// @param style what follows the data, "with lines ..."
+    void plot(const std::string              &title,
+              const std::vector<std::string> &columns,
+              const Rows                     &rows,
+              const std::string              &style);
+
+    /// The same of what is no data: "0.1 with lines ...".
+    void plot(const std::string &plotted);
 
     /// Commands of the gnuplot script, after the terminal has been set.
     std::ostream &script();
@@ -48,12 +61,14 @@ namespace SlipStep
 
     std::filesystem::path svg_file() const;
 
+  protected:
+    const std::string title;
+
   private:
     std::string draw() const;
 
     const std::filesystem::path folder;
     const std::string           name;
-    const std::string           title;
     const unsigned int          width;
     const unsigned int          height;
 
@@ -61,6 +76,7 @@ namespace SlipStep
     unsigned int       n_blocks = 0;
     std::ostringstream data;
     std::ostringstream commands;
+    std::string        plots;
   };
 
   /// Text as gnuplot string in double quotes, with the characters escaped that

@@ -38,11 +38,12 @@ namespace SlipStep
     std::string             title;
     std::string             caption;
     std::vector<LegendLine> legend;
-    std::vector<Picture>    pictures; ///< those that were drawn
+    std::vector<Picture>    pictures;           ///< those that were drawn
+    bool                    has_warned = false; ///< of one that was not
   };
 
   /// A small picture: its frame is the same in all galleries.
-  class SmallPicture
+  class SmallPicture : public Figure
   {
   public:
     /// @param name of its files
@@ -57,25 +58,12 @@ namespace SlipStep
               Range              y,
               const bool         is_x_logarithmic = false);
 
-    /// A block of data, "using" and style of which follow.
-    void plot(const std::string              &title,
-              const std::vector<std::string> &columns,
-              const Rows                     &rows,
-              const std::string              &style);
-
     /// A line all across the picture at this height.
     void plot_level(const double level, const std::string &style);
 
-    std::ostream &script();
-
-    /// Draw; nothing is added to the gallery if gnuplot is missing, and only
-    /// the first warning is kept.
-    void finish(Gallery &gallery, std::string &warning);
-
-  private:
-    std::string title;
-    Figure      figure;
-    std::string plots;
+    /// Draw; nothing is added to the gallery if gnuplot is missing, of which
+    /// there is one warning per gallery.
+    void finish(Gallery &gallery, std::vector<std::string> &warnings);
   };
 
   /// Colours that colour-blind readers tell apart, the same in all pictures.
