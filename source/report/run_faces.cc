@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/report/run_faces.h>
-
 #include <slipstep/report/drawing.h>
 #include <slipstep/utilities/text.h>
 
@@ -65,13 +63,35 @@ namespace SlipStep
       return field;
     }
 
-    Picture face_map(const std::filesystem::path &folder,
-                     const RunResults            &run,
-                     const std::size_t            number,
-                     const std::array<Field, 2>  &fields,
-                     std::vector<std::string>    &warnings)
+    Figure face_figure(const RunFigures  &figures,
+                       const std::size_t  run,
+                       const unsigned int height)
     {
-      const CsvTable &face = *run.contact_face;
+      return Figure(figures.folder,
+                    "contact_face_" + std::to_string(run + 1),
+                    "Contact face, " + legend(figures.runs[run]),
+                    picture_width,
+                    height);
+    }
+
+    /// The rows with the values of the fields behind.
+    Rows with_fields(Rows                        rows,
+                     const CsvTable             &face,
+                     const std::array<Field, 2> &fields)
+    {
+      for (const Field &field : fields)
+        for (std::size_t i = 0; i < face.size(); ++i)
+          rows[i].push_back(field.factor *
+                            (face[field.column][i] - field.offset));
+      return rows;
+    }
+
+    /// Two maps side by side, in the proportions of the face.
+    Figure face_map(const RunFigures           &figures,
+                    const std::size_t           run,
+                    const std::array<Field, 2> &fields)
+    {
+      const CsvTable &face = *figures.runs[run].contact_face;
       Rows            rows;
       Range           x, y;
       for (std::size_t i = 0; i < face.size(); ++i)
@@ -80,9 +100,6 @@ namespace SlipStep
           const double hx = 0.5 * face["cell_size_x_mm"][i];
           const double hy = 0.5 * face["cell_size_y_mm"][i];
           rows.push_back({px, py, hx, hy});
-          for (const Field &field : fields)
-            rows.back().push_back(field.factor *
-                                  (face[field.column][i] - field.offset));
           for (const double sign : {-1., 1.})
             {
               x.add(px + sign * hx);
@@ -90,25 +107,21 @@ namespace SlipStep
             }
         }
 
-      // Two maps side by side, in the proportions of the face.
       const double map_width = 280.;
       const double map_height =
         std::max(60., std::min(400., map_width * y.width() / x.width()));
-      Figure            figure(folder,
-                    "contact_face_" + std::to_string(number),
-                    "Contact face, " + legend(run),
-                    picture_width,
-                    static_cast<unsigned int>(map_height + 130.));
-      const std::string data = figure.add_data("contact face of " + legend(run),
-                                               {"x_mm",
-                                                "y_mm",
-                                                "half_size_x_mm",
-                                                "half_size_y_mm",
-                                                fields[0].label,
-                                                fields[1].label},
-                                               rows);
-      const double      top  = 1. - 40. / (map_height + 130.);
-      const double      bottom = 75. / (map_height + 130.);
+      const double height = map_height + 130.;
+      Figure       figure =
+        face_figure(figures, run, static_cast<unsigned int>(height));
+      const std::string data =
+        figure.add_data("contact face of " + legend(figures.runs[run]),
+                        {"x_mm",
+                         "y_mm",
+                         "half_size_x_mm",
+                         "half_size_y_mm",
+                         fields[0].label,
+                         fields[1].label},
+                        with_fields(rows, face, fields));
       figure.script()
         << "set palette defined (0 '#440154', 1 '#414487', 2 '#2a788e', "
            "3 '#22a884', 4 '#7ad151', 5 '#fde725')\n"
@@ -121,47 +134,30 @@ namespace SlipStep
       for (unsigned int k = 0; k < 2; ++k)
         figure.script() << "set lmargin at screen " << 0.085 + 0.5 * k
                         << "\nset rmargin at screen " << 0.41 + 0.5 * k
-                        << "\nset tmargin at screen " << top
-                        << "\nset bmargin at screen " << bottom
+                        << "\nset tmargin at screen " << 1. - 40. / height
+                        << "\nset bmargin at screen " << 75. / height
                         << "\nset cbrange [" << fields[k].range.lower << ":"
                         << fields[k].range.upper << "]\nset title "
                         << gnuplot_text(fields[k].label) << "\nplot " << data
                         << " using 1:2:3:4:" << 5 + k
                         << " with boxxyerror lc palette fs solid 1 noborder\n";
-      figure.script() << "unset multiplot\n";
-      Picture picture = finish(figure,
-                               "Contact face, " + legend(run),
-                               "State at the end of the run.",
-                               warnings);
-      picture.is_map  = true;
-      return picture;
+      return figure;
     }
 
     /// In two dimensions the face is a line.
-    Picture face_lines(const std::filesystem::path &folder,
-                       const RunResults            &run,
-                       const std::size_t            number,
-                       const std::array<Field, 2>  &fields,
-                       std::vector<std::string>    &warnings)
+    Figure face_lines(const RunFigures           &figures,
+                      const std::size_t           run,
+                      const std::array<Field, 2> &fields)
     {
-      const CsvTable &face = *run.contact_face;
+      const CsvTable &face = *figures.runs[run].contact_face;
       Rows            rows;
-      for (std::size_t i = 0; i < face.size(); ++i)
-        {
-          rows.push_back({face["x_mm"][i]});
-          for (const Field &field : fields)
-            rows.back().push_back(field.factor *
-                                  (face[field.column][i] - field.offset));
-        }
+      for (const double x : face["x_mm"])
+        rows.push_back({x});
+      rows = with_fields(rows, face, fields);
       std::sort(rows.begin(), rows.end());
-
-      Figure            figure(folder,
-                    "contact_face_" + std::to_string(number),
-                    "Contact face, " + legend(run),
-                    picture_width,
-                    320);
+      Figure            figure = face_figure(figures, run, 320);
       const std::string data =
-        figure.add_data("contact face of " + legend(run),
+        figure.add_data("contact face of " + legend(figures.runs[run]),
                         {"x_mm", fields[0].label, fields[1].label},
                         rows);
       figure.script() << axes_style
@@ -178,28 +174,27 @@ namespace SlipStep
                         << "]\nplot " << data << " using 1:" << 2 + k
                         << " with linespoints lw 2 pt 7 ps 0.4 lc rgb "
                         << "'#0072B2'\n";
-      figure.script() << "unset multiplot\n";
-      return finish(figure,
-                    "Contact face, " + legend(run),
-                    "State at the end of the run.",
-                    warnings);
+      return figure;
     }
   } // namespace
 
 
 
-  Picture face_picture(const std::filesystem::path &folder,
-                       const RunResults            &run,
-                       const std::size_t            number,
-                       std::vector<std::string>    &warnings)
+  void add_face_picture(RunFigures &figures, const std::size_t run)
   {
-    const CsvTable            &face   = *run.contact_face;
+    const CsvTable            &face   = *figures.runs[run].contact_face;
     const std::array<Field, 2> fields = {
       field_of(face, "pressure_MPa", "Pressure", "MPa"),
       field_of(face, "slip_mm", "Slip", "mm")};
     const auto &sizes   = face["cell_size_y_mm"];
     const bool  is_line = *std::max_element(sizes.begin(), sizes.end()) <= 0.;
-    return is_line ? face_lines(folder, run, number, fields, warnings) :
-                     face_map(folder, run, number, fields, warnings);
+    Figure      figure  = is_line ? face_lines(figures, run, fields) :
+                                    face_map(figures, run, fields);
+    figure.script() << "unset multiplot\n";
+    figures
+      .add(figure,
+           "Contact face, " + legend(figures.runs[run]),
+           "State at the end of the run.")
+      .is_map = !is_line;
   }
 } // namespace SlipStep

@@ -3,12 +3,7 @@
 
 #include <slipstep/report/drawing.h>
 #include <slipstep/report/block_view.h>
-#include <slipstep/report/run_faces.h>
-#include <slipstep/report/run_grid.h>
-#include <slipstep/report/run_measured.h>
-#include <slipstep/report/run_pictures.h>
 
-#include <slipstep/report/figure.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
@@ -139,46 +134,42 @@ namespace SlipStep
     }
 
     /// Short strokes right of the curves where the reference expects them.
-    std::string reference_marks(Figure                        &figure,
-                                const std::vector<RunResults> &runs,
-                                const Reference               &reference,
-                                const double                   from,
-                                const double                   to)
+    void plot_reference(Figure                        &figure,
+                        const std::vector<RunResults> &runs,
+                        const Reference               &reference,
+                        const double                   from,
+                        const double                   to)
     {
-      std::string plots;
-      for (const double speed : marked_speeds(runs, reference))
+      const std::vector<double> speeds = marked_speeds(runs, reference);
+      for (const double speed : speeds)
         {
           const double      level = reference.kinetic(speed);
-          const std::string data =
-            figure.add_data(reference.name() + " at " + speed_text(speed),
-                            {"displacement_mm", "friction"},
-                            {{from, level}, {to, level}});
           const std::size_t run   = run_of_speed(runs, speed);
           const std::string style = run < runs.size() ?
                                       without_dash(run_style(run)) :
                                       "lc rgb '#777777'";
-          plots += ", \\\n  " + data + " with lines lw 4 " + style + " notitle";
+          figure.plot(reference.name() + " at " + speed_text(speed),
+                      {"displacement_mm", "friction"},
+                      {{from, level}, {to, level}},
+                      "with lines lw 4 " + style + " notitle");
         }
-      if (!plots.empty())
-        plots += ", \\\n  NaN with lines lw 4 lc rgb '#777777' title " +
-                 gnuplot_text(reference.name());
-      return plots;
+      if (!speeds.empty())
+        figure.plot("NaN with lines lw 4 lc rgb '#777777' title " +
+                    gnuplot_text(reference.name()));
     }
 
 
 
-    Picture friction_picture(const std::filesystem::path   &folder,
-                             const std::vector<RunResults> &runs,
-                             const Reference               &reference,
-                             std::vector<std::string>      &warnings)
+    void add_friction_picture(RunFigures &figures)
     {
-      Figure      figure(folder,
+      const auto &runs      = figures.runs;
+      const auto &reference = figures.reference;
+      Figure      figure(figures.folder,
                     "friction",
                     "Friction against displacement",
                     picture_width,
                     430);
       Range       x, y;
-      std::string plots;
       for (const std::size_t i : from_top_to_bottom(runs))
         {
           const Rows points = curve(runs[i]);
@@ -187,21 +178,15 @@ namespace SlipStep
               x.add(point[0]);
               y.add(point[1]);
             }
-          const std::string data =
-            figure.add_data(legend(runs[i]),
-                            {"displacement_mm", "friction"},
-                            thinned(points));
-          plots += (plots.empty() ? "plot " : ", \\\n  ") + data +
-                   " with lines lw 2 " + run_style(i) + " title " +
-                   gnuplot_text(legend(runs[i]));
+          plot_run(figure, runs[i], i, {"displacement_mm", "friction"}, points);
         }
       if (!(x.width() > 0.))
         x = {0., 1.};
-      plots += reference_marks(figure,
-                               runs,
-                               reference,
-                               x.upper + 0.015 * x.width(),
-                               x.upper + 0.06 * x.width());
+      plot_reference(figure,
+                     runs,
+                     reference,
+                     x.upper + 0.015 * x.width(),
+                     x.upper + 0.06 * x.width());
       figure.script() << axes_style << legend_margin(runs, reference)
                       << "set xlabel 'Displacement of the drive  [mm]'\n"
                          "set ylabel 'Friction  (tangential / normal load)'\n"
@@ -212,14 +197,13 @@ namespace SlipStep
         figure.script() << "set yrange [0:*]\n";
       else
         figure.script() << "set xzeroaxis lc rgb '#444444' lw 1 dt solid\n";
-      figure.script() << plots << "\n";
       std::string caption;
       if (std::any_of(runs.begin(), runs.end(), changes_direction))
         caption = "Both along the direction of the first slide. ";
       if (reference.exists())
         caption += "Strokes at the right end: kinetic level after " +
                    reference.name() + ", in the colour of the run.";
-      return finish(figure, "Friction against displacement", caption, warnings);
+      figures.add(figure, "Friction against displacement", caption);
     }
 
 
@@ -241,21 +225,18 @@ namespace SlipStep
       return zoom < 0.4 * length ? zoom : 0.;
     }
 
-    void add_zoom_picture(const std::filesystem::path   &folder,
-                          const std::vector<RunResults> &runs,
-                          const Reference               &reference,
-                          std::vector<Picture>          &pictures,
-                          std::vector<std::string>      &warnings)
+    void add_zoom_picture(RunFigures &figures)
     {
+      const auto  &runs = figures.runs;
       const double zoom = zoom_length(runs);
       if (zoom == 0.)
         return;
-      Figure      figure(folder,
+      Figure                   figure(figures.folder,
                     "friction_start",
                     "Friction at the start of the slide",
                     picture_width,
                     380);
-      std::string plots, peaks;
+      std::vector<std::string> peaks;
       for (const std::size_t i : from_top_to_bottom(runs))
         {
           Rows points = first_slide(runs[i]);
@@ -266,48 +247,40 @@ namespace SlipStep
                          [zoom](const auto &point) { return point[0] > zoom; });
           if (beyond != points.end())
             points.erase(beyond + 1, points.end());
-          const std::string data =
-            figure.add_data(legend(runs[i]),
-                            {"displacement_mm", "friction"},
-                            thinned(points));
-          plots += (plots.empty() ? "plot " : ", \\\n  ") + data +
-                   " with lines lw 2 " + run_style(i) + " title " +
-                   gnuplot_text(legend(runs[i]));
+          plot_run(figure, runs[i], i, {"displacement_mm", "friction"}, points);
           if (runs[i].summary.slides.empty() ||
               runs[i].summary.slides[0].peak_displacement > zoom)
             continue;
           const SlideSummary &slide = runs[i].summary.slides[0];
-          peaks += ", \\\n  " +
-                   figure.add_data("peak of " + legend(runs[i]),
-                                   {"displacement_mm", "friction"},
-                                   {{slide.peak_displacement, slide.peak}}) +
-                   " with points pt 7 ps 0.7 " + without_dash(run_style(i)) +
-                   " notitle";
+          peaks.push_back(
+            figure.add_data("peak of " + legend(runs[i]),
+                            {"displacement_mm", "friction"},
+                            {{slide.peak_displacement, slide.peak}}) +
+            " with points pt 7 ps 0.7 " + without_dash(run_style(i)) +
+            " notitle");
         }
-      figure.script() << axes_style << legend_margin(runs, reference)
+      for (const std::string &peak : peaks)
+        figure.plot(peak);
+      figure.script() << axes_style << legend_margin(runs, figures.reference)
                       << "set xlabel 'Displacement since the start of the "
                          "slide  [mm]'\n"
                          "set ylabel 'Friction  (tangential / normal load)'\n"
                          "set xrange [0:"
-                      << zoom << "]\nset yrange [0:*]\n"
-                      << plots << peaks << "\n";
-      pictures.push_back(finish(figure,
-                                "The static peak",
-                                "The first " + short_text(zoom) +
-                                  " mm of the slide; dots mark the peaks.",
-                                warnings));
+                      << zoom << "]\nset yrange [0:*]\n";
+      figures.add(figure,
+                  "The static peak",
+                  "The first " + short_text(zoom) +
+                    " mm of the slide; dots mark the peaks.");
     }
 
 
 
-    void add_speed_picture(const std::filesystem::path   &folder,
-                           const std::vector<RunResults> &runs,
-                           const Reference               &reference,
-                           std::vector<Picture>          &pictures,
-                           std::vector<std::string>      &warnings)
+    void add_speed_picture(RunFigures &figures)
     {
-      Rows  simulated;
-      Range speeds;
+      const auto &runs      = figures.runs;
+      const auto &reference = figures.reference;
+      Rows        simulated;
+      Range       speeds;
       for (const RunResults &run : runs)
         for (const SlideSummary &slide : run.summary.slides)
           {
@@ -336,7 +309,7 @@ namespace SlipStep
             }
         }
 
-      Figure figure(folder,
+      Figure figure(figures.folder,
                     "ratio_over_speed",
                     "Dynamic loading ratio against speed",
                     picture_width,
@@ -347,62 +320,75 @@ namespace SlipStep
                          "set ylabel 'Dynamic loading ratio  r  [–]'\n"
                          "set offsets 0, 0, graph 0.08, graph 0.08\n"
                       << "set xrange [" << speeds.lower / 1.6 << ":"
-                      << speeds.upper * 1.6 << "]\nplot ";
+                      << speeds.upper * 1.6 << "]\n";
+      const std::vector<std::string> columns = {"speed_mm/min", "r"};
       if (!marks.empty())
         {
-          const std::string on_line =
-            figure.add_data(reference.name(), {"speed_mm/min", "r"}, line);
-          const std::string on_marks =
-            figure.add_data(reference.name() + ", marks",
-                            {"speed_mm/min", "r"},
-                            marks);
-          figure.script()
-            << on_line << " with lines lw 1.2 lc rgb '#D55E00' notitle, \\\n  "
-            << on_marks << " with points pt 6 ps 1.3 lw 1.8 lc rgb '#D55E00' "
-            << "title " << gnuplot_text(reference.name()) << ", \\\n  ";
+          figure.plot(reference.name(),
+                      columns,
+                      line,
+                      "with lines lw 1.2 lc rgb '#D55E00' notitle");
+          figure.plot(reference.name() + ", marks",
+                      columns,
+                      marks,
+                      "with points pt 6 ps 1.3 lw 1.8 lc rgb '#D55E00' title " +
+                        gnuplot_text(reference.name()));
         }
-      const std::string data =
-        figure.add_data("simulated", {"speed_mm/min", "r"}, simulated);
-      figure.script() << data
-                      << " with points pt 7 ps 0.8 lc rgb '#0072B2' title "
-                      << "'simulated'\n";
-      pictures.push_back(finish(figure,
-                                "Rate dependence",
-                                marks.empty() ?
-                                  "r at the end of each slide." :
+      figure.plot("simulated",
+                  columns,
+                  simulated,
+                  "with points pt 7 ps 0.8 lc rgb '#0072B2' title 'simulated'");
+      figures.add(figure,
+                  "Rate dependence",
+                  marks.empty() ? "r at the end of each slide." :
                                   "r at the end of each slide; the reference "
                                   "coefficient is divided by its quasi-static "
-                                  "value.",
-                                warnings));
+                                  "value.");
     }
   } // namespace
 
 
 
-  std::vector<Picture> draw_pictures(const std::filesystem::path   &folder,
-                                     const Parameters              &parameters,
-                                     const std::vector<RunResults> &runs,
-                                     const Reference               &reference,
-                                     std::vector<std::string>      &warnings)
+  // A run that could not be read is not there, so they are found by name.
+  Parameters RunFigures::parameters_of(const RunResults &run) const
   {
-    std::vector<Picture> pictures;
+    for (const Variant &variant : parameters.variants())
+      if (variant.label == run.label)
+        return parameters.with_variant(variant);
+    return parameters;
+  }
+
+
+
+  Picture &RunFigures::add(Figure            &figure,
+                           const std::string &title,
+                           const std::string &caption)
+  {
+    pictures.push_back(finish(figure, title, caption, warnings));
+    return pictures.back();
+  }
+
+
+
+  void draw_pictures(RunFigures &figures)
+  {
+    const auto &runs = figures.runs;
     if (std::all_of(runs.begin(), runs.end(), [](const RunResults &run) {
           return curve(run).empty();
         }))
-      return pictures;
+      return;
     // What the case asks for comes first.
-    add_requested_pictures(
-      folder, parameters, runs, reference, pictures, warnings);
-    add_grid_pictures(folder, parameters, runs, reference, pictures, warnings);
-    add_measured_pictures(folder, parameters, runs, pictures, warnings);
-    pictures.push_back(friction_picture(folder, runs, reference, warnings));
-    add_zoom_picture(folder, runs, reference, pictures, warnings);
-    add_speed_picture(folder, runs, reference, pictures, warnings);
+    add_requested_pictures(figures);
+    add_grid_pictures(figures);
+    add_measured_pictures(figures);
+    add_friction_picture(figures);
+    add_zoom_picture(figures);
+    add_speed_picture(figures);
 
     // One of several blocks that look alike.
-    const Picture block = block_picture(runs.back(), warnings);
+    const Picture block = block_picture(runs.back(), figures.warnings);
     if (!block.svg.empty())
-      pictures.push_back(block);
+      figures.pictures.push_back(block);
 
     // A cell costs some 300 bytes: the page shall stay quick to open.
     const std::size_t most_cells = 10000;
@@ -413,10 +399,9 @@ namespace SlipStep
           runs[i].contact_face ? runs[i].contact_face->size() : 0;
         if (size == 0 || (n_cells > 0 && n_cells + size > most_cells))
           continue;
-        pictures.push_back(face_picture(folder, runs[i], i + 1, warnings));
-        pictures.back().is_secondary = n_cells > 0;
+        add_face_picture(figures, i);
+        figures.pictures.back().is_secondary = n_cells > 0;
         n_cells += size;
       }
-    return pictures;
   }
 } // namespace SlipStep

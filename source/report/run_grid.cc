@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/drawing.h>
-#include <slipstep/report/run_grid.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -83,13 +82,11 @@ namespace SlipStep
 
 
 
-    void add_heat_map(const std::filesystem::path &folder,
-                      const Grid                  &grid,
-                      const std::string           &name,
-                      const std::string           &title,
-                      const Rows                  &cells,
-                      std::vector<Picture>        &pictures,
-                      std::vector<std::string>    &warnings)
+    void add_heat_map(RunFigures        &figures,
+                      const Grid        &grid,
+                      const std::string &name,
+                      const std::string &title,
+                      const Rows        &cells)
     {
       Range range;
       for (const auto &cell : cells)
@@ -97,7 +94,7 @@ namespace SlipStep
       // One colour and no number say nothing.
       if (cells.empty() || !(range.width() > 0.))
         return;
-      Figure            figure(folder,
+      Figure            figure(figures.folder,
                     name,
                     title,
                     picture_width,
@@ -122,25 +119,19 @@ namespace SlipStep
                           << "textcolor rgb '"
                           << (is_bright ? "#000000" : "#ffffff") << "'";
       figure.script() << '\n';
-      pictures.push_back(finish(figure, title, "", warnings));
-      pictures.back().is_map = true;
+      figures.add(figure, title).is_map = true;
     }
   } // namespace
 
 
 
-  void add_grid_pictures(const std::filesystem::path   &folder,
-                         const Parameters              &parameters,
-                         const std::vector<RunResults> &runs,
-                         const Reference               &reference,
-                         std::vector<Picture>          &pictures,
-                         std::vector<std::string>      &warnings)
+  void add_grid_pictures(RunFigures &figures)
   {
-    const Grid grid = grid_of(parameters.variants());
+    const Grid grid = grid_of(figures.parameters.variants());
     Rows       peaks, levels;
-    for (const ResultRow &row : result_rows(runs, reference))
+    for (const ResultRow &row : result_rows(figures.runs, figures.reference))
       {
-        const auto cell = grid.cells.find(runs[row.run].label);
+        const auto cell = grid.cells.find(figures.runs[row.run].label);
         if (cell == grid.cells.end())
           continue;
         const auto add = [&](Rows &cells, const double value) {
@@ -163,14 +154,7 @@ namespace SlipStep
                            std::numeric_limits<double>::quiet_NaN());
         add(levels, row.slide.kinetic);
       }
-    add_heat_map(
-      folder, grid, "grid_peak", "Peak friction", peaks, pictures, warnings);
-    add_heat_map(folder,
-                 grid,
-                 "grid_kinetic",
-                 "Kinetic friction",
-                 levels,
-                 pictures,
-                 warnings);
+    add_heat_map(figures, grid, "grid_peak", "Peak friction", peaks);
+    add_heat_map(figures, grid, "grid_kinetic", "Kinetic friction", levels);
   }
 } // namespace SlipStep

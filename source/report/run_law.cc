@@ -78,32 +78,29 @@ namespace SlipStep
     }
 
     /// @param is_last has the axis that all share
-    Picture draw_panel(const std::filesystem::path   &folder,
-                       const LawPanel                &panel,
-                       const std::vector<Rows>       &curves,
-                       const std::vector<RunResults> &runs,
-                       const bool                     is_last,
-                       std::vector<std::string>      &warnings)
+    Picture draw_panel(const RunFigures        &figures,
+                       const LawPanel          &panel,
+                       const std::vector<Rows> &curves,
+                       const bool               is_last)
     {
+      const auto &runs     = figures.runs;
       const bool  is_first = panel.name == "friction";
-      Figure      figure(folder,
+      Figure      figure(figures.folder,
                     "law_" + panel.name,
                     panel.label + " over the path of the drive",
                     picture_width,
                     is_last ? 200 : 155);
       std::size_t longest = 0;
-      std::string plots;
       for (std::size_t i = 0; i < runs.size(); ++i)
         {
           longest = std::max(longest, legend(runs[i]).size());
-          plots += (plots.empty() ? "plot " : ", \\\n  ") +
-                   figure.add_data(legend(runs[i]),
-                                   {"path_mm", panel.name},
-                                   thinned(curves[i])) +
-                   " with lines lw 1.8 " + run_style(i) +
-                   (is_first && runs.size() > 1 ?
-                      " title " + gnuplot_text(legend(runs[i])) :
-                      " notitle");
+          plot_run(figure,
+                   runs[i],
+                   i,
+                   {"path_mm", panel.name},
+                   curves[i],
+                   1.8,
+                   is_first && runs.size() > 1);
         }
       const double right =
         runs.size() > 1 ?
@@ -125,9 +122,8 @@ namespace SlipStep
         << "\nset label 1 " << gnuplot_text(panel.label)
         << " at screen 0.02, graph 0.5 center rotate by 90\n"
         << (is_last ? "set xlabel 'Path of the drive  [mm]' offset 0,0.5\n" :
-                      "set format x ''\n")
-        << plots << '\n';
-      return finish(figure, panel.label, "", warnings);
+                      "set format x ''\n");
+      return finish(figure, panel.label, "", figures.warnings);
     }
 
     bool is_used(const LawPanel &panel, const std::vector<Rows> &curves)
@@ -140,9 +136,7 @@ namespace SlipStep
 
 
 
-  std::string law_at_work(const std::filesystem::path   &folder,
-                          const std::vector<RunResults> &runs,
-                          std::vector<std::string>      &warnings)
+  std::string law_at_work(const RunFigures &figures)
   {
     std::vector<LawPanel>          shown;
     std::vector<std::vector<Rows>> curves;
@@ -150,7 +144,7 @@ namespace SlipStep
     for (const LawPanel &panel : law_panels())
       {
         std::vector<Rows> of_runs;
-        for (const RunResults &run : runs)
+        for (const RunResults &run : figures.runs)
           of_runs.push_back(over_path(run, panel));
         if (!(range_of(of_runs, 0).width() > 0.))
           return "";
@@ -166,9 +160,7 @@ namespace SlipStep
     std::string svg;
     for (std::size_t i = 0; i < shown.size(); ++i)
       svg +=
-        draw_panel(
-          folder, shown[i], curves[i], runs, i + 1 == shown.size(), warnings)
-          .svg;
+        draw_panel(figures, shown[i], curves[i], i + 1 == shown.size()).svg;
     if (svg.empty())
       return "";
     return heading("The law at work") + "<figure class='stack'>\n" + svg +
@@ -208,23 +200,23 @@ namespace SlipStep
     }
 
     /// "0.1", or "0.1 (thin), 0.2 (thick)"
-    std::string values_text(const EffectInfo                      &effect,
-                            const EffectParameter                 &parameter,
-                            const std::vector<const RunResults *> &runs,
-                            const std::vector<Parameters>         &laws)
+    std::string values_text(const EffectInfo              &effect,
+                            const EffectParameter         &parameter,
+                            const std::vector<RunResults> &runs,
+                            const std::vector<Parameters> &laws)
     {
       std::set<std::string> different;
       std::string           all;
       for (std::size_t i = 0; i < runs.size(); ++i)
         {
-          const auto &names = runs[i]->summary.effects;
+          const auto &names = runs[i].summary.effects;
           if (std::find(names.begin(), names.end(), effect.name) == names.end())
             continue;
           const std::string text =
             value_text(parameter,
                        laws[i].text(effect.section() + parameter.key));
           different.insert(text);
-          all += (all.empty() ? "" : ", ") + text + " (" + runs[i]->label + ")";
+          all += (all.empty() ? "" : ", ") + text + " (" + runs[i].label + ")";
         }
       return different.size() == 1 ? *different.begin() : all;
     }
@@ -232,22 +224,12 @@ namespace SlipStep
 
 
 
-  std::vector<TableLine> effect_table(const Parameters              &parameters,
-                                      const std::vector<RunResults> &runs)
+  std::vector<TableLine> effect_table(const RunFigures &figures)
   {
-    // A run that could not be read is not there, so they are found by name.
-    std::vector<const RunResults *> shown;
-    std::vector<Parameters>         laws;
+    const std::vector<RunResults> &runs = figures.runs;
+    std::vector<Parameters>        laws;
     for (const RunResults &run : runs)
-      {
-        const Variant *variant = nullptr;
-        for (const Variant &candidate : parameters.variants())
-          if (candidate.label == run.label)
-            variant = &candidate;
-        shown.push_back(&run);
-        laws.push_back(variant == nullptr ? parameters :
-                                            parameters.with_variant(*variant));
-      }
+      laws.push_back(figures.parameters_of(run));
     std::vector<TableLine> lines = {
       {"effect", "formula", "parameter", "symbol", "value", "unit"}};
     for (const auto &[name, effect] : effect_registry())
@@ -267,7 +249,7 @@ namespace SlipStep
                              formula,
                              parameter.key,
                              parameter.symbol,
-                             values_text(effect, parameter, shown, laws),
+                             values_text(effect, parameter, runs, laws),
                              unit_text(parameter)});
             shown_name = formula = "";
           }

@@ -2,7 +2,6 @@
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/report/drawing.h>
-#include <slipstep/report/run_measured.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/text.h>
 
@@ -25,29 +24,16 @@ namespace SlipStep
 
 
 
-    Parameters parameters_of(const Parameters &parameters,
-                             const RunResults &run)
+    std::vector<MeasuredBeside> measured_tests(const RunFigures &figures)
     {
-      for (const Variant &variant : parameters.variants())
-        if (variant.label == run.label)
-          return parameters.with_variant(variant);
-      return parameters;
-    }
-
-
-
-    std::vector<MeasuredBeside>
-    measured_tests(const Parameters              &parameters,
-                   const std::vector<RunResults> &runs,
-                   std::vector<std::string>      &warnings)
-    {
+      const Parameters           &parameters = figures.parameters;
       std::vector<MeasuredBeside> result;
       try
         {
-          for (std::size_t i = 0; i < runs.size(); ++i)
+          for (std::size_t i = 0; i < figures.runs.size(); ++i)
             {
               const Programme programme =
-                parse_programme(parameters_of(parameters, runs[i]));
+                parse_programme(figures.parameters_of(figures.runs[i]));
               for (const FollowedTest &followed : programme.followed())
                 result.push_back({followed.test,
                                   i,
@@ -61,7 +47,7 @@ namespace SlipStep
         }
       catch (const InputError &error)
         {
-          warnings.push_back(
+          figures.warnings.push_back(
             std::string("no measured tests in the pictures: ") + error.what());
           result.clear();
         }
@@ -131,15 +117,13 @@ namespace SlipStep
 
 
 
-    void draw_measured(const std::filesystem::path       &folder,
+    void draw_measured(RunFigures                        &figures,
                        const std::vector<MeasuredBeside> &measured,
-                       const bool                         is_over_time,
-                       const std::vector<RunResults>     &runs,
-                       std::vector<Picture>              &pictures,
-                       std::vector<std::string>          &warnings)
+                       const bool                         is_over_time)
     {
+      const std::vector<RunResults> &runs = figures.runs;
       const std::string abscissa = is_over_time ? "time" : "displacement";
-      Figure            figure(folder,
+      Figure            figure(figures.folder,
                     "measured_over_" + abscissa,
                     "Measured and simulated friction over " + abscissa,
                     picture_width,
@@ -147,7 +131,7 @@ namespace SlipStep
                     390 + 12 * (measured.size() + runs.size()));
       const std::vector<std::string> greys = {"#777777", "#aaaaaa", "#444444"};
       Range                          friction;
-      std::string                    plots, differences;
+      std::string                    differences;
       std::vector<bool>              is_drawn(runs.size(), false);
       std::size_t                    n = 0;
       for (const MeasuredBeside &beside : measured)
@@ -162,13 +146,12 @@ namespace SlipStep
                test.friction[i]});
           for (const auto &point : points)
             friction.add(point[1]);
-          plots += (plots.empty() ? "plot " : ", \\\n  ") +
-                   figure.add_data(test.name,
-                                   {abscissa, "friction"},
-                                   thinned(points)) +
-                   " with points pt 7 ps 0.4 lc rgb '" +
-                   greys[n++ % greys.size()] + "' title " +
-                   gnuplot_text(test.name + ", measured");
+          figure.plot(test.name,
+                      {abscissa, "friction"},
+                      thinned(points),
+                      "with points pt 7 ps 0.4 lc rgb '" +
+                        greys[n++ % greys.size()] + "' title " +
+                        gnuplot_text(test.name + ", measured"));
           if (beside.is_repeated)
             {
               is_drawn[beside.run] = true;
@@ -192,12 +175,7 @@ namespace SlipStep
             points.push_back(
               {is_over_time ? row.time : row.displacement, row.friction});
           if (!points.empty())
-            plots += ", \\\n  " +
-                     figure.add_data(legend(runs[i]),
-                                     {abscissa, "friction"},
-                                     thinned(points)) +
-                     " with lines lw 1.8 " + run_style(i) + " title " +
-                     gnuplot_text(legend(runs[i]));
+            plot_run(figure, runs[i], i, {abscissa, "friction"}, points, 1.8);
         }
       figure.script() << axes_style
                       << "set key outside below Left reverse\n"
@@ -207,33 +185,25 @@ namespace SlipStep
                       << (is_over_time ? "Time  [s]" :
                                          "Displacement of the drive  [mm]")
                       << "'\nset ylabel 'Friction  (tangential / normal "
-                         "load)'\n"
-                      << plots << '\n';
-      pictures.push_back(
-        finish(figure,
-               "Measured and simulated",
-               differences.empty() ?
-                 "" :
-                 "Root mean square of their difference: " + differences + ".",
-               warnings));
+                         "load)'\n";
+      figures.add(figure,
+                  "Measured and simulated",
+                  differences.empty() ?
+                    "" :
+                    "Root mean square of their difference: " + differences +
+                      ".");
     }
   } // namespace
 
 
 
-  void add_measured_pictures(const std::filesystem::path   &folder,
-                             const Parameters              &parameters,
-                             const std::vector<RunResults> &runs,
-                             std::vector<Picture>          &pictures,
-                             std::vector<std::string>      &warnings)
+  void add_measured_pictures(RunFigures &figures)
   {
     std::vector<MeasuredBeside> over[2];
-    for (const MeasuredBeside &measured :
-         measured_tests(parameters, runs, warnings))
+    for (const MeasuredBeside &measured : measured_tests(figures))
       over[is_better_over_time(measured)].push_back(measured);
     for (const bool is_over_time : {false, true})
       if (!over[is_over_time].empty())
-        draw_measured(
-          folder, over[is_over_time], is_over_time, runs, pictures, warnings);
+        draw_measured(figures, over[is_over_time], is_over_time);
   }
 } // namespace SlipStep

@@ -3,7 +3,6 @@
 // The pictures that a case asks for: "Report/Pictures".
 
 #include <slipstep/report/drawing.h>
-#include <slipstep/report/run_pictures.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
@@ -308,50 +307,50 @@ namespace SlipStep
       return script;
     }
 
-    void add_requested_picture(const std::filesystem::path   &folder,
-                               const std::string             &name,
-                               const RequestedPicture        &requested,
-                               const std::vector<RunResults> &runs,
-                               const Reference               &reference,
-                               std::vector<Picture>          &pictures,
-                               std::vector<std::string>      &warnings)
+    void add_requested_picture(RunFigures             &figures,
+                               const std::string      &name,
+                               const RequestedPicture &requested)
     {
+      const auto &runs  = figures.runs;
       std::string title = requested.text;
       title[0]          = std::toupper(title[0]);
-      Figure figure(
-        folder, name, title, picture_width, requested.is_polar() ? 560 : 400);
-      Range       x, y;
-      std::string plots;
-      const bool  is_curve = requested.y.of == ValueOf::step;
+      Figure     figure(figures.folder,
+                    name,
+                    title,
+                    picture_width,
+                    requested.is_polar() ? 560 : 400);
+      Range      x, y;
+      const bool is_curve = requested.y.of == ValueOf::step;
       // The speeds of a sweep make one curve of all runs.
       Rows       all;
       const bool is_joined =
         !is_curve &&
         std::all_of(runs.begin(), runs.end(), [&](const auto &run) {
-          return points_of(requested, run, reference).size() <= 1;
+          return points_of(requested, run, figures.reference).size() <= 1;
         });
       bool       is_zigzag = false;
-      const auto plot =
-        [&](const Rows &points, const std::size_t i, const std::string &of) {
-          if (points.empty())
-            return;
-          for (const auto &point : points)
-            {
-              x.add(point[0]);
-              y.add(point[1]);
-            }
-          plots +=
-            (plots.empty() ? "plot " : ", \\\n  ") +
-            figure.add_data(of, {requested.x.name, requested.y.name}, points) +
-            (is_curve  ? " with lines lw 1.8 " :
-             is_zigzag ? " with points pt 7 ps 0.8 " :
-                         " with linespoints pt 7 ps 0.8 lw 1.2 ") +
-            run_style(i) +
-            (of.empty() ? " notitle" : " title " + gnuplot_text(of));
-        };
+      const auto plot      = [&](const Rows        &points,
+                            const std::size_t  i,
+                            const std::string &of) {
+        if (points.empty())
+          return;
+        for (const auto &point : points)
+          {
+            x.add(point[0]);
+            y.add(point[1]);
+          }
+        figure.plot(of,
+                    {requested.x.name, requested.y.name},
+                    points,
+                    (is_curve  ? "with lines lw 1.8 " :
+                          is_zigzag ? "with points pt 7 ps 0.8 " :
+                                      "with linespoints pt 7 ps 0.8 lw 1.2 ") +
+                      run_style(i) +
+                      (of.empty() ? " notitle" : " title " + gnuplot_text(of)));
+      };
       for (std::size_t i = 0; i < runs.size(); ++i)
         {
-          const Rows points = points_of(requested, runs[i], reference);
+          const Rows points = points_of(requested, runs[i], figures.reference);
           if (is_joined)
             all.insert(all.end(), points.begin(), points.end());
           else
@@ -366,19 +365,22 @@ namespace SlipStep
                                               1e-6 * std::abs(one[0]);
                                      }) != all.end();
       plot(all, 0, "");
-      if (plots.empty())
+      // Nothing was plotted.
+      if (!std::isfinite(x.width()))
         {
-          warnings.push_back("no picture '" + requested.text +
-                             "': no slide or step has both of them");
+          figures.warnings.push_back("no picture '" + requested.text +
+                                     "': no slide or step has both of them");
           return;
         }
       figure.script() << axes_style
                       << "set key outside right top Left reverse\n"
-                      << axes_of(requested, x, y) << plots << '\n';
-      pictures.push_back(
-        finish(figure, title, is_curve ? "" : "A point is a slide.", warnings));
-      if (requested.y.of == ValueOf::speed)
-        pictures.back().caption = "A point is a speed of the programme.";
+                      << axes_of(requested, x, y);
+      figures.add(figure,
+                  title,
+                  is_curve ? "" :
+                  requested.y.of == ValueOf::speed ?
+                             "A point is a speed of the programme." :
+                             "A point is a slide.");
     }
   } // namespace
 
@@ -405,21 +407,12 @@ namespace SlipStep
 
 
 
-  void add_requested_pictures(const std::filesystem::path   &folder,
-                              const Parameters              &parameters,
-                              const std::vector<RunResults> &runs,
-                              const Reference               &reference,
-                              std::vector<Picture>          &pictures,
-                              std::vector<std::string>      &warnings)
+  void add_requested_pictures(RunFigures &figures)
   {
-    const auto requested = requested_pictures(parameters);
+    const auto requested = requested_pictures(figures.parameters);
     for (std::size_t i = 0; i < requested.size(); ++i)
-      add_requested_picture(folder,
+      add_requested_picture(figures,
                             "picture_" + std::to_string(i + 1),
-                            requested[i],
-                            runs,
-                            reference,
-                            pictures,
-                            warnings);
+                            requested[i]);
   }
 } // namespace SlipStep

@@ -6,7 +6,6 @@
 #include <slipstep/report/run_figures.h>
 #include <slipstep/report/run_law.h>
 #include <slipstep/measured_data/measured_test.h>
-#include <slipstep/report/run_pictures.h>
 #include <slipstep/report/page.h>
 #include <slipstep/report/figure.h>
 #include <slipstep/utilities/text.h>
@@ -618,22 +617,20 @@ namespace SlipStep
       return true;
     }
 
-    std::string page(const Parameters               &parameters,
-                     const Reference                &reference,
-                     const std::vector<RunResults>  &runs,
-                     const std::vector<Picture>     &pictures,
-                     const std::string              &law,
-                     const std::string              &study,
-                     const bool                      is_one_case,
-                     const std::vector<std::string> &warnings)
+    std::string page(const RunFigures  &drawn,
+                     const std::string &law,
+                     const std::string &study,
+                     const bool         is_one_case)
     {
-      const auto         rows = result_rows(runs, reference);
+      const Parameters  &parameters = drawn.parameters;
+      const auto        &runs       = drawn.runs;
+      const auto         rows       = result_rows(runs, drawn.reference);
       std::ostringstream html;
-      html << problem_boxes(runs, warnings) << study;
+      html << problem_boxes(runs, drawn.warnings) << study;
       if (!rows.empty())
-        html << html_table(result_lines(rows, reference, true))
+        html << html_table(result_lines(rows, drawn.reference, true))
              << result_note(rows);
-      html << figures(pictures) << law << stability(runs);
+      html << figures(drawn.pictures) << law << stability(runs);
       if (!runs.empty())
         {
           html << heading("Energy") << html_table(energy_lines(runs))
@@ -642,7 +639,7 @@ namespace SlipStep
           // Of several cases the parameters are of none.
           if (is_one_case)
             html << heading("Friction law")
-                 << html_table(effect_table(parameters, runs), "law")
+                 << html_table(effect_table(drawn), "law")
                  << heading("Conditions")
                  << html_table(condition_lines(parameters, runs), "values");
           html << heading("Repeat it")
@@ -652,7 +649,7 @@ namespace SlipStep
                        rows.empty() ?
                          headline_of_pushes(runs) :
                          headline(rows,
-                                  reference,
+                                  drawn.reference,
                                   is_one_case && has_one_law(parameters)),
                        html.str());
     }
@@ -666,24 +663,15 @@ namespace SlipStep
                                         const std::string              &study,
                                         const bool is_one_case)
   {
-    const Reference             reference(parameters);
-    std::vector<std::string>    warnings;
-    const auto                  results        = load_runs(runs, warnings);
-    const std::filesystem::path picture_folder = folder / "report";
-    std::filesystem::create_directories(picture_folder);
-    auto pictures =
-      draw_pictures(picture_folder, parameters, results, reference, warnings);
-
-    const std::string law = law_at_work(picture_folder, results, warnings);
-    write_file(folder / "report.html",
-               page(parameters,
-                    reference,
-                    results,
-                    pictures,
-                    law,
-                    study,
-                    is_one_case,
-                    warnings));
+    const Reference          reference(parameters);
+    std::vector<std::string> warnings;
+    const auto               results = load_runs(runs, warnings);
+    RunFigures               figures{
+      folder / "report", parameters, results, reference, warnings};
+    std::filesystem::create_directories(figures.folder);
+    draw_pictures(figures);
+    const std::string law = law_at_work(figures);
+    write_file(folder / "report.html", page(figures, law, study, is_one_case));
     return warnings;
   }
 } // namespace SlipStep
