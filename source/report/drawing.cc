@@ -2,6 +2,7 @@
 #include <slipstep/report/drawing.h>
 #include <slipstep/utilities/text.h>
 
+#include <algorithm>
 #include <array>
 
 namespace SlipStep
@@ -17,10 +18,47 @@ namespace SlipStep
 
   std::string legend(const RunResults &run)
   {
-    if (!run.label.empty())
-      return run.label;
+    if (!run.short_label.empty())
+      return run.short_label;
     return run.summary.slides.empty() ? run.summary.command :
                                         speed_text(run.summary.slides[0].speed);
+  }
+
+
+
+  LegendPlace place_legend(const std::vector<RunResults>  &runs,
+                           const std::vector<std::string> &others,
+                           const unsigned int              height)
+  {
+    std::vector<std::string> names = others;
+    for (const RunResults &run : runs)
+      names.push_back(legend(run));
+    std::size_t longest = 0;
+    for (const std::string &name : names)
+      longest = std::max(longest, name.size());
+
+    // What is drawn beside a name, with a margin, and 8 pixels a letter. (Left
+    // to itself, gnuplot takes more than browsers need.)
+    const double           width      = 80. + 8. * longest;
+    constexpr unsigned int row_height = 29, above_and_below = 90;
+    LegendPlace            place;
+    place.is_beside = width <= 0.4 * picture_width &&
+                      row_height * names.size() + above_and_below <= height;
+    if (place.is_beside)
+      {
+        const double edge = 1. - width / picture_width;
+        place.commands    = "set rmargin at screen " + short_text(edge) +
+                         "\nset key at screen " + short_text(edge + 0.02) +
+                         ", graph 1 left top\n";
+        return place;
+      }
+    const unsigned int n_columns =
+      std::max(1, static_cast<int>(picture_width / width));
+    place.more_height =
+      row_height * ((names.size() + n_columns - 1) / n_columns);
+    place.commands = "set key outside below left Left reverse maxcols " +
+                     std::to_string(n_columns) + "\n";
+    return place;
   }
 
 

@@ -86,19 +86,16 @@ namespace SlipStep
       return order;
     }
 
-    /// Room for the legend, the same in all pictures. (Left to itself, gnuplot
-    /// takes more than browsers need.)
-    std::string legend_margin(const std::vector<RunResults> &runs,
-                              const Reference               &reference)
+    /// The legend has the reference, too.
+    LegendPlace place_names(const RunFigures  &figures,
+                            const unsigned int height)
     {
-      std::size_t longest = reference.exists() ? reference.name().size() : 0;
-      for (const RunResults &run : runs)
-        longest = std::max(longest, legend(run).size());
-      const double edge =
-        1. - std::min(80. + 8. * longest, 0.4 * picture_width) / picture_width;
-      return "set rmargin at screen " + short_text(edge) +
-             "\nset key at screen " + short_text(edge + 0.02) +
-             ", graph 1 left top\n";
+      const Reference &reference = figures.reference;
+      return place_legend(figures.runs,
+                          reference.exists() ?
+                            std::vector<std::string>{reference.name()} :
+                            std::vector<std::string>(),
+                          height);
     }
 
     /// Which run slides at this speed; runs.size() if none does.
@@ -162,13 +159,14 @@ namespace SlipStep
 
     void add_friction_picture(RunFigures &figures)
     {
-      const auto &runs      = figures.runs;
-      const auto &reference = figures.reference;
+      const auto &runs         = figures.runs;
+      const auto &reference    = figures.reference;
+      const auto  legend_place = place_names(figures, 430);
       Figure      figure(figures.folder,
                     "friction",
                     "Friction against displacement",
                     picture_width,
-                    430);
+                    430 + legend_place.more_height);
       Range       x, y;
       for (const std::size_t i : from_top_to_bottom(runs))
         {
@@ -187,7 +185,7 @@ namespace SlipStep
                      reference,
                      x.upper + 0.015 * x.width(),
                      x.upper + 0.06 * x.width());
-      figure.script() << axes_style << legend_margin(runs, reference)
+      figure.script() << axes_style << legend_place.commands
                       << "set xlabel 'Displacement of the drive  [mm]'\n"
                          "set ylabel 'Friction  (tangential / normal load)'\n"
                       // The first rise shall not hide on the axis.
@@ -231,11 +229,12 @@ namespace SlipStep
       const double zoom = zoom_length(runs);
       if (zoom == 0.)
         return;
+      const auto               legend_place = place_names(figures, 380);
       Figure                   figure(figures.folder,
                     "friction_start",
                     "Friction at the start of the slide",
                     picture_width,
-                    380);
+                    380 + legend_place.more_height);
       std::vector<std::string> peaks;
       for (const std::size_t i : from_top_to_bottom(runs))
         {
@@ -261,7 +260,7 @@ namespace SlipStep
         }
       for (const std::string &peak : peaks)
         figure.plot(peak);
-      figure.script() << axes_style << legend_margin(runs, figures.reference)
+      figure.script() << axes_style << legend_place.commands
                       << "set xlabel 'Displacement since the start of the "
                          "slide  [mm]'\n"
                          "set ylabel 'Friction  (tangential / normal load)'\n"
@@ -314,13 +313,15 @@ namespace SlipStep
                     "Dynamic loading ratio against speed",
                     picture_width,
                     380);
-      figure.script() << axes_style << legend_margin(runs, reference)
-                      << "set logscale x\nset format x '%g'\n"
-                         "set xlabel 'Sliding speed  [mm/min]'\n"
-                         "set ylabel 'Dynamic loading ratio  r  [–]'\n"
-                         "set offsets 0, 0, graph 0.08, graph 0.08\n"
-                      << "set xrange [" << speeds.lower / 1.6 << ":"
-                      << speeds.upper * 1.6 << "]\n";
+      figure.script()
+        << axes_style
+        << place_legend({}, {reference.name(), "simulated"}, 380).commands
+        << "set logscale x\nset format x '%g'\n"
+           "set xlabel 'Sliding speed  [mm/min]'\n"
+           "set ylabel 'Dynamic loading ratio  r  [–]'\n"
+           "set offsets 0, 0, graph 0.08, graph 0.08\n"
+        << "set xrange [" << speeds.lower / 1.6 << ":" << speeds.upper * 1.6
+        << "]\n";
       const std::vector<std::string> columns = {"speed_mm/min", "r"};
       if (!marks.empty())
         {

@@ -90,33 +90,26 @@ namespace SlipStep
                     panel.label + " over the path of the drive",
                     picture_width,
                     is_last ? 200 : 155);
-      std::size_t longest = 0;
+      // Where they do not fit, the pictures above have the names.
+      const LegendPlace legend_place = place_legend(runs, {}, 206);
+      const bool        is_named = runs.size() > 1 && legend_place.is_beside;
       for (std::size_t i = 0; i < runs.size(); ++i)
-        {
-          longest = std::max(longest, legend(runs[i]).size());
-          plot_run(figure,
-                   runs[i],
-                   i,
-                   {"path_mm", panel.name},
-                   curves[i],
-                   1.8,
-                   is_first && runs.size() > 1);
-        }
-      const double right =
-        runs.size() > 1 ?
-          1. -
-            std::min(80. + 8. * longest, 0.4 * picture_width) / picture_width :
-          0.98;
+        plot_run(figure,
+                 runs[i],
+                 i,
+                 {"path_mm", panel.name},
+                 curves[i],
+                 1.8,
+                 is_first && is_named);
       const Range  x = range_of(curves, 0), y = range_of(curves, 1);
       const double margin = 0.06 * y.width();
       figure.script()
         << axes_style << "set lmargin at screen 0.11\n"
-        << "set rmargin at screen " << right
-        << "\nset tmargin at screen 0.91\nset bmargin at screen "
-        << (is_last ? 0.3 : 0.09) << "\nset key at screen " << right + 0.02
-        << ", graph 1 left top\n"
-        << "set xrange [" << x.lower << ":" << x.upper << "]\nset yrange ["
-        << y.lower - margin << ":" << y.upper + margin << "]\nset ytics "
+        << (is_named ? legend_place.commands : "set rmargin at screen 0.98\n")
+        << "set tmargin at screen 0.91\nset bmargin at screen "
+        << (is_last ? 0.3 : 0.09) << "\nset xrange [" << x.lower << ":"
+        << x.upper << "]\nset yrange [" << y.lower - margin << ":"
+        << y.upper + margin << "]\nset ytics "
         << round_up(y.width() / 3.)
         // These stand below each other, however wide the numbers are.
         << "\nset label 1 " << gnuplot_text(panel.label)
@@ -216,7 +209,8 @@ namespace SlipStep
             value_text(parameter,
                        laws[i].text(effect.section() + parameter.key));
           different.insert(text);
-          all += (all.empty() ? "" : ", ") + text + " (" + runs[i].label + ")";
+          all +=
+            (all.empty() ? "" : ", ") + text + " (" + legend(runs[i]) + ")";
         }
       return different.size() == 1 ? *different.begin() : all;
     }

@@ -314,11 +314,6 @@ namespace SlipStep
       const auto &runs  = figures.runs;
       std::string title = requested.text;
       title[0]          = std::toupper(title[0]);
-      Figure     figure(figures.folder,
-                    name,
-                    title,
-                    picture_width,
-                    requested.is_polar() ? 560 : 400);
       Range      x, y;
       const bool is_curve = requested.y.of == ValueOf::step;
       // The speeds of a sweep make one curve of all runs.
@@ -328,6 +323,17 @@ namespace SlipStep
         std::all_of(runs.begin(), runs.end(), [&](const auto &run) {
           return points_of(requested, run, figures.reference).size() <= 1;
         });
+      const unsigned int height = requested.is_polar() ? 560 : 400;
+      LegendPlace        legend_place;
+      if (runs.size() > 1 && !is_joined)
+        legend_place = place_legend(runs, {}, height);
+      if (legend_place.is_beside)
+        legend_place.commands = "set key outside right top Left reverse\n";
+      Figure     figure(figures.folder,
+                    name,
+                    title,
+                    picture_width,
+                    height + legend_place.more_height);
       bool       is_zigzag = false;
       const auto plot      = [&](const Rows        &points,
                             const std::size_t  i,
@@ -372,8 +378,7 @@ namespace SlipStep
                                      "': no slide or step has both of them");
           return;
         }
-      figure.script() << axes_style
-                      << "set key outside right top Left reverse\n"
+      figure.script() << axes_style << legend_place.commands
                       << axes_of(requested, x, y);
       figures.add(figure,
                   title,

@@ -4,9 +4,13 @@
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 namespace SlipStep
 {
@@ -27,6 +31,31 @@ namespace SlipStep
       return parse_quantity(has_unit ? text : text + " mm/min",
                             Dimension::speed,
                             true);
+    }
+
+
+
+    void shorten_labels(std::vector<RunResults> &runs)
+    {
+      std::map<std::string, std::size_t>    n_runs_with;
+      std::vector<std::vector<std::string>> parts;
+      for (RunResults &run : runs)
+        {
+          run.short_label = run.label;
+          parts.push_back(dealii::Utilities::split_string_list(run.label, ','));
+          for (const std::string &part :
+               std::set<std::string>(parts.back().begin(), parts.back().end()))
+            ++n_runs_with[part];
+        }
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        {
+          std::string text;
+          for (const std::string &part : parts[i])
+            if (n_runs_with[part] < runs.size())
+              text += (text.empty() ? "" : ", ") + part;
+          if (!text.empty())
+            runs[i].short_label = text;
+        }
     }
   } // namespace
 
@@ -54,6 +83,7 @@ namespace SlipStep
           warnings.push_back("run '" + run.label +
                              "' is not in the report: " + error.what());
         }
+    shorten_labels(results);
     return results;
   }
 
@@ -180,7 +210,7 @@ namespace SlipStep
       for (const SlideSummary &slide : runs[i].summary.slides)
         {
           ResultRow row;
-          row.label     = runs[i].label;
+          row.label     = runs[i].short_label;
           row.run       = i;
           row.slide     = slide;
           row.end       = slide.kinetic;

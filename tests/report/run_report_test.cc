@@ -206,6 +206,33 @@ TEST(Report, ThePageIsCompleteInItself)
 
 
 
+TEST(Report, NamesOfRunsSayWhatDiffersAndFindRoom)
+{
+  const auto page_and_script = [](const std::vector<std::string> &labels) {
+    std::vector<ReportedRun> runs;
+    for (const std::string &label : labels)
+      runs.push_back(make_run(1., label));
+    write_report(test_folder(), parameters_with({}), runs);
+    return std::make_pair(content(test_folder() / "report.html"),
+                          content(test_folder() / "report" / "friction.gp"));
+  };
+  const auto [page, script] =
+    page_and_script({"10 mm, Exponent 8", "10 mm, Exponent 16"});
+  EXPECT_TRUE(contains(page, ">Exponent 16<"));
+  EXPECT_FALSE(contains(page, ">10 mm, Exponent 16<"));
+  EXPECT_FALSE(contains(script, "outside below"));
+
+  std::vector<std::string> labels;
+  for (unsigned int i = 0; i < 12; ++i)
+    labels.push_back("Exponent " + std::to_string(i) +
+                     ", Static coefficient 0.1" + std::to_string(i));
+  EXPECT_TRUE(contains(page_and_script(labels).second, "outside below"));
+  labels.resize(2);
+  EXPECT_TRUE(contains(page_and_script(labels).second, "outside below"));
+}
+
+
+
 TEST(Report, TheHeadlineClaimsNoMoreThanThereIs)
 {
   const Reference none(parameters_with({}));

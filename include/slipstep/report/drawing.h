@@ -55,6 +55,22 @@ namespace SlipStep
   /// What legends call a run.
   std::string legend(const RunResults &run);
 
+  /// Where the names of all runs stand in a picture.
+  struct LegendPlace
+  {
+    bool         is_beside = true;
+    std::string  commands;        ///< of gnuplot
+    unsigned int more_height = 0; ///< that the picture needs below [pixel]
+  };
+
+  /// Beside the curves, in the same place in all pictures, or below them where
+  /// there are many names or long ones.
+  /// @param others names that are no runs
+  /// @param height of the picture [pixel]
+  LegendPlace place_legend(const std::vector<RunResults>  &runs,
+                           const std::vector<std::string> &others,
+                           const unsigned int              height);
+
   /// Colour and dash of a run as gnuplot has it: colours of Okabe and Ito,
   /// distinct for colour-blind readers; dashes keep the curves apart in print.
   /// (Their yellow is lost on white.)

@@ -19,7 +19,9 @@ namespace SlipStep
   /// What a run left in its folder.
   struct RunResults
   {
-    std::string             label;
+    std::string label;
+    /// The parts of it, between commas, that not all runs of the page have.
+    std::string             short_label;
     std::filesystem::path   folder;
     Summary                 summary;
     std::vector<HistoryRow> history;
