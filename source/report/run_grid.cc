@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace SlipStep
@@ -149,9 +148,7 @@ namespace SlipStep
           if (std::isfinite(value))
             cells.push_back({place[0], place[1], value});
         };
-        add(peaks,
-            row.has_peak ? row.slide.peak :
-                           std::numeric_limits<double>::quiet_NaN());
+        add(peaks, row.peak());
         add(levels, row.slide.kinetic);
       }
     add_heat_map(figures, grid, "grid_peak", "Peak friction", peaks);

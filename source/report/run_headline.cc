@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace SlipStep
 {
@@ -34,34 +35,39 @@ namespace SlipStep
       return low == high ? low : low + " to " + high;
     }
 
-    /// What may vary from slide to slide, and a quantity over it.
+    /// What may vary from slide to slide, or a quantity over it.
     struct Aspect
     {
-      double (*value)(const ResultRow &);
-      std::string (*text)(const ResultRow &);
+      std::function<double(const ResultRow &)> value;
+      std::string (*in_words)(const double);
+
+      std::string text(const ResultRow &row) const
+      {
+        return in_words(value(row));
+      }
     };
 
-    const Aspect speed_aspect = {
-      [](const ResultRow &row) { return row.slide.speed; },
-      [](const ResultRow &row) { return "at " + speed_text(row.slide.speed); }};
-    const Aspect pressure_aspect = {
-      [](const ResultRow &row) { return row.slide.pressure; },
-      [](const ResultRow &row) {
-        return "at " + short_text(row.slide.pressure) + " MPa";
-      }};
-    const Aspect rest_aspect    = {[](const ResultRow &row) {
-                                  return row.slide.rest;
-                                },
-                                   [](const ResultRow &row) {
-                                  return "after " +
-                                         short_text(row.slide.rest, 6) + " s";
+    std::string four_decimals(const double value)
+    {
+      return fixed_text(value, 4);
+    }
+
+    const Aspect speed_aspect    = {of_slide(&SlideSummary::speed),
+                                    [](const double speed) {
+                                   return "at " + speed_text(speed);
+                                 }};
+    const Aspect pressure_aspect = {of_slide(&SlideSummary::pressure),
+                                    [](const double pressure) {
+                                      return "at " + short_text(pressure) +
+                                             " MPa";
+                                    }};
+    const Aspect rest_aspect     = {of_slide(&SlideSummary::rest),
+                                    [](const double rest) {
+                                  return "after " + short_text(rest, 6) + " s";
                                 }};
-    const Aspect kinetic_aspect = {
-      [](const ResultRow &row) { return row.slide.kinetic; },
-      [](const ResultRow &row) { return fixed_text(row.slide.kinetic, 4); }};
-    const Aspect peak_aspect = {
-      [](const ResultRow &row) { return row.slide.peak; },
-      [](const ResultRow &row) { return fixed_text(row.slide.peak, 4); }};
+    const Aspect kinetic_aspect  = {of_slide(&SlideSummary::kinetic),
+                                    four_decimals};
+    const Aspect peak_aspect = {of_slide(&SlideSummary::peak), four_decimals};
 
     /// First of the smallest, and last of the largest.
     std::pair<ResultRow, ResultRow> extremes(const ResultRows &rows,
@@ -119,8 +125,7 @@ namespace SlipStep
     {
       if (!reference.exists())
         return "";
-      const auto ends = extremes(
-        rows, {[](const ResultRow &row) { return row.difference; }, nullptr});
+      const auto ends = extremes(rows, {&ResultRow::difference, nullptr});
       return comparison(ends.first.difference, ends.second.difference) +
              reference.name();
     }
@@ -147,14 +152,13 @@ namespace SlipStep
     /// "; it is 6.2 to 20.0 % lower than its peak", if that holds for all.
     std::string drop(const ResultRows &rows)
     {
-      const auto has_peak = [](const ResultRow &row) { return row.has_peak; };
+      const auto has_peak = std::mem_fn(&ResultRow::has_peak);
       if (std::none_of(rows.begin(), rows.end(), has_peak))
         return "; there is no drop from a peak";
       if (!std::all_of(rows.begin(), rows.end(), has_peak))
         return "";
-      const Aspect by_drop = {[](const ResultRow &row) { return row.drop; },
-                              [](const ResultRow &row) {
-                                return fixed_text(row.drop, 1);
+      const Aspect by_drop = {&ResultRow::drop, [](const double drop) {
+                                return fixed_text(drop, 1);
                               }};
       return "; it is " + range(rows, by_drop) + " % lower than its peak";
     }
@@ -170,14 +174,14 @@ namespace SlipStep
     std::string named_range(const ResultRows &rows,
                             std::string (*name)(const ResultRow &))
     {
-      const auto ends = extremes(rows, kinetic_aspect);
-      const auto text = kinetic_aspect.text;
-      if (text(ends.first) == text(ends.second))
-        return "Kinetic friction is " + text(ends.first) + " in " +
+      const auto        ends = extremes(rows, kinetic_aspect);
+      const std::string low  = kinetic_aspect.text(ends.first);
+      const std::string high = kinetic_aspect.text(ends.second);
+      if (low == high)
+        return "Kinetic friction is " + low + " in " +
                std::to_string(rows.size()) + " slides";
-      return "Kinetic friction ranges from " + text(ends.first) + " (" +
-             name(ends.first) + ") to " + text(ends.second) + " (" +
-             name(ends.second) + ")";
+      return "Kinetic friction ranges from " + low + " (" + name(ends.first) +
+             ") to " + high + " (" + name(ends.second) + ")";
     }
 
     /// Peaks over the rests before them; "" if there are no two rests.
@@ -225,9 +229,7 @@ namespace SlipStep
         text += ", " + against(rows, reference);
       // After a step of speed, a peak is no static one.
       const bool has_steps =
-        std::any_of(rows.begin(), rows.end(), [](const ResultRow &row) {
-          return row.is_step;
-        });
+        std::any_of(rows.begin(), rows.end(), std::mem_fn(&ResultRow::is_step));
       return text + (has_steps || pressures || changes_direction(rows) ?
                        "" :
                        drop(rows));
@@ -308,17 +310,11 @@ namespace SlipStep
     {
       if (rows.empty())
         return "";
-      const Aspect share    = {[](const ResultRow &row) {
-                              return row.slide.slip_fraction;
-                            },
-                               [](const ResultRow &row) {
-                              return short_text(100. * row.slide.slip_fraction,
-                                                3);
+      const Aspect share    = {of_slide(&SlideSummary::slip_fraction),
+                               [](const double fraction) {
+                              return short_text(100. * fraction, 3);
                             }};
-      const Aspect friction = {[](const ResultRow &row) { return row.end; },
-                               [](const ResultRow &row) {
-                                 return fixed_text(row.end, 4);
-                               }};
+      const Aspect friction = {&ResultRow::end, four_decimals};
       return (rows.size() == n_all ?
                 "" :
                 "In " + std::to_string(rows.size()) + " of " +

@@ -11,52 +11,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <variant>
 
 namespace SlipStep
 {
   namespace
   {
-    using Values = std::vector<double>;
-
-    /// What one value is of.
-    enum class ValueOf
-    {
-      slide,
-      step,
-      speed
-    };
+    /// What a value is of: a whole slide, a step, or a speed of the programme.
+    using OfSlide = std::function<double(const ResultRow &)>;
+    using OfStep  = std::function<double(const HistoryRow &)>;
+    using OfSpeed = std::function<double(const StabilitySummary &)>;
 
     /// What can be drawn over another one that has values of the same.
     struct PictureQuantity
     {
-      std::string name;
-      std::string label;
-      ValueOf     of;
-      double (*of_slide)(const ResultRow &)        = nullptr;
-      double (*of_step)(const HistoryRow &)        = nullptr;
-      double (*of_speed)(const StabilitySummary &) = nullptr;
+      std::string                            name;
+      std::string                            label;
+      std::variant<OfSlide, OfStep, OfSpeed> value;
     };
-
-    PictureQuantity slide_quantity(const std::string &name,
-                                   const std::string &label,
-                                   double (*value)(const ResultRow &))
-    {
-      return {name, label, ValueOf::slide, value};
-    }
-
-    PictureQuantity step_quantity(const std::string &name,
-                                  const std::string &label,
-                                  double (*value)(const HistoryRow &))
-    {
-      return {name, label, ValueOf::step, nullptr, value};
-    }
-
-    PictureQuantity speed_quantity(const std::string &name,
-                                   const std::string &label,
-                                   double (*value)(const StabilitySummary &))
-    {
-      return {name, label, ValueOf::speed, nullptr, nullptr, value};
-    }
 
     constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
@@ -64,113 +37,82 @@ namespace SlipStep
     {
       using Row = const ResultRow &;
       return {
-        slide_quantity("peak",
-                       "Peak friction",
-                       [](Row row) {
-                         return row.has_peak ? row.slide.peak : absent;
-                       }),
-        slide_quantity("dip",
-                       "Least friction after the step",
-                       [](Row row) {
-                         return row.has_dip ? row.slide.dip : absent;
-                       }),
-        slide_quantity("kinetic",
-                       "Kinetic friction",
-                       [](Row row) { return row.slide.kinetic; }),
-        slide_quantity("dynamic ratio",
-                       "Dynamic loading ratio  r",
-                       [](Row row) { return row.slide.dynamic_ratio; }),
-        slide_quantity("drop",
-                       "Drop from peak to kinetic  [%]",
-                       [](Row row) { return row.drop; }),
-        slide_quantity("rest",
-                       "Time at rest before  [s]",
-                       [](Row row) {
-                         return row.slide.rest > 0. ? row.slide.rest : absent;
-                       }),
-        slide_quantity("pressure",
-                       "Pressure  [MPa]",
-                       [](Row row) { return row.slide.pressure; }),
-        slide_quantity("speed",
-                       "Sliding speed  [mm/min]",
-                       [](Row row) { return row.slide.speed * mm_min; }),
-        slide_quantity("direction",
-                       "Direction of sliding  [deg]",
-                       [](Row row) {
-                         return row.slide.angle * 180. / dealii::numbers::PI;
-                       }),
-        slide_quantity("statement", "Statement of the programme", [](Row row) {
-          return static_cast<double>(row.slide.statement);
-        })};
+        {"peak", "Peak friction", &ResultRow::peak},
+        {"dip", "Least friction after the step", &ResultRow::dip},
+        {"kinetic", "Kinetic friction", of_slide(&SlideSummary::kinetic)},
+        {"dynamic ratio",
+         "Dynamic loading ratio  r",
+         of_slide(&SlideSummary::dynamic_ratio)},
+        {"drop", "Drop from peak to kinetic  [%]", &ResultRow::drop},
+        {"rest",
+         "Time at rest before  [s]",
+         [](Row row) { return row.slide.rest > 0. ? row.slide.rest : absent; }},
+        {"pressure", "Pressure  [MPa]", of_slide(&SlideSummary::pressure)},
+        {"speed",
+         "Sliding speed  [mm/min]",
+         [](Row row) { return row.slide.speed * mm_min; }},
+        {"direction",
+         "Direction of sliding  [deg]",
+         [](Row row) { return row.slide.angle * 180. / dealii::numbers::PI; }},
+        {"statement", "Statement of the programme", [](Row row) {
+           return static_cast<double>(row.slide.statement);
+         }}};
     }
 
     std::vector<PictureQuantity> quantities_of_steps()
     {
-      using Row                  = const HistoryRow &;
-      const std::string friction = "Friction  (tangential / normal load)";
-      return {step_quantity("friction",
-                            friction,
-                            [](Row row) { return row.friction; }),
-              step_quantity("friction y",
-                            "Friction along the second axis",
-                            [](Row row) { return row.friction_y; }),
-              step_quantity("force",
-                            "Tangential load  [N]",
-                            [](Row row) { return row.tangential_load; }),
-              step_quantity("r",
-                            "Loading ratio  r",
-                            [](Row row) { return row.loading_ratio.mean; }),
-              step_quantity("r_s",
-                            "Normal ratio  r_s",
-                            [](Row row) { return row.normal_ratio.mean; }),
-              step_quantity("mu",
-                            "Coefficient  μ",
-                            [](Row row) { return row.coefficient.mean; }),
-              step_quantity("slip",
-                            "Slip path  [mm]",
-                            [](Row row) { return row.slip; }),
-              step_quantity("slipping share",
-                            "Share of the contact that slips  [%]",
-                            [](Row row) { return 100. * row.slip_fraction; }),
-              step_quantity("spring load",
-                            "Load of the spring / normal load",
-                            [](Row row) {
-                              return row.probes.size() > 2 ? row.probes[2] :
-                                                             absent;
-                            }),
-              step_quantity("dissipation",
-                            "Dissipated energy  [N mm]",
-                            [](Row row) { return row.dissipated_energy; }),
-              step_quantity("displacement",
-                            "Displacement of the drive  [mm]",
-                            [](Row row) { return row.displacement; }),
-              step_quantity("pressure",
-                            "Pressure  [MPa]",
-                            [](Row row) { return row.pressure; }),
-              step_quantity("time", "Time  [s]", [](Row row) {
-                return row.time;
-              })};
-    }
-
-    std::vector<PictureQuantity> quantities_of_speeds()
-    {
-      using Row = const StabilitySummary &;
-      return {speed_quantity("critical stiffness",
-                             "Critical stiffness  [MPa/mm]",
-                             [](Row row) { return row.critical_stiffness; }),
-              speed_quantity("stiffness",
-                             "Stiffness of the machine  [MPa/mm]",
-                             [](Row row) { return row.stiffness; }),
-              speed_quantity("speed", "Sliding speed  [mm/min]", [](Row row) {
-                return row.speed * mm_min;
-              })};
+      using Row = const HistoryRow &;
+      return {{"friction",
+               "Friction  (tangential / normal load)",
+               &HistoryRow::friction},
+              {"friction y",
+               "Friction along the second axis",
+               &HistoryRow::friction_y},
+              {"force", "Tangential load  [N]", &HistoryRow::tangential_load},
+              {"r",
+               "Loading ratio  r",
+               [](Row row) { return row.loading_ratio.mean; }},
+              {"r_s",
+               "Normal ratio  r_s",
+               [](Row row) { return row.normal_ratio.mean; }},
+              {"mu",
+               "Coefficient  μ",
+               [](Row row) { return row.coefficient.mean; }},
+              {"slip", "Slip path  [mm]", &HistoryRow::slip},
+              {"slipping share",
+               "Share of the contact that slips  [%]",
+               [](Row row) { return 100. * row.slip_fraction; }},
+              {"spring load",
+               "Load of the spring / normal load",
+               [](Row row) {
+                 return row.probes.size() > 2 ? row.probes[2] : absent;
+               }},
+              {"dissipation",
+               "Dissipated energy  [N mm]",
+               &HistoryRow::dissipated_energy},
+              {"displacement",
+               "Displacement of the drive  [mm]",
+               &HistoryRow::displacement},
+              {"pressure", "Pressure  [MPa]", &HistoryRow::pressure},
+              {"time", "Time  [s]", &HistoryRow::time}};
     }
 
     std::vector<PictureQuantity> picture_quantities()
     {
-      std::vector<PictureQuantity> all = quantities_of_slides();
-      for (const auto &more : {quantities_of_steps(), quantities_of_speeds()})
-        all.insert(all.end(), more.begin(), more.end());
+      std::vector<PictureQuantity> all      = quantities_of_slides();
+      const auto                   of_steps = quantities_of_steps();
+      all.insert(all.end(), of_steps.begin(), of_steps.end());
+      all.insert(
+        all.end(),
+        {{"critical stiffness",
+          "Critical stiffness  [MPa/mm]",
+          &StabilitySummary::critical_stiffness},
+         {"stiffness",
+          "Stiffness of the machine  [MPa/mm]",
+          &StabilitySummary::stiffness},
+         {"speed", "Sliding speed  [mm/min]", [](const StabilitySummary &row) {
+            return row.speed * mm_min;
+          }}});
       return all;
     }
 
@@ -178,6 +120,12 @@ namespace SlipStep
     {
       std::string     text;
       PictureQuantity y, x;
+
+      template <typename Of>
+      bool is_of() const
+      {
+        return std::holds_alternative<Of>(y.value);
+      }
 
       /// Axes of one scale, as direction has a meaning there.
       bool is_polar() const
@@ -213,7 +161,8 @@ namespace SlipStep
         throw InputError("\"" + text + "\": that is a straight line");
       for (const PictureQuantity &one : all)
         for (const PictureQuantity &other : all)
-          if (one.name == y && other.name == x && one.of == other.of)
+          if (one.name == y && other.name == x &&
+              one.value.index() == other.value.index())
             return {text, one, other};
       throw InputError("\"" + text +
                        "\": one is of whole slides, the other of "
@@ -255,20 +204,20 @@ namespace SlipStep
         else
           rows.push_back({x, y});
       };
-      switch (picture.y.of)
+      const auto add_all = [&](const auto of, const auto &values) {
+        using Of = std::decay_t<decltype(of)>;
+        for (const auto &value : values)
+          add(std::get<Of>(picture.x.value)(value),
+              std::get<Of>(picture.y.value)(value));
+      };
+      if (picture.is_of<OfSlide>())
+        add_all(OfSlide(), result_rows({run}, reference));
+      else if (picture.is_of<OfSpeed>())
+        add_all(OfSpeed(), run.summary.stability);
+      else
         {
-          case ValueOf::slide:
-            for (const ResultRow &row : result_rows({run}, reference))
-              add(picture.x.of_slide(row), picture.y.of_slide(row));
-            break;
-          case ValueOf::step:
-            for (const HistoryRow &row : run.history)
-              add(picture.x.of_step(row), picture.y.of_step(row));
-            rows = thinned(rows);
-            break;
-          case ValueOf::speed:
-            for (const StabilitySummary &row : run.summary.stability)
-              add(picture.x.of_speed(row), picture.y.of_speed(row));
+          add_all(OfStep(), run.history);
+          rows = thinned(rows);
         }
       return rows;
     }
@@ -276,8 +225,8 @@ namespace SlipStep
     /// Values that span more than a decade are shown by their logarithms.
     bool is_logarithmic(const PictureQuantity &quantity, const Range &range)
     {
-      return quantity.of != ValueOf::step && range.lower > 0. &&
-             range.upper > 15. * range.lower;
+      return !std::holds_alternative<OfStep>(quantity.value) &&
+             range.lower > 0. && range.upper > 15. * range.lower;
     }
 
     std::string
@@ -315,7 +264,7 @@ namespace SlipStep
       std::string title = requested.text;
       title[0]          = std::toupper(title[0]);
       Range      x, y;
-      const bool is_curve = requested.y.of == ValueOf::step;
+      const bool is_curve = requested.is_of<OfStep>();
       // The speeds of a sweep make one curve of all runs.
       Rows       all;
       const bool is_joined =
@@ -383,7 +332,7 @@ namespace SlipStep
       figures.add(figure,
                   title,
                   is_curve ? "" :
-                  requested.y.of == ValueOf::speed ?
+                  requested.is_of<OfSpeed>() ?
                              "A point is a speed of the programme." :
                              "A point is a slide.");
     }

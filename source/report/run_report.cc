@@ -134,12 +134,6 @@ namespace SlipStep
       });
     }
 
-    template <typename Test>
-    bool any(const std::vector<ResultRow> &rows, const Test &test)
-    {
-      return std::any_of(rows.begin(), rows.end(), test);
-    }
-
     /// A run has several slides, and which statements they are is known.
     bool statements_matter(const std::vector<ResultRow> &rows)
     {
@@ -164,12 +158,7 @@ namespace SlipStep
       return false;
     }
 
-    /// A column of the table of results.
-    struct ResultColumn
-    {
-      std::string                                   head;
-      std::function<std::string(const ResultRow &)> cell;
-    };
+    using ResultTable = ColumnTable<ResultRow>;
 
     std::string degrees_text(const ResultRow &row)
     {
@@ -177,123 +166,79 @@ namespace SlipStep
     }
 
     /// What makes the slides different.
-    std::vector<ResultColumn>
-    condition_columns(const std::vector<ResultRow> &rows)
+    void add_conditions(ResultTable &table)
     {
-      const bool                with_angles = angles_matter(rows);
-      std::vector<ResultColumn> columns;
-      if (labels_matter(rows))
-        columns.push_back(
-          {"run", [](const ResultRow &row) { return row.label; }});
-      if (statements_matter(rows))
-        columns.push_back({"statement", [](const ResultRow &row) {
-                             return std::to_string(row.slide.statement);
-                           }});
-      columns.push_back({"speed [mm/min]", [with_angles](const ResultRow &row) {
-                           return (is_reverse(row.slide) && !with_angles ? "-" :
-                                                                           "") +
-                                  short_text(60. * row.slide.speed);
-                         }});
+      const bool with_angles = angles_matter(table.rows);
+      if (labels_matter(table.rows))
+        table.add("run", &ResultRow::label);
+      if (statements_matter(table.rows))
+        table.add("statement", [](const ResultRow &row) {
+          return std::to_string(row.slide.statement);
+        });
+      table.add("speed [mm/min]", [with_angles](const ResultRow &row) {
+        return (is_reverse(row.slide) && !with_angles ? "-" : "") +
+               short_text(60. * row.slide.speed);
+      });
       if (with_angles)
-        columns.push_back({"angle [deg]", degrees_text});
-      if (pressures_matter(rows))
-        columns.push_back({"pressure [MPa]", [](const ResultRow &row) {
-                             return short_text(row.slide.pressure);
-                           }});
-      if (rests_matter(rows))
-        columns.push_back({"rest before [s]", [](const ResultRow &row) {
-                             return short_text(row.slide.rest, 6);
-                           }});
-      return columns;
-    }
-
-    ResultColumn
-    number_column(const std::string                              &head,
-                  const unsigned int                              digits,
-                  const std::function<double(const ResultRow &)> &value)
-    {
-      return {head, [digits, value](const ResultRow &row) {
-                return fixed_text(value(row), digits);
-              }};
+        table.add("angle [deg]", degrees_text);
+      if (pressures_matter(table.rows))
+        table.add("pressure [MPa]", [](const ResultRow &row) {
+          return short_text(row.slide.pressure);
+        });
+      if (rests_matter(table.rows))
+        table.add("rest before [s]", [](const ResultRow &row) {
+          return short_text(row.slide.rest, 6);
+        });
     }
 
     /// What was found: no column for what no slide has.
-    std::vector<ResultColumn> found_columns(const std::vector<ResultRow> &rows,
-                                            const Reference &reference)
+    void add_found(ResultTable &table, const Reference &reference)
     {
-      constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-      std::vector<ResultColumn> columns;
-      if (any(rows, [](const ResultRow &row) { return row.has_peak; }))
-        columns.push_back(
-          number_column("peak", 4, [undefined](const ResultRow &row) {
-            return row.has_peak ? row.slide.peak : undefined;
-          }));
-      if (any(rows, [](const ResultRow &row) { return row.has_dip; }))
-        columns.push_back(
-          number_column("dip", 4, [undefined](const ResultRow &row) {
-            return row.has_dip ? row.slide.dip : undefined;
-          }));
-      const bool with_kinetic =
-        any(rows, [](const ResultRow &row) { return row.has_kinetic(); });
+      if (table.has(&ResultRow::has_peak))
+        table.add("peak", 4, &ResultRow::peak);
+      if (table.has(&ResultRow::has_dip))
+        table.add("dip", 4, &ResultRow::dip);
+      const bool with_kinetic = table.has(&ResultRow::has_kinetic);
       if (with_kinetic)
-        columns.push_back(number_column("kinetic", 4, [](const ResultRow &row) {
-          return row.slide.kinetic;
-        }));
-      if (any(rows, [](const ResultRow &row) { return !row.slides_fully(); }))
+        table.add("kinetic", 4, of_slide(&SlideSummary::kinetic));
+      if (table.has(std::not_fn(&ResultRow::slides_fully)))
         {
-          columns.push_back(number_column(
-            "at the end", 4, [](const ResultRow &row) { return row.end; }));
-          columns.push_back(
-            number_column("slipping [%]", 1, [](const ResultRow &row) {
-              return 100. * row.slide.slip_fraction;
-            }));
+          table.add("at the end", 4, &ResultRow::end);
+          table.add("slipping [%]", 1, [](const ResultRow &row) {
+            return 100. * row.slide.slip_fraction;
+          });
         }
       if (reference.exists() && with_kinetic)
         {
-          columns.push_back(
-            number_column(reference.name(), 4, [](const ResultRow &row) {
-              return row.reference;
-            }));
-          columns.push_back({"difference [%]", [](const ResultRow &row) {
-                               return (row.difference > 0. ? "+" : "") +
-                                      fixed_text(row.difference, 2);
-                             }});
+          table.add(reference.name(), 4, &ResultRow::reference);
+          table.add("difference [%]", [](const ResultRow &row) {
+            return (row.difference > 0. ? "+" : "") +
+                   fixed_text(row.difference, 2);
+          });
         }
-      return columns;
     }
 
     /// What the terminal has no room for.
-    std::vector<ResultColumn>
-    further_columns(const std::vector<ResultRow> &rows)
+    void add_more(ResultTable &table)
     {
-      std::vector<ResultColumn> columns;
-      const bool                with_kinetic =
-        any(rows, [](const ResultRow &row) { return row.has_kinetic(); });
-      if (any(rows, [](const ResultRow &row) { return row.has_peak; }))
+      const bool with_kinetic = table.has(&ResultRow::has_kinetic);
+      if (table.has(&ResultRow::has_peak))
         {
           if (with_kinetic)
-            columns.push_back(number_column(
-              "drop [%]", 2, [](const ResultRow &row) { return row.drop; }));
-          columns.push_back({"peak after [mm]", [](const ResultRow &row) {
-                               return row.has_peak ?
-                                        short_text(row.slide.peak_displacement,
-                                                   3) :
-                                        "–";
-                             }});
+            table.add("drop [%]", 2, &ResultRow::drop);
+          table.add("peak after [mm]", [](const ResultRow &row) {
+            return row.has_peak ? short_text(row.slide.peak_displacement, 3) :
+                                  "–";
+          });
         }
-      columns.push_back({"length [mm]", [](const ResultRow &row) {
-                           return short_text(row.slide.length);
-                         }});
+      table.add("length [mm]", [](const ResultRow &row) {
+        return short_text(row.slide.length);
+      });
       if (with_kinetic)
         {
-          columns.push_back(number_column("r", 4, [](const ResultRow &row) {
-            return row.slide.dynamic_ratio;
-          }));
-          columns.push_back(number_column("μ", 4, [](const ResultRow &row) {
-            return row.slide.coefficient;
-          }));
+          table.add("r", 4, of_slide(&SlideSummary::dynamic_ratio));
+          table.add("μ", 4, of_slide(&SlideSummary::coefficient));
         }
-      return columns;
     }
 
     /// The table of results; the report shows more columns than the terminal.
@@ -301,39 +246,31 @@ namespace SlipStep
                                         const Reference              &reference,
                                         const bool                    in_full)
     {
-      std::vector<ResultColumn> columns = condition_columns(rows);
-      const auto append = [&columns](const std::vector<ResultColumn> &more) {
-        columns.insert(columns.end(), more.begin(), more.end());
-      };
-      append(found_columns(rows, reference));
+      ResultTable table(rows);
+      add_conditions(table);
+      add_found(table, reference);
       if (in_full)
-        append(further_columns(rows));
-      std::vector<TableLine> lines(1 + rows.size());
-      for (const ResultColumn &column : columns)
-        {
-          lines[0].push_back(column.head);
-          for (std::size_t i = 0; i < rows.size(); ++i)
-            lines[i + 1].push_back(column.cell(rows[i]));
-        }
-      return lines;
+        add_more(table);
+      return table.lines;
     }
 
     /// What the columns mean, of those that there are.
     std::string result_note(const std::vector<ResultRow> &rows)
     {
-      std::string text;
-      if (any(rows, [](const ResultRow &row) { return row.has_kinetic(); }))
+      const ResultTable table(rows);
+      std::string       text;
+      if (table.has(&ResultRow::has_kinetic))
         text +=
           "Kinetic, r, μ: at the end of the slide, means over the contact "
           "face. ";
-      if (any(rows, [](const ResultRow &row) { return row.has_peak; }))
+      if (table.has(&ResultRow::has_peak))
         text +=
           "Peak: where friction is higher than where the slide begins and "
           "ends. ";
-      if (any(rows, [](const ResultRow &row) { return row.has_dip; }))
+      if (table.has(&ResultRow::has_dip))
         text += "Dip: the least friction after a step of speed, where it is "
                 "lower than before and in the end. ";
-      if (any(rows, [](const ResultRow &row) { return !row.slides_fully(); }))
+      if (table.has(std::not_fn(&ResultRow::slides_fully)))
         text += "Slipping: share of the contact that slips at the end of the "
                 "slide; below 100 % there is no kinetic friction. ";
       return note(text);
@@ -349,54 +286,59 @@ namespace SlipStep
     std::vector<TableLine> cost_lines(const std::vector<RunResults> &runs)
     {
       // A single point has neither mesh nor systems to solve.
-      const bool             has_mesh = runs[0].summary.command != "point";
-      std::vector<TableLine> lines    = {{"run"}};
-      if (has_mesh)
-        lines[0].insert(lines[0].end(), {"cells", "unknowns", "ranks"});
-      const bool is_adaptive =
-        std::any_of(runs.begin(), runs.end(), [](const RunResults &run) {
-          return run.summary.mesh_error.tolerance > 0.;
+      const bool              has_mesh = runs[0].summary.command != "point";
+      ColumnTable<RunResults> table(runs);
+      const auto count = [&](const std::string &head, const auto &number) {
+        table.add(head, [&](const RunResults &run) {
+          return std::to_string(run.summary.*number);
         });
-      if (is_adaptive)
-        lines[0].insert(lines[0].end(),
-                        {"estimated error of the mesh [%]", "at worst [%]"});
-      lines[0].insert(lines[0].end(), {"steps", "rejected"});
-      if (has_mesh)
-        lines[0].insert(lines[0].end(),
-                        {"Newton per step", "linear per Newton"});
-      lines[0].insert(lines[0].end(),
-                      {"wall time [s]", "CPU time [s]", "memory [MB]"});
+      };
       const auto ratio = [](const double a, const double b) {
         return b > 0. ? fixed_text(a / b, 2) : std::string("–");
       };
-      for (const RunResults &run : runs)
+      table.add("run", run_name);
+      if (has_mesh)
         {
-          const Summary &s    = run.summary;
-          TableLine      line = {run_name(run)};
-          if (has_mesh)
-            line.insert(line.end(),
-                        {std::to_string(s.cells),
-                         std::to_string(s.dofs),
-                         std::to_string(s.ranks)});
-          if (is_adaptive)
-            for (const double error : {s.mesh_error.last, s.mesh_error.largest})
-              line.push_back(s.mesh_error.tolerance > 0. ?
-                               short_text(100. * error, 2) :
-                               "–");
-          line.insert(line.end(),
-                      {std::to_string(s.steps),
-                       std::to_string(s.rejected_steps)});
-          if (has_mesh)
-            line.insert(line.end(),
-                        {ratio(s.newton_iterations, s.steps),
-                         ratio(s.linear_iterations, s.newton_iterations)});
-          line.insert(line.end(),
-                      {fixed_text(s.wall_time, 1),
-                       fixed_text(s.cpu_time, 1),
-                       fixed_text(s.peak_memory, 0)});
-          lines.push_back(line);
+          count("cells", &Summary::cells);
+          count("unknowns", &Summary::dofs);
+          count("ranks", &Summary::ranks);
         }
-      return lines;
+      const auto is_adaptive = [](const RunResults &run) {
+        return run.summary.mesh_error.tolerance > 0.;
+      };
+      if (table.has(is_adaptive))
+        for (const auto &[head, error] :
+             {std::make_pair("estimated error of the mesh [%]",
+                             &MeshErrorSummary::last),
+              std::make_pair("at worst [%]", &MeshErrorSummary::largest)})
+          table.add(head, [&, error = error](const RunResults &run) {
+            return is_adaptive(run) ?
+                     short_text(100. * run.summary.mesh_error.*error, 2) :
+                     "–";
+          });
+      count("steps", &Summary::steps);
+      count("rejected", &Summary::rejected_steps);
+      if (has_mesh)
+        {
+          table.add("Newton per step", [&](const RunResults &run) {
+            return ratio(run.summary.newton_iterations, run.summary.steps);
+          });
+          table.add("linear per Newton", [&](const RunResults &run) {
+            return ratio(run.summary.linear_iterations,
+                         run.summary.newton_iterations);
+          });
+        }
+      const auto cost = [&](const std::string &head,
+                            const int          decimals,
+                            double Summary::*number) {
+        table.add(head, decimals, [&](const RunResults &run) {
+          return run.summary.*number;
+        });
+      };
+      cost("wall time [s]", 1, &Summary::wall_time);
+      cost("CPU time [s]", 1, &Summary::cpu_time);
+      cost("memory [MB]", 0, &Summary::peak_memory);
+      return table.lines;
     }
 
     std::vector<TableLine> energy_lines(const std::vector<RunResults> &runs)

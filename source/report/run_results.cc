@@ -16,6 +16,8 @@ namespace SlipStep
 {
   namespace
   {
+    constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
     const std::vector<std::string> face_columns = {"x_mm",
                                                    "y_mm",
                                                    "cell_size_x_mm",
@@ -136,8 +138,7 @@ namespace SlipStep
 
   double Reference::kinetic(const double speed) const
   {
-    return exists() ? (*formula)(speed * mm_min) :
-                      std::numeric_limits<double>::quiet_NaN();
+    return exists() ? (*formula)(speed * mm_min) : undefined;
   }
 
 
@@ -163,6 +164,20 @@ namespace SlipStep
 
 
 
+  double ResultRow::peak() const
+  {
+    return has_peak ? slide.peak : undefined;
+  }
+
+
+
+  double ResultRow::dip() const
+  {
+    return has_dip ? slide.dip : undefined;
+  }
+
+
+
   bool ResultRow::slides_fully() const
   {
     return slide.slip_fraction > 0.999;
@@ -179,8 +194,6 @@ namespace SlipStep
 
   namespace
   {
-    constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
     /// By more than steps in time scatter.
     bool exceeds(const double a, const double b)
     {

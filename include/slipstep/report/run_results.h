@@ -70,7 +70,7 @@ namespace SlipStep
     std::size_t  run = 0; ///< its index among the runs
     SlideSummary slide;
     /// What there is none of is NaN: kinetic, r and mu in `slide` unless
-    /// has_kinetic(), drop, difference.
+    /// has_kinetic(), peak(), dip(), drop, difference.
     double drop = 0.; ///< from peak to kinetic [%]
     double end  = 0.; ///< friction at the end, whatever it is
     /// Not one at whose end the contact sticks and slips.
@@ -82,6 +82,9 @@ namespace SlipStep
     /// Whether friction was lower than that, after a step of speed.
     bool has_dip = false;
 
+    double peak() const;
+    double dip() const;
+
     /// Whether all of the contact slips at the end.
     bool slides_fully() const;
 
@@ -92,6 +95,12 @@ namespace SlipStep
     double reference  = 0.;
     double difference = 0.; ///< of kinetic from reference [%]
   };
+
+  /// A value of the slide of a row.
+  inline auto of_slide(double SlideSummary::*value)
+  {
+    return [value](const ResultRow &row) { return row.slide.*value; };
+  }
 
   std::vector<ResultRow> result_rows(const std::vector<RunResults> &runs,
                                      const Reference               &reference);

@@ -2,6 +2,10 @@
 #ifndef slipstep_report_text_table_h
 #define slipstep_report_text_table_h
 
+#include <slipstep/utilities/text.h>
+
+#include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +27,48 @@ namespace SlipStep
   /// @param widest number of characters in a line beyond which names are cut
   std::string text_table(const std::vector<TableLine> &lines,
                          const std::size_t             widest = -1);
+
+  /// A table that is written column by column, since there are columns that not
+  /// every table has. It has a line for each of the rows.
+  template <typename Row>
+  class ColumnTable
+  {
+  public:
+    explicit ColumnTable(const std::vector<Row> &rows)
+      : rows(rows)
+      , lines(1 + rows.size())
+    {}
+
+    /// @param text of a row: a function of it, or a member
+    template <typename Text>
+    void add(const std::string &head, const Text &text)
+    {
+      lines[0].push_back(head);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        lines[i + 1].push_back(std::invoke(text, rows[i]));
+    }
+
+    /// @param value of a row, shown with so many decimals
+    template <typename Value>
+    void add(const std::string &head, const int decimals, const Value &value)
+    {
+      add(head, [&](const Row &row) {
+        return fixed_text(std::invoke(value, row), decimals);
+      });
+    }
+
+    /// Whether a row is such.
+    template <typename Test>
+    bool has(const Test &test) const
+    {
+      return std::any_of(rows.begin(), rows.end(), [&](const Row &row) {
+        return std::invoke(test, row);
+      });
+    }
+
+    const std::vector<Row> &rows;
+    std::vector<TableLine>  lines; ///< the first is the head
+  };
 
   /// Text broken between words into indented lines.
   std::string wrapped_text(const std::string &text,
