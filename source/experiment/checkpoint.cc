@@ -6,6 +6,7 @@
 #include <slipstep/experiment/summary.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/version.h>
+#include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/utilities.h>
@@ -249,24 +250,6 @@ namespace SlipStep
 
   namespace
   {
-    json to_json(const SealedFile &file)
-    {
-      return {{"name", file.name},
-              {"bytes", file.bytes},
-              {"crc32", file.checksum}};
-    }
-
-
-
-    SealedFile sealed_file(const json &object)
-    {
-      return {object.at("name").get<std::string>(),
-              object.at("bytes").get<std::uintmax_t>(),
-              object.at("crc32").get<std::uint32_t>()};
-    }
-
-
-
     std::uint32_t checksum_of(const json &object)
     {
       const std::string text =
@@ -278,56 +261,58 @@ namespace SlipStep
 
 
 
-    json to_json(const CheckpointManifest &manifest)
+    /// @param parameters the values of the identity by their paths
+    void list_manifest(JsonMembers         members,
+                       CheckpointManifest &manifest,
+                       json               &parameters)
+    {
+      const auto list_file = [](JsonMembers members, SealedFile &file) {
+        members("name", file.name);
+        members("bytes", file.bytes);
+        members("crc32", file.checksum);
+      };
+      members("git_hash", manifest.git_hash);
+      members("step", manifest.step);
+      members("time_s", manifest.time);
+      members("ranks", manifest.ranks);
+      members("cells", manifest.cells);
+      members("dofs", manifest.dofs);
+      members("sessions", manifest.sessions);
+      members("wall_s", manifest.wall_time);
+      members("cpu_s", manifest.cpu_time);
+      members("peak_memory_MB", manifest.peak_memory);
+      members("programme_crc32", manifest.identity.programme);
+      members("parameters", parameters);
+      members.group("history", [&](JsonMembers members) {
+        list_file(members, manifest.history);
+      });
+      members.array("files", manifest.files, list_file);
+    }
+
+
+
+    json to_json(CheckpointManifest manifest)
     {
       json parameters = json::object();
       for (const auto &value : manifest.identity.values)
         parameters[value.first] = value.second;
-      json files = json::array();
-      for (const SealedFile &file : manifest.files)
-        files.push_back(to_json(file));
-      json object              = {{"format", manifest_format},
-                                  {"version", version()},
-                                  {"git_hash", git_hash()},
-                                  {"step", manifest.step},
-                                  {"time_s", manifest.time},
-                                  {"ranks", manifest.ranks},
-                                  {"cells", manifest.cells},
-                                  {"dofs", manifest.dofs},
-                                  {"sessions", manifest.sessions},
-                                  {"wall_s", manifest.wall_time},
-                                  {"cpu_s", manifest.cpu_time},
-                                  {"peak_memory_MB", manifest.peak_memory},
-                                  {"programme_crc32", manifest.identity.programme},
-                                  {"parameters", parameters},
-                                  {"history", to_json(manifest.history)},
-                                  {"files", files}};
+      manifest.git_hash = git_hash();
+      json object       = {{"format", manifest_format}, {"version", version()}};
+      list_manifest(JsonMembers(object, false), manifest, parameters);
       object["manifest_crc32"] = checksum_of(object);
       return object;
     }
 
 
 
-    CheckpointManifest manifest_from_json(const json &object)
+    CheckpointManifest manifest_from_json(json object)
     {
       CheckpointManifest manifest;
-      for (const auto &value : object.at("parameters").items())
+      json               parameters;
+      list_manifest(JsonMembers(object, true), manifest, parameters);
+      for (const auto &value : parameters.items())
         manifest.identity.values.emplace_back(value.key(),
                                               value.value().get<std::string>());
-      object.at("programme_crc32").get_to(manifest.identity.programme);
-      object.at("git_hash").get_to(manifest.git_hash);
-      object.at("step").get_to(manifest.step);
-      object.at("time_s").get_to(manifest.time);
-      object.at("ranks").get_to(manifest.ranks);
-      object.at("cells").get_to(manifest.cells);
-      object.at("dofs").get_to(manifest.dofs);
-      object.at("sessions").get_to(manifest.sessions);
-      object.at("wall_s").get_to(manifest.wall_time);
-      object.at("cpu_s").get_to(manifest.cpu_time);
-      object.at("peak_memory_MB").get_to(manifest.peak_memory);
-      manifest.history = sealed_file(object.at("history"));
-      for (const json &file : object.at("files"))
-        manifest.files.push_back(sealed_file(file));
       return manifest;
     }
 
@@ -348,17 +333,6 @@ namespace SlipStep
       if (writer != version())
         throw InputError(owner + " was written by slipstep " + writer +
                          ", this is slipstep " + version() + remedy);
-    }
-
-
-
-    void write_manifest(const CheckpointManifest &manifest,
-                        const fs::path           &folder)
-    {
-      write_file(
-        folder / manifest_name,
-        to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) +
-          '\n');
     }
   } // namespace
 
@@ -472,7 +446,7 @@ namespace SlipStep
   // `checkpoint.previous`.
   void CheckpointStore::publish(const CheckpointManifest &manifest)
   {
-    write_manifest(manifest, next);
+    write_json(next / manifest_name, to_json(manifest));
     synchronise(next);
     std::error_code error;
     if (present_is_damaged)

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/summary.h>
 
+#include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/units.h>
 #include <slipstep/utilities/version.h>
-#include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/numbers.h>
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,218 +22,129 @@ namespace SlipStep
     constexpr double degrees   = 180. / dealii::numbers::PI;
     constexpr double undefined = QuantityOfInterest::undefined;
 
-    json slide_to_json(const SlideSummary &slide)
+    void list_slide(JsonMembers members, SlideSummary &slide)
     {
-      return {{"speed_mm_per_min", slide.speed * mm_min},
-              {"pressure_MPa", slide.pressure},
-              {"angle_deg", slide.angle * degrees},
-              {"length_mm", slide.length},
-              {"peak", slide.peak},
-              {"peak_displacement_mm", slide.peak_displacement},
-              {"kinetic", slide.kinetic},
-              {"r", slide.dynamic_ratio},
-              {"mu", slide.coefficient},
-              {"complete", slide.is_complete},
-              {"statement", slide.statement},
-              {"rest_before_s", slide.rest},
-              {"friction_before", slide.before},
-              {"dip", slide.dip},
-              {"slip_fraction", slide.slip_fraction}};
+      members("speed_mm_per_min", slide.speed, mm_min);
+      // Those that are optional are not in older files.
+      members.optional("pressure_MPa", slide.pressure);
+      members("angle_deg", slide.angle, degrees);
+      members("length_mm", slide.length);
+      members("peak", slide.peak);
+      members("peak_displacement_mm", slide.peak_displacement);
+      members("kinetic", slide.kinetic);
+      members("r", slide.dynamic_ratio);
+      members("mu", slide.coefficient);
+      members("complete", slide.is_complete);
+      members.optional("statement", slide.statement);
+      members.optional("rest_before_s", slide.rest);
+      members.optional("friction_before", slide.before);
+      members.optional("dip", slide.dip);
+      members.optional("slip_fraction", slide.slip_fraction);
     }
 
-    /// JSON has no NaN: the library writes null, read back here.
-    double number(const json &object, const char *key)
+    void list_stability(JsonMembers members, StabilitySummary &stability)
     {
-      const json &value = object.at(key);
-      return value.is_null() ? undefined : value.get<double>();
+      members("speed_mm_per_min", stability.speed, mm_min);
+      members("pressure_MPa", stability.pressure);
+      members("friction", stability.friction);
+      members("stiffness_MPa_per_mm", stability.stiffness);
+      members("critical_stiffness_MPa_per_mm", stability.critical_stiffness);
+      members("critical_frequency_Hz", stability.critical_frequency);
+      bool is_stable = stability.is_stable();
+      members.optional("stable", is_stable);
     }
 
-    SlideSummary slide_from_json(const json &object)
+    void list_mesh_error(JsonMembers members, MeshErrorSummary &error)
     {
-      SlideSummary slide;
-      slide.speed = number(object, "speed_mm_per_min") / mm_min;
-      // Older files have none.
-      slide.pressure = object.value("pressure_MPa", json()).is_number() ?
-                         number(object, "pressure_MPa") :
-                         undefined;
-      slide.angle    = number(object, "angle_deg") / degrees;
-      slide.length   = number(object, "length_mm");
-      slide.peak     = number(object, "peak");
-      slide.peak_displacement = number(object, "peak_displacement_mm");
-      slide.kinetic           = number(object, "kinetic");
-      slide.dynamic_ratio     = number(object, "r");
-      slide.coefficient       = number(object, "mu");
-      object.at("complete").get_to(slide.is_complete);
-      // Older files have none.
-      slide.statement     = object.value("statement", 0u);
-      slide.rest          = object.value("rest_before_s", 0.);
-      slide.before        = object.value("friction_before", 0.);
-      slide.dip           = object.value("dip", slide.peak);
-      slide.slip_fraction = object.value("slip_fraction", 1.);
-      return slide;
+      members("tolerance", error.tolerance);
+      members("last", error.last);
+      members("largest", error.largest);
+      members("at_s", error.time_of_largest);
+      members("steps_checked", error.n_checked);
+      members("steps_missed", error.n_missed);
     }
 
-    // Stable on no spring: JSON has no infinity, either.
-    json stability_to_json(const StabilitySummary &stability)
+    /// Results as numbers of their own.
+    void list_results(JsonMembers members, Summary &summary)
     {
-      json object = {{"speed_mm_per_min", stability.speed * mm_min},
-                     {"pressure_MPa", stability.pressure},
-                     {"friction", stability.friction},
-                     {"stiffness_MPa_per_mm", stability.stiffness},
-                     {"critical_stiffness_MPa_per_mm",
-                      stability.critical_stiffness},
-                     {"critical_frequency_Hz", stability.critical_frequency},
-                     {"stable", stability.is_stable()}};
-      return object;
+      members.group("friction", [&](JsonMembers friction) {
+        friction("peak", summary.peak_friction);
+        friction("at_displacement_mm", summary.peak_displacement);
+        friction("final", summary.final_friction);
+      });
+      members.group("energy", [&](JsonMembers energy) {
+        energy("work", summary.work);
+        energy("stored", summary.stored);
+        energy("dissipated", summary.dissipated);
+        energy("balance_error", summary.balance_error);
+      });
+      members.array("slides", summary.slides, list_slide);
+      members.array("quantities",
+                    summary.quantities,
+                    [](JsonMembers members, QuantityValue &quantity) {
+                      members("name", quantity.name);
+                      members("value", quantity.value);
+                      members("unit", quantity.unit);
+                    });
     }
 
-    StabilitySummary stability_from_json(const json &object)
+    /// @param probes their names by those of their columns
+    void list_summary(JsonMembers members, Summary &summary, json &probes)
     {
-      StabilitySummary stability;
-      stability.speed     = number(object, "speed_mm_per_min") / mm_min;
-      stability.pressure  = number(object, "pressure_MPa");
-      stability.friction  = number(object, "friction");
-      stability.stiffness = number(object, "stiffness_MPa_per_mm");
-      stability.critical_stiffness =
-        number(object, "critical_stiffness_MPa_per_mm");
-      stability.critical_frequency = number(object, "critical_frequency_Hz");
-      if (std::isnan(stability.critical_stiffness))
-        stability.critical_stiffness = std::numeric_limits<double>::infinity();
-      return stability;
+      members("case", summary.case_name);
+      members("label", summary.label);
+      members("command", summary.command);
+      members("status", summary.status);
+      members("reason", summary.reason);
+      members("effects", summary.effects);
+      members("dimension", summary.dimension);
+      members("cells", summary.cells);
+      members("dofs", summary.dofs);
+      members("ranks", summary.ranks);
+      members("steps", summary.steps);
+      members("rejected_steps", summary.rejected_steps);
+      members("newton_iterations", summary.newton_iterations);
+      members("linear_iterations", summary.linear_iterations);
+      members.optional("sessions", summary.sessions);
+      members("wall_s", summary.wall_time);
+      members("cpu_s", summary.cpu_time);
+      members("peak_memory_MB", summary.peak_memory);
+      list_results(members, summary);
+      members.optional("probes", probes);
+      members.array("stability", summary.stability, list_stability);
+      members.group("opening", [&](JsonMembers opening) {
+        opening("largest_share", summary.opening.share);
+        opening("at_s", summary.opening.time);
+      });
+      // Of a mesh that is not adaptive nothing is known.
+      members.group(
+        "mesh_error",
+        [&](JsonMembers error) { list_mesh_error(error, summary.mesh_error); },
+        summary.mesh_error.tolerance != 0.);
+      members("warnings", summary.warnings);
     }
 
-    // Of a mesh that is not adaptive nothing is known.
-    json mesh_error_to_json(const MeshErrorSummary &error)
-    {
-      if (error.tolerance == 0.)
-        return nullptr;
-      return {{"tolerance", error.tolerance},
-              {"last", error.last},
-              {"largest", error.largest},
-              {"at_s", error.time_of_largest},
-              {"steps_checked", error.n_checked},
-              {"steps_missed", error.n_missed}};
-    }
-
-    MeshErrorSummary mesh_error_from_json(const json &object)
-    {
-      MeshErrorSummary error;
-      if (object.is_null())
-        return error;
-      error.tolerance       = number(object, "tolerance");
-      error.last            = number(object, "last");
-      error.largest         = number(object, "largest");
-      error.time_of_largest = number(object, "at_s");
-      object.at("steps_checked").get_to(error.n_checked);
-      object.at("steps_missed").get_to(error.n_missed);
-      return error;
-    }
-
-    json to_json(const Summary &summary)
-    {
-      json quantities = json::array();
-      for (const QuantityValue &quantity : summary.quantities)
-        quantities.push_back({{"name", quantity.name},
-                              {"value", quantity.value},
-                              {"unit", quantity.unit}});
-      json probes = json::object();
-      for (std::size_t i = 0; i < summary.probes.size(); ++i)
-        probes[probe_name(i)] = summary.probes[i];
-      json slides = json::array();
-      for (const SlideSummary &slide : summary.slides)
-        slides.push_back(slide_to_json(slide));
-      json stability = json::array();
-      for (const StabilitySummary &sliding : summary.stability)
-        stability.push_back(stability_to_json(sliding));
-
-      return {{"version", version()},
-              {"git_hash", git_hash()},
-              {"case", summary.case_name},
-              {"label", summary.label},
-              {"command", summary.command},
-              {"status", summary.status},
-              {"reason", summary.reason},
-              {"effects", summary.effects},
-              {"dimension", summary.dimension},
-              {"cells", summary.cells},
-              {"dofs", summary.dofs},
-              {"ranks", summary.ranks},
-              {"steps", summary.steps},
-              {"rejected_steps", summary.rejected_steps},
-              {"newton_iterations", summary.newton_iterations},
-              {"linear_iterations", summary.linear_iterations},
-              {"sessions", summary.sessions},
-              {"wall_s", summary.wall_time},
-              {"cpu_s", summary.cpu_time},
-              {"peak_memory_MB", summary.peak_memory},
-              {"friction",
-               {{"peak", summary.peak_friction},
-                {"at_displacement_mm", summary.peak_displacement},
-                {"final", summary.final_friction}}},
-              {"energy",
-               {{"work", summary.work},
-                {"stored", summary.stored},
-                {"dissipated", summary.dissipated},
-                {"balance_error", summary.balance_error}}},
-              {"slides", slides},
-              {"quantities", quantities},
-              {"probes", probes},
-              {"stability", stability},
-              {"opening",
-               {{"largest_share", summary.opening.share},
-                {"at_s", summary.opening.time}}},
-              {"mesh_error", mesh_error_to_json(summary.mesh_error)},
-              {"warnings", summary.warnings}};
-    }
-
-    Summary from_json(const json &object)
+    Summary from_json(json object)
     {
       Summary summary;
-      object.at("case").get_to(summary.case_name);
-      object.at("label").get_to(summary.label);
-      object.at("command").get_to(summary.command);
-      object.at("status").get_to(summary.status);
-      object.at("reason").get_to(summary.reason);
-      object.at("effects").get_to(summary.effects);
-      object.at("dimension").get_to(summary.dimension);
-      object.at("cells").get_to(summary.cells);
-      object.at("dofs").get_to(summary.dofs);
-      object.at("ranks").get_to(summary.ranks);
-      object.at("steps").get_to(summary.steps);
-      object.at("rejected_steps").get_to(summary.rejected_steps);
-      object.at("newton_iterations").get_to(summary.newton_iterations);
-      object.at("linear_iterations").get_to(summary.linear_iterations);
-      // Older files have none.
-      summary.sessions          = object.value("sessions", 1u);
-      summary.wall_time         = number(object, "wall_s");
-      summary.cpu_time          = number(object, "cpu_s");
-      summary.peak_memory       = number(object, "peak_memory_MB");
-      const json &friction      = object.at("friction");
-      summary.peak_friction     = number(friction, "peak");
-      summary.peak_displacement = number(friction, "at_displacement_mm");
-      summary.final_friction    = number(friction, "final");
-      const json &energy        = object.at("energy");
-      summary.work              = number(energy, "work");
-      summary.stored            = number(energy, "stored");
-      summary.dissipated        = number(energy, "dissipated");
-      summary.balance_error     = number(energy, "balance_error");
-      for (const json &slide : object.at("slides"))
-        summary.slides.push_back(slide_from_json(slide));
-      for (const json &quantity : object.at("quantities"))
-        summary.quantities.push_back({quantity.at("name").get<std::string>(),
-                                      number(quantity, "value"),
-                                      quantity.at("unit").get<std::string>()});
-      // Older files have none.
-      for (const json &probe : object.value("probes", json::object()))
+      json    probes = json::object();
+      list_summary(JsonMembers(object, true), summary, probes);
+      for (const json &probe : probes)
         summary.probes.push_back(probe.get<std::string>());
-      for (const json &sliding : object.value("stability", json::array()))
-        summary.stability.push_back(stability_from_json(sliding));
-      summary.mesh_error =
-        mesh_error_from_json(object.value("mesh_error", json()));
-      if (object.contains("opening"))
-        summary.opening = {number(object.at("opening"), "largest_share"),
-                           number(object.at("opening"), "at_s")};
-      object.at("warnings").get_to(summary.warnings);
+      for (std::size_t i = 0; i < summary.slides.size(); ++i)
+        {
+          SlideSummary &slide = summary.slides[i];
+          const json   &file  = object.at("slides")[i];
+          if (!file.contains("pressure_MPa"))
+            slide.pressure = undefined;
+          if (!file.contains("dip"))
+            slide.dip = slide.peak;
+        }
+      // Stable on no spring: JSON has no infinity, either.
+      for (StabilitySummary &stability : summary.stability)
+        if (std::isnan(stability.critical_stiffness))
+          stability.critical_stiffness =
+            std::numeric_limits<double>::infinity();
       return summary;
     }
   } // namespace
@@ -244,10 +153,13 @@ namespace SlipStep
 
   void write_summary(const std::filesystem::path &file, const Summary &summary)
   {
-    write_file(
-      file,
-      to_json(summary).dump(2, ' ', false, json::error_handler_t::replace) +
-        "\n");
+    json probes = json::object();
+    for (std::size_t i = 0; i < summary.probes.size(); ++i)
+      probes[probe_name(i)] = summary.probes[i];
+    json    object  = {{"version", version()}, {"git_hash", git_hash()}};
+    Summary written = summary;
+    list_summary(JsonMembers(object, false), written, probes);
+    write_json(file, object);
   }
 
 

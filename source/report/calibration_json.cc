@@ -4,16 +4,13 @@
 
 #include <slipstep/report/calibration_report.h>
 
+#include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/version.h>
-#include <slipstep/utilities/write_file.h>
-
-#include <nlohmann/json.hpp>
 
 namespace SlipStep
 {
   namespace
   {
-    // Numbers that are not finite become null.
     using json = nlohmann::ordered_json;
 
     /// Logarithmic scales count in natural logarithms, which have no unit.
@@ -139,8 +136,6 @@ namespace SlipStep
       {"wall_s", calibration.wall_time},
       {"cpu_s", calibration.cpu_time},
       {"warnings", calibration.warnings}};
-    write_file(file,
-               object.dump(2, ' ', false, json::error_handler_t::replace) +
-                 "\n");
+    write_json(file, object);
   }
 } // namespace SlipStep

@@ -4,10 +4,8 @@
 
 #include <slipstep/report/diagnosis_json.h>
 
+#include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/version.h>
-#include <slipstep/utilities/write_file.h>
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -15,7 +13,6 @@ namespace SlipStep
 {
   namespace
   {
-    // Numbers that are not finite become null.
     using json = nlohmann::ordered_json;
 
     json percent(const double share)
@@ -269,8 +266,6 @@ namespace SlipStep
                          {"fe_check", list(diagnosis.element_checks)},
                          {"budget", budget_block(diagnosis)},
                          {"warnings", diagnosis.warnings}};
-    write_file(file,
-               object.dump(2, ' ', false, json::error_handler_t::replace) +
-                 "\n");
+    write_json(file, object);
   }
 } // namespace SlipStep

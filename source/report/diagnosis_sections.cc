@@ -199,39 +199,33 @@ figure svg { max-width: 100%; }
   {
     if (diagnosis.tests.empty())
       return "";
-    const bool             is_after    = has_after(diagnosis);
-    const bool             is_left_out = std::any_of(diagnosis.tests.begin(),
-                                         diagnosis.tests.end(),
-                                         [](const DiagnosedTest &test) {
-                                           return test.left_out_before > 0.;
-                                         });
-    std::vector<TableLine> lines = {{"test", is_after ? "rms before" : "rms"}};
-    TableLine             &head  = lines[0];
+    const bool                 is_after = has_after(diagnosis);
+    ColumnTable<DiagnosedTest> table(diagnosis.tests);
+    const bool                 is_left_out = table.has(
+      [](const DiagnosedTest &test) { return test.left_out_before > 0.; });
+    const auto add = [&](const std::string &head,
+                         double DiagnosedTest::*share) {
+      table.add(head, [&](const DiagnosedTest &test) {
+        return percent_text(test.*share);
+      });
+    };
+    table.add("test", [](const DiagnosedTest &test) {
+      return test.name + (test.is_outlier ? " (outlier)" : "");
+    });
+    add(is_after ? "rms before" : "rms", &DiagnosedTest::rms_before);
     if (is_after)
-      head.push_back("after");
+      add("after", &DiagnosedTest::rms_after);
     if (is_left_out)
-      head.push_back(is_after ? "left out, before" : "left out");
+      add(is_after ? "left out, before" : "left out",
+          &DiagnosedTest::left_out_before);
     if (is_left_out && is_after)
-      head.push_back("left out, after");
-    head.push_back("noise");
-    head.push_back("condition");
-    for (const DiagnosedTest &test : diagnosis.tests)
-      {
-        TableLine line = {test.name + (test.is_outlier ? " (outlier)" : ""),
-                          percent_text(test.rms_before)};
-        if (is_after)
-          line.push_back(percent_text(test.rms_after));
-        if (is_left_out)
-          line.push_back(percent_text(test.left_out_before));
-        if (is_left_out && is_after)
-          line.push_back(percent_text(test.left_out_after));
-        line.push_back(
-          percent_text(test.level > 0. ? test.noise / test.level : 0.));
-        line.push_back(test.condition);
-        lines.push_back(line);
-      }
+      add("left out, after", &DiagnosedTest::left_out_after);
+    table.add("noise", [](const DiagnosedTest &test) {
+      return percent_text(test.level > 0. ? test.noise / test.level : 0.);
+    });
+    table.add("condition", &DiagnosedTest::condition);
     return heading("Every test in numbers") +
-           html_table(lines, "numbers tests") +
+           html_table(table.lines, "numbers tests") +
            note("Root mean square of measured minus simulated, in % of the "
                 "friction of the test; left out: as predicted from the tests "
                 "under all other conditions.");

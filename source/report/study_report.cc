@@ -172,19 +172,15 @@ namespace SlipStep
                                      "order"}};
     for (const StudyCurve &curve : curves)
       for (const StudyPoint &point : curve.points)
-        lines.push_back(
-          {&point == &curve.points.front() ?
-             curve.quantity +
-               (curve.unit.empty() ? "" : " [" + curve.unit + "]") :
-             "",
-           point.label +
-             (point.summary.status == "finished" ? "" : " (failed)"),
-           std::to_string(point.summary.dofs),
-           std::to_string(point.summary.steps),
-           fixed_text(point.summary.cpu_time, 2),
-           short_text(point.value, 7),
-           point.error_text(),
-           std::isfinite(point.order) ? fixed_text(point.order, 2) : "–"});
+        {
+          TableLine line = run_line(point);
+          if (point.summary.status != "finished")
+            line[0] += " (failed)";
+          line.insert(line.begin(),
+                      &point == &curve.points.front() ? name_with_unit(curve) :
+                                                        "");
+          lines.push_back(line);
+        }
     return html + heading("Convergence") + html_table(lines);
   }
 } // namespace SlipStep

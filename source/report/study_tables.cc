@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/study_report.h>
+#include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/version.h>
 #include <slipstep/utilities/write_file.h>
-
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <set>
@@ -24,35 +23,44 @@ namespace SlipStep
       {
         const StudyPoint *finest   = curve.finest();
         const StudyPoint *cheapest = curve.cheapest(0.01);
-        lines.push_back(
-          {curve.quantity + (curve.unit.empty() ? "" : " [" + curve.unit + "]"),
-           curve.sequence,
-           short_text(curve.reference, 6),
-           finest == nullptr ? "–" : finest->error_text(),
-           std::isfinite(curve.order) ? fixed_text(curve.order, 2) : "–",
-           cheapest == nullptr ?
-             "–" :
-             cheapest->label + " (" +
-               short_text(cheapest->summary.cpu_time, 2) + " s)"});
+        lines.push_back({name_with_unit(curve),
+                         curve.sequence,
+                         short_text(curve.reference, 6),
+                         finest == nullptr ? "–" : finest->error_text(),
+                         fixed_text(curve.order, 2),
+                         cheapest == nullptr ?
+                           "–" :
+                           cheapest->label + " (" +
+                             short_text(cheapest->summary.cpu_time, 2) +
+                             " s)"});
       }
     return lines;
   }
 
 
 
+  TableLine run_line(const StudyPoint &point)
+  {
+    return {point.label,
+            std::to_string(point.summary.dofs),
+            std::to_string(point.summary.steps),
+            fixed_text(point.summary.cpu_time, 2),
+            short_text(point.value, 7),
+            point.error_text(),
+            fixed_text(point.order, 2)};
+  }
+
+
+
+  std::string name_with_unit(const StudyCurve &curve)
+  {
+    return curve.quantity + (curve.unit.empty() ? "" : " [" + curve.unit + "]");
+  }
+
+
+
   namespace
   {
-    TableLine run_line(const StudyPoint &point)
-    {
-      return {point.label,
-              std::to_string(point.summary.dofs),
-              std::to_string(point.summary.steps),
-              fixed_text(point.summary.cpu_time, 2),
-              short_text(point.value, 7),
-              point.error_text(),
-              std::isfinite(point.order) ? fixed_text(point.order, 2) : "–"};
-    }
-
     std::string reference_text(const StudyCurve &curve)
     {
       if (!std::isfinite(curve.reference))
@@ -87,15 +95,12 @@ namespace SlipStep
         std::vector<TableLine> lines = {
           {"run", "unknowns", "steps", "CPU [s]", "value", "error", "order"}};
         for (const StudyPoint &point : curve.points)
-          {
-            lines.push_back(run_line(point));
-          }
+          lines.push_back(run_line(point));
         for (const std::string &problem : curve.problems())
           problems.insert("  " + problem + "\n");
         out << '\n'
-            << curve.quantity
-            << (curve.unit.empty() ? "" : " [" + curve.unit + "]") << ", "
-            << curve.sequence << ": " << reference_text(curve) << '\n'
+            << name_with_unit(curve) << ", " << curve.sequence << ": "
+            << reference_text(curve) << '\n'
             << text_table(lines);
       }
     // Once, not for every quantity.
@@ -139,11 +144,8 @@ namespace SlipStep
   void write_study_json(const std::filesystem::path   &file,
                         const std::vector<StudyCurve> &curves)
   {
-    using json         = nlohmann::ordered_json;
-    const auto numeric = [](const double value) {
-      return std::isfinite(value) ? json(value) : json();
-    };
-    json list = json::array();
+    using json = nlohmann::ordered_json;
+    json list  = json::array();
     for (const StudyCurve &curve : curves)
       {
         json runs = json::array();
@@ -153,26 +155,23 @@ namespace SlipStep
                           {"unknowns", point.summary.dofs},
                           {"steps", point.summary.steps},
                           {"cpu_s", point.summary.cpu_time},
-                          {"value", numeric(point.value)},
-                          {"relative_error", numeric(point.error)},
-                          {"error_bound", numeric(point.error_bound)},
-                          {"order", numeric(point.order)}});
+                          {"value", point.value},
+                          {"relative_error", point.error},
+                          {"error_bound", point.error_bound},
+                          {"order", point.order}});
         const StudyPoint *cheapest = curve.cheapest(0.01);
         list.push_back({{"quantity", curve.quantity},
                         {"unit", curve.unit},
                         {"sequence", curve.sequence},
-                        {"reference", numeric(curve.reference)},
+                        {"reference", curve.reference},
                         {"reference_from", curve.reference_name},
-                        {"reference_uncertainty", numeric(curve.uncertainty)},
+                        {"reference_uncertainty", curve.uncertainty},
                         {"problems", curve.problems()},
-                        {"order", numeric(curve.order)},
+                        {"order", curve.order},
                         {"cheapest_for_1_percent",
                          cheapest == nullptr ? json() : json(cheapest->label)},
                         {"runs", runs}});
       }
-    write_file(file,
-               json({{"version", version()}, {"curves", list}})
-                   .dump(2, ' ', false, json::error_handler_t::replace) +
-                 "\n");
+    write_json(file, {{"version", version()}, {"curves", list}});
   }
 } // namespace SlipStep

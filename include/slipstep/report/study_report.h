@@ -33,6 +33,11 @@ namespace SlipStep
                                   const std::vector<StudyCurve> &curves,
                                   std::vector<std::string>      &warnings);
 
+  std::string name_with_unit(const StudyCurve &curve);
+
+  /// One run: its label, unknowns, steps, CPU time, value, error, order.
+  TableLine run_line(const StudyPoint &point);
+
   /// What was found, one line per curve: quantity, runs, reference, error of
   /// the finest run, order, cheapest run for 1 %.
   std::vector<TableLine> study_summary(const std::vector<StudyCurve> &curves);
