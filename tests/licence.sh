@@ -9,6 +9,7 @@ cd "${1:-$(dirname "$0")/..}" || exit 1
 missing=$(find run .ci/run include source tests doc cmake -type f \
                \( -name '*.h' -o -name '*.cc' -o -name '*.sh' -o -name '*.pl' \
                   -o -name '*.py' -o -name '*.awk' -o -name '*.cmake' \
+                  -o -name '*.js' -o -name '*.css' \
                   -o -name run \) | sort | while read -r file; do
   head -n 2 "$file" | grep -q 'SPDX-License-Identifier: LGPL-2.1-or-later' ||
     echo "$file"

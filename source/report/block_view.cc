@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/block_view.h>
 
-#include <slipstep/report/block_view_script.h>
 #include <slipstep/report/drawing.h>
 #include <slipstep/report/figure.h>
 #include <slipstep/report/page.h>
 #include <slipstep/utilities/text.h>
+
+#include <slipstep_block_view_script.h>
 
 #include <nlohmann/json.hpp>
 
@@ -169,11 +170,15 @@ namespace SlipStep
         choose_fields();
       }
 
+      /// The script draws the block of the element which it stands in, from the
+      /// JSON before it. Faces are painted from the back to the front; a canvas
+      /// is quick enough for so many, and takes no library into the page.
       std::string html() const
       {
         return "<div class='block-view'>\n" + drawing(900., 400., true) +
                "<script type='application/json'>" + json() +
-               "</script>\n<script>" + block_view_script + "</script></div>\n";
+               "</script>\n<script>\n" + block_view_script +
+               "</script></div>\n";
       }
 
       /// The mesh alone, small.

@@ -10,6 +10,8 @@
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
+#include <slipstep_diagnosis_style.h>
+
 #include <algorithm>
 
 namespace SlipStep
@@ -357,7 +359,8 @@ namespace SlipStep
     const Gallery profiles = draw_named_profiles(pictures, diagnosis, warnings);
     const Gallery blocks   = draw_element_checks(pictures, diagnosis, warnings);
 
-    std::string content = diagnosis_style + first_screen(diagnosis);
+    std::string content = "<style>\n" + std::string(diagnosis_style) +
+                          "</style>\n" + first_screen(diagnosis);
     for (const std::string &warning : warnings)
       content += problem_box(warning);
     content += gallery_section(tests) + heat_map_section(diagnosis) +

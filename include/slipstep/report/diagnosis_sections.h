@@ -13,9 +13,6 @@ namespace SlipStep
   /// nothing to show.
   ///@{
 
-  /// What the page adds to the style of all reports.
-  extern const char *const diagnosis_style;
-
   /// Verdict, where, what and how far, for whoever reads no further.
   std::string first_screen(const Diagnosis &diagnosis);
 

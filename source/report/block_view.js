@@ -1,11 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/report/block_view_script.h>
-
-namespace SlipStep
-{
-  // Faces are painted from the back to the front; a canvas is quick enough for
-  // the 20 000 that there are at most, and takes no library into the page.
-  const char *const block_view_script = R"(
 (function () {
 const box = document.currentScript.parentElement;
 const data = JSON.parse(box.querySelector('script').textContent);
@@ -156,5 +149,3 @@ canvas.ondblclick = () => {
 controls.oninput = draw;
 new ResizeObserver(draw).observe(box);
 })();
-)";
-} // namespace SlipStep
