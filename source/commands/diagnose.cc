@@ -3,7 +3,6 @@
 #include <slipstep/commands/element_check.h>
 #include <slipstep/commands/new_case.h>
 #include <slipstep/diagnosis/diagnose.h>
-#include <slipstep/report/diagnosis_json.h>
 #include <slipstep/report/diagnosis_report.h>
 #include <slipstep/report/diagnosis_text.h>
 #include <slipstep/diagnosis/element_tests.h>

@@ -4,7 +4,7 @@
 #include <slipstep/measured_data/import_map.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/find_variant.h>
+#include <slipstep/utilities/sweep.h>
 #include <slipstep/utilities/home_folder.h>
 #include <slipstep/utilities/text.h>
 

@@ -339,29 +339,26 @@ namespace SlipStep
 
 
 
-    constexpr unsigned int viridis[6][3] = {{68, 1, 84},
-                                            {65, 68, 135},
-                                            {42, 120, 142},
-                                            {34, 168, 132},
-                                            {122, 209, 81},
-                                            {253, 231, 37}};
-
-    // One of 40 colours of the palette: 0 its first, 1 its last.
+    // One of 40 colours of viridis: 0 its first, 1 its last.
     std::string shade(const double share)
     {
-      const double place = std::round(39. * std::clamp(share, 0., 1.)) / 7.8;
-      const unsigned int below = std::min(4u, static_cast<unsigned int>(place));
-      char               text[8] = "#";
-      for (unsigned int channel = 0; channel < 3; ++channel)
-        {
-          const double from = viridis[below][channel];
-          const double to   = viridis[below + 1][channel];
-          std::snprintf(text + 1 + 2 * channel,
-                        3,
-                        "%02x",
-                        static_cast<unsigned int>(
-                          std::lround(from + (place - below) * (to - from))));
-        }
+      static const std::vector<Colour3> viridis = {{{68., 1., 84.}},
+                                                   {{65., 68., 135.}},
+                                                   {{42., 120., 142.}},
+                                                   {{34., 168., 132.}},
+                                                   {{122., 209., 81.}},
+                                                   {{253., 231., 37.}}};
+
+      const Colour3 colour =
+        mixed_colour(viridis,
+                     std::round(39. * std::clamp(share, 0., 1.)) / 39.);
+      char text[8];
+      std::snprintf(text,
+                    sizeof(text),
+                    "#%02x%02x%02x",
+                    static_cast<unsigned char>(colour[0]),
+                    static_cast<unsigned char>(colour[1]),
+                    static_cast<unsigned char>(colour[2]));
       return text;
     }
 

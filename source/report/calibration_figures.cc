@@ -245,7 +245,7 @@ namespace SlipStep
     return draw_profiles(folder,
                          "How sharply each parameter is determined",
                          profiles,
-                         interval_name(calibration),
+                         interval_name(calibration.confidence),
                          warnings);
   }
 } // namespace SlipStep

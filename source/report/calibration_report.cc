@@ -42,7 +42,7 @@ namespace SlipStep
       std::vector<TableLine> lines = {{"parameter",
                                        "unit",
                                        "value",
-                                       interval_name(calibration),
+                                       interval_name(calibration.confidence),
                                        "standard deviation",
                                        "start",
                                        "bounds"}};
@@ -101,17 +101,12 @@ namespace SlipStep
     /// on them.
     std::string correlation_colour(const double correlation)
     {
-      const double share = std::isfinite(correlation) ?
-                             0.7 * std::min(std::abs(correlation), 1.) :
-                             0.;
-      std::string  text  = "background:rgb(";
-      for (const auto &[blue, orange] :
-           {std::pair<int, int>{0, 213}, {114, 94}, {178, 0}})
-        text += std::to_string(std::lround(
-                  255. + share * ((correlation < 0. ? blue : orange) - 255.))) +
-                ",";
-      text.back() = ')';
-      return text;
+      const Colour3 end =
+        correlation < 0. ? Colour3{{0., 114., 178.}} : Colour3{{213., 94., 0.}};
+      return background({{{255., 255., 255.}}, end},
+                        std::isfinite(correlation) ?
+                          0.7 * std::min(std::abs(correlation), 1.) :
+                          0.);
     }
 
     /// A place where a long name may be broken.

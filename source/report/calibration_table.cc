@@ -17,8 +17,11 @@ namespace SlipStep
   {
     std::vector<TableLine> short_parameter_lines(const Calibration &calibration)
     {
-      std::vector<TableLine> lines = {
-        {"parameter", "value", "unit", interval_name(calibration), "start"}};
+      std::vector<TableLine> lines = {{"parameter",
+                                       "value",
+                                       "unit",
+                                       interval_name(calibration.confidence),
+                                       "start"}};
       for (const FittedParameter &fitted : calibration.parameters)
         lines.push_back(
           {label_of(fitted.parameter),

@@ -174,9 +174,9 @@ namespace SlipStep
 
 
 
-  std::string interval_name(const Calibration &calibration)
+  std::string interval_name(const double confidence)
   {
-    return short_text(100. * calibration.confidence) + " % interval";
+    return short_text(100. * confidence) + " % interval";
   }
 
 

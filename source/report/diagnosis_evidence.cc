@@ -174,7 +174,7 @@ namespace SlipStep
     return draw_profiles(folder,
                          "How sharply the new parameters are determined",
                          profiles,
-                         interval_name(diagnosis),
+                         interval_name(diagnosis.confidence),
                          warnings);
   }
 } // namespace SlipStep

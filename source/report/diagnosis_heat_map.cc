@@ -116,18 +116,11 @@ namespace SlipStep
     /// apart by lightness.
     std::string cell_style(const double share)
     {
-      using Colour3                             = std::array<double, 3>;
-      static const std::array<Colour3, 3> stops = {
-        {{{255., 255., 255.}}, {{240., 150., 70.}}, {{110., 30., 0.}}}};
-      const double      at    = 2. * std::clamp(share, 0., 1.);
-      const std::size_t begin = at < 1. ? 0 : 1;
-      std::string       text  = "background:rgb(";
-      for (unsigned int c = 0; c < 3; ++c)
-        text += std::to_string(std::lround(
-                  stops[begin][c] +
-                  (at - begin) * (stops[begin + 1][c] - stops[begin][c]))) +
-                (c < 2 ? "," : ")");
-      return text + (share > 0.7 ? ";color:#fff" : "");
+      return background({{{255., 255., 255.}},
+                         {{240., 150., 70.}},
+                         {{110., 30., 0.}}},
+                        share) +
+             (share > 0.7 ? ";color:#fff" : "");
     }
 
     std::string table(const HeatMap           &map,

@@ -2,7 +2,8 @@
 
 // diagnosis.json: a stable format, see tests/diagnosis.
 
-#include <slipstep/report/diagnosis_json.h>
+#include <slipstep/report/diagnosis_report.h>
+#include <slipstep/report/diagnosis_text.h>
 
 #include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/version.h>

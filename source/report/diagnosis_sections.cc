@@ -289,8 +289,11 @@ namespace SlipStep
 
   std::string parameters_section(const Diagnosis &diagnosis)
   {
-    std::vector<TableLine> lines = {
-      {"parameter", "unit", "before", "after", interval_name(diagnosis)}};
+    std::vector<TableLine> lines = {{"parameter",
+                                     "unit",
+                                     "before",
+                                     "after",
+                                     interval_name(diagnosis.confidence)}};
     add_lines(lines, diagnosis.start_parameters);
     add_lines(lines, named_parameters(diagnosis));
     if (lines.size() == 1)

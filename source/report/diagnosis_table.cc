@@ -83,8 +83,10 @@ namespace SlipStep
 
     std::string parameters(const Diagnosis &diagnosis)
     {
-      std::vector<TableLine> lines = {
-        {"parameter added", "value", "unit", interval_name(diagnosis)}};
+      std::vector<TableLine> lines = {{"parameter added",
+                                       "value",
+                                       "unit",
+                                       interval_name(diagnosis.confidence)}};
       for (const DiagnosedParameter &parameter : named_parameters(diagnosis))
         lines.push_back({label_text(parameter),
                          (parameter.is_at_bound ? "* " : "") +

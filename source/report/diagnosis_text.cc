@@ -2,7 +2,6 @@
 #include <slipstep/diagnosis/candidates.h>
 #include <slipstep/report/diagnosis_text.h>
 
-#include <slipstep/report/calibration_text.h>
 #include <slipstep/report/run_results.h>
 #include <slipstep/utilities/text.h>
 
@@ -390,13 +389,6 @@ namespace SlipStep
   std::string interval_text(const DiagnosedParameter &parameter)
   {
     return interval_text(as_fitted(parameter));
-  }
-
-
-
-  std::string interval_name(const Diagnosis &diagnosis)
-  {
-    return short_text(100. * diagnosis.confidence) + " % interval";
   }
 
 

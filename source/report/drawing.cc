@@ -131,6 +131,30 @@ namespace SlipStep
 
 
 
+  Colour3 mixed_colour(const std::vector<Colour3> &stops, const double share)
+  {
+    const double      at = (stops.size() - 1) * std::clamp(share, 0., 1.);
+    const std::size_t begin =
+      std::min(static_cast<std::size_t>(at), stops.size() - 2);
+    Colour3 colour;
+    for (unsigned int c = 0; c < 3; ++c)
+      colour[c] =
+        std::round(stops[begin][c] +
+                   (at - begin) * (stops[begin + 1][c] - stops[begin][c]));
+    return colour;
+  }
+
+
+
+  std::string background(const std::vector<Colour3> &stops, const double share)
+  {
+    const auto [red, green, blue] = mixed_colour(stops, share);
+    return "background:rgb(" + exact_text(red) + "," + exact_text(green) + "," +
+           exact_text(blue) + ")";
+  }
+
+
+
   void plot_run(Figure                         &figure,
                 const RunResults               &run,
                 const std::size_t               i,

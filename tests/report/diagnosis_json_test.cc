@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/report/diagnosis_json.h>
+#include <slipstep/report/diagnosis_report.h>
 
 #include <gtest/gtest.h>
 

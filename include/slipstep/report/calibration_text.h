@@ -29,7 +29,7 @@ namespace SlipStep
                           const WeakDirection &direction);
 
   /// "95 % interval"
-  std::string interval_name(const Calibration &calibration);
+  std::string interval_name(const double confidence);
 
   /// A value with as many digits as its uncertainty leaves meaning, without
   /// unit. @p value in base units.

@@ -10,6 +10,12 @@
 
 namespace SlipStep
 {
+  /// Write diagnosis.json.
+  /// @throws RunError if the disk refuses
+  void write_diagnosis_json(const std::filesystem::path &file,
+                            const Parameters            &parameters,
+                            const Diagnosis             &diagnosis);
+
   /// Write report.html with the pictures inside, and their data and scripts
   /// into `<folder>/report/`. What a reader sees first is what was wrong, what
   /// was missing and how far the gap shrank; then the evidence. Without gnuplot

@@ -3,6 +3,7 @@
 #define slipstep_report_diagnosis_text_h
 
 #include <slipstep/diagnosis/diagnosis.h>
+#include <slipstep/report/calibration_text.h>
 
 #include <string>
 #include <vector>
@@ -53,9 +54,6 @@ namespace SlipStep
 
   /// "0.041 … 0.049"; "≥ 0.041", "≤ 0.049" or "open" where it has no end.
   std::string interval_text(const DiagnosedParameter &parameter);
-
-  /// "95 % interval"
-  std::string interval_name(const Diagnosis &diagnosis);
 
   /// A component of the noise with its interval, without its name.
   std::string noise_text(const NoiseComponent &component);

@@ -5,6 +5,7 @@
 #include <slipstep/report/run_figures.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -44,6 +45,15 @@ namespace SlipStep
 
   /// The next of 1, 2, 5, 10, ...
   double round_up(const double value);
+
+  /// Red, green and blue, 0 to 255.
+  using Colour3 = std::array<double, 3>;
+
+  /// The colour at a share of the way through others, evenly spaced.
+  Colour3 mixed_colour(const std::vector<Colour3> &stops, const double share);
+
+  /// The same as the style of an element with this background.
+  std::string background(const std::vector<Colour3> &stops, const double share);
 
   /// A gnuplot command with some four round numbers on the axis, so that their
   /// texts keep apart: powers of ten and their 2 and 5 on a logarithmic one.

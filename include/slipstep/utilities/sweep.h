@@ -31,6 +31,12 @@ namespace SlipStep
   std::vector<Variant> product(const std::vector<Variant> &slow,
                                const std::vector<Variant> &fast,
                                const std::string          &origin);
+
+  /// The variant of this label or folder.
+  /// @throws InputError naming those that there are
+  const Variant &find_variant(const std::vector<Variant>  &variants,
+                              const std::string           &name,
+                              const std::filesystem::path &file);
 } // namespace SlipStep
 
 #endif
