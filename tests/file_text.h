@@ -2,6 +2,8 @@
 #ifndef tests_file_text_h
 #define tests_file_text_h
 
+#include <gtest/gtest.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -17,9 +19,14 @@ inline std::string content(const std::filesystem::path &file)
   return text.str();
 }
 
-inline bool contains(const std::string &text, const std::string &part)
+/// Tells both where it is not as expected.
+inline testing::AssertionResult contains(const std::string &text,
+                                         const std::string &part)
 {
-  return text.find(part) != std::string::npos;
+  return text.find(part) != std::string::npos ?
+           testing::AssertionSuccess() << "\"" << part << "\" is in: " << text :
+           testing::AssertionFailure()
+             << "\"" << part << "\" is not in: " << text;
 }
 
 /// How often a part stands in a text.

@@ -62,7 +62,7 @@ namespace
       EXPECT_EQ(result.exit_code, 2) << result.err;
       EXPECT_LE(result.n_error_lines(), 3u) << result.err;
       for (const std::string &word : words)
-        EXPECT_NE(result.err.find(word), std::string::npos)
+        EXPECT_TRUE(contains(result.err, word))
           << "  \"" << word << "\" is not in: " << result.err;
       EXPECT_FALSE(fs::exists(process.folder() / "output"));
       // What needs no search is found by slipstep check, too.
@@ -155,7 +155,7 @@ TEST_F(Calibrate, WhatItWritesCanBeUsed)
 {
   const auto result = calibrate(one, {"--output", "found"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("95 % interval"), std::string::npos) << result.out;
+  EXPECT_TRUE(contains(result.out, "95 % interval"));
   EXPECT_EQ(result.err, "");
   for (const char *name : {"calibration.json", "report.html", "fitted.prm"})
     EXPECT_GT(fs::file_size(process.folder() / "found" / name), 100u) << name;
@@ -176,9 +176,7 @@ TEST_F(Calibrate, WhatItWritesCanBeUsed)
   const auto beside =
     process.run({"point", "found/fitted.prm", "--output", "found", "--quiet"});
   EXPECT_EQ(beside.exit_code, 2);
-  EXPECT_NE(beside.err.find("holds results of slipstep calibrate"),
-            std::string::npos)
-    << beside.err;
+  EXPECT_TRUE(contains(beside.err, "holds results of slipstep calibrate"));
   EXPECT_FALSE(fs::exists(process.folder() / "found/history.csv"));
   // Results may be replaced, other files not.
   EXPECT_EQ(calibrate(one, {"--output", "found", "--quiet"}).exit_code, 0);
@@ -196,6 +194,5 @@ TEST_F(Calibrate, ASweepIsNotFitted)
                 "0.001 to 1\n");
   const auto result = process.run({"calibrate", "case.prm"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("--variant \"1 mm/min\""), std::string::npos)
-    << result.err;
+  EXPECT_TRUE(contains(result.err, "--variant \"1 mm/min\""));
 }

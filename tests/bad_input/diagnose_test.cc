@@ -78,8 +78,7 @@ namespace
       EXPECT_EQ(result.exit_code, 2) << result.err;
       EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
       for (const std::string &word : words)
-        EXPECT_NE(result.err.find(word), std::string::npos)
-          << "  \"" << word << "\" is not in: " << result.err;
+        EXPECT_TRUE(contains(result.err, word));
       EXPECT_EQ(files(), before) << words[0];
     }
 
@@ -173,7 +172,7 @@ TEST_F(Diagnose, WhatIsWrongWithTheCaseIsSaid)
   const auto check = process.run(
     {"check", "campaign/case.prm", "--set", "Diagnosis/Candidates=heeling"});
   EXPECT_EQ(check.exit_code, 2);
-  EXPECT_NE(check.err.find("'healing'"), std::string::npos) << check.err;
+  EXPECT_TRUE(contains(check.err, "'healing'"));
 }
 
 
@@ -267,8 +266,8 @@ TEST_F(Diagnose, OneTestOnly)
   EXPECT_EQ(headline(json).find("If the stated noise is right"), 0u)
     << headline(json);
   EXPECT_EQ(json["data"]["replicate_pairs"], 0);
-  EXPECT_NE(json["verdict"]["would_overturn"].dump().find("no replicates"),
-            std::string::npos);
+  EXPECT_TRUE(
+    contains(json["verdict"]["would_overturn"].dump(), "no replicates"));
   // Of one slide nothing can be told about pressure.
   for (const auto &candidate : json["candidates"])
     EXPECT_FALSE(candidate["effect"] == "pressure" &&
@@ -286,13 +285,10 @@ TEST_F(Diagnose, NothingIsLeftOutOfOneCondition)
   const auto json   = verdict_of(result);
   expect_no_name(json);
   EXPECT_EQ(json["data"]["replicate_pairs"], 1);
-  EXPECT_NE(json["verdict"]["would_overturn"].dump().find(
-              "All tests are of one condition"),
-            std::string::npos);
+  EXPECT_TRUE(contains(json["verdict"]["would_overturn"].dump(),
+                       "All tests are of one condition"));
   // A model fitted to no test at all predicts nothing.
-  EXPECT_EQ(result.out.find("conditions left out of the fit"),
-            std::string::npos)
-    << result.out;
+  EXPECT_FALSE(contains(result.out, "conditions left out of the fit"));
 }
 
 
@@ -321,8 +317,7 @@ TEST_F(Diagnose, FrictionThatDoesNotChange)
   const auto result = diagnose();
   const auto json   = verdict_of(result);
   expect_no_name(json);
-  EXPECT_NE(result.err.find("hardly any noise is visible"), std::string::npos)
-    << result.err;
+  EXPECT_TRUE(contains(result.err, "hardly any noise is visible"));
   // What is "possible" makes it better.
   for (const auto &candidate : json["candidates"])
     EXPECT_FALSE(candidate["gain"].is_number() &&
@@ -377,8 +372,7 @@ TEST_F(Diagnose, ATestThatItsReplicateContradicts)
   EXPECT_EQ(json["verdict"]["status"], "no_gap");
   ASSERT_EQ(json["data"]["outliers"].size(), 1u) << json["data"];
   EXPECT_EQ(json["data"]["outliers"][0]["test"], "test 12");
-  EXPECT_NE(headline(json).find("look at 'test 12' first"), std::string::npos)
-    << headline(json);
+  EXPECT_TRUE(contains(headline(json), "look at 'test 12' first"));
 }
 
 
@@ -392,7 +386,7 @@ TEST_F(Diagnose, ACopyIsNoRepetition)
   const auto json = verdict_of(diagnose());
   ASSERT_EQ(json["data"]["outliers"].size(), 1u) << json["data"];
   const std::string words = json["data"]["outliers"][0]["words"];
-  EXPECT_NE(words.find("same rows"), std::string::npos) << words;
+  EXPECT_TRUE(contains(words, "same rows"));
   expect_no_name(json);
 }
 
@@ -429,8 +423,7 @@ TEST_F(Diagnose, ATestThatMakesTheGapAlone)
   ASSERT_EQ(json["data"]["outliers"].size(), 1u) << json["data"];
   EXPECT_EQ(json["data"]["outliers"][0]["test"], "test 05");
   const std::string words = json["data"]["outliers"][0]["words"];
-  EXPECT_NE(words.find("nothing is found to be missing"), std::string::npos)
-    << words;
+  EXPECT_TRUE(contains(words, "nothing is found to be missing"));
 }
 
 
@@ -456,7 +449,6 @@ TEST_F(Diagnose, FrictionWithFewDigits)
       process.write("campaign/measured/" + std::string(name), out.str());
     }
   const auto json = verdict_of(diagnose());
-  EXPECT_NE(json["warnings"].dump().find("rounded to steps of 0.01"),
-            std::string::npos)
+  EXPECT_TRUE(contains(json["warnings"].dump(), "rounded to steps of 0.01"))
     << json["warnings"];
 }

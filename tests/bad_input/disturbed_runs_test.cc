@@ -54,9 +54,7 @@ TEST(Disturbed, ALostFolderIsToldAtOnce)
       run.wait();
       EXPECT_EQ(run.outcome(), 1);
       const std::string err = run.err();
-      EXPECT_NE(err.find("cannot be written (its folder has gone)"),
-                std::string::npos)
-        << err;
+      EXPECT_TRUE(contains(err, "cannot be written (its folder has gone)"));
       EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
     }
 }
@@ -84,10 +82,8 @@ TEST(Disturbed, AReadOnlyDiskIsRefusedBeforeAnyWork)
       const auto result = process.run({command, "case.prm"}, launcher);
       EXPECT_NE(result.exit_code, 0);
       EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
-      EXPECT_NE(result.err.find("output"), std::string::npos) << result.err;
-      EXPECT_NE(result.err.find(is_root ? "read-only" : "permission"),
-                std::string::npos)
-        << result.err;
+      EXPECT_TRUE(contains(result.err, "output"));
+      EXPECT_TRUE(contains(result.err, is_root ? "read-only" : "permission"));
     }
 }
 
@@ -100,10 +96,9 @@ TEST(Disturbed, WithoutGnuplotThereAreNumbersButNoPictures)
   write_gnuplot(process, "exit 127\n");
   const auto result = process.run({"point", "case.prm"}, "", own_gnuplot);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE(result.err.find("warning: no picture"), std::string::npos)
-    << result.err;
-  EXPECT_NE(process.read("output/case/point/summary.json").find("finished"),
-            std::string::npos);
+  EXPECT_TRUE(contains(result.err, "warning: no picture"));
+  EXPECT_TRUE(
+    contains(process.read("output/case/point/summary.json"), "finished"));
   EXPECT_TRUE(std::filesystem::exists(process.folder() /
                                       "output/case/point/report.html"));
 }
@@ -132,7 +127,7 @@ TEST(Disturbed, AGnuplotThatHangsDoesNotHoldASignalUp)
   run.send(SIGTERM);
   run.wait();
   EXPECT_EQ(run.outcome(), -SIGTERM);
-  EXPECT_NE(run.err().find("stopped by a signal"), std::string::npos);
-  EXPECT_NE(process.read("output/case/point/summary.json").find("finished"),
-            std::string::npos);
+  EXPECT_TRUE(contains(run.err(), "stopped by a signal"));
+  EXPECT_TRUE(
+    contains(process.read("output/case/point/summary.json"), "finished"));
 }

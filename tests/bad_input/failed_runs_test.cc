@@ -55,7 +55,7 @@ namespace
     EXPECT_GE(read_history(path / "history.csv").size(), 2u);
     const Summary summary = read_summary(path / "summary.json");
     EXPECT_EQ(summary.status, "failed");
-    EXPECT_NE(summary.reason.find(reason), std::string::npos) << summary.reason;
+    EXPECT_TRUE(contains(summary.reason, reason));
     EXPECT_FALSE(std::filesystem::exists(path / "summary.json.part"));
   }
 
@@ -106,10 +106,9 @@ TEST(FailedRun, ATippingBlockIsToldAndKept)
   const auto result = process.run({"run", "case.prm"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
-  EXPECT_NE(result.err.find("tips over"), std::string::npos) << result.err;
+  EXPECT_TRUE(contains(result.err, "tips over"));
   expect_kept(process, "output/case", "tips over");
-  EXPECT_NE(process.read("output/case/report.html").find("tips over"),
-            std::string::npos);
+  EXPECT_TRUE(contains(process.read("output/case/report.html"), "tips over"));
 }
 
 
@@ -128,9 +127,8 @@ TEST(FailedRun, LoadsThatNothingHoldsAreTold)
   const auto result = process.run({"run", "case.prm"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
-  EXPECT_NE(result.err.find("tip it over"), std::string::npos) << result.err;
-  EXPECT_NE(process.read("output/case/report.html").find("tip it over"),
-            std::string::npos);
+  EXPECT_TRUE(contains(result.err, "tip it over"));
+  EXPECT_TRUE(contains(process.read("output/case/report.html"), "tip it over"));
 }
 
 
@@ -159,8 +157,8 @@ TEST(FailedRun, EveryVariantIsReported)
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.n_error_lines(), 2u) << result.err;
   for (const std::string variant : {"1 mm/s: ", "2 mm/s: "})
-    EXPECT_NE(result.err.find(variant), std::string::npos) << result.err;
-  EXPECT_NE(result.out.find("2 of 2 failed"), std::string::npos);
+    EXPECT_TRUE(contains(result.err, variant));
+  EXPECT_TRUE(contains(result.out, "2 of 2 failed"));
   expect_kept(process, "output/case/1_mm-s", "tips over");
   expect_kept(process, "output/case/2_mm-s", "tips over");
   EXPECT_TRUE(
@@ -176,7 +174,7 @@ TEST(FailedRun, AFullDiskIsToldAndTheRowsBeforeAreKept)
   const auto result =
     process.run({"point", "case.prm", "--quiet"}, "", "ulimit -f 50 &&");
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("see ulimit -f"), std::string::npos) << result.err;
+  EXPECT_TRUE(contains(result.err, "see ulimit -f"));
   expect_kept(process, "output/case/point", "see ulimit -f");
 }
 
@@ -190,7 +188,7 @@ TEST(FailedRun, WhatCannotBePrintedIsNoSuccess)
   process.write("script.sh", "\"$@\" > /dev/full\n");
   const auto redirected = process.run({"parameters"}, "sh script.sh");
   EXPECT_EQ(redirected.exit_code, 1);
-  EXPECT_NE(redirected.err.find("the disk is full"), std::string::npos);
+  EXPECT_TRUE(contains(redirected.err, "the disk is full"));
 }
 
 
@@ -199,9 +197,8 @@ TEST(StoppedRun, LeavesReadableFiles)
 {
   const SlipstepProcess process;
   process.write("case.prm", slow);
-  EXPECT_NE(
-    interrupted(process, SIGINT, 1).find("stopped by a signal (Interrupt)"),
-    std::string::npos);
+  EXPECT_TRUE(contains(interrupted(process, SIGINT, 1),
+                       "stopped by a signal (Interrupt)"));
   expect_kept(process, "output/case", "stopped by a signal");
 }
 
@@ -264,10 +261,9 @@ TEST(Point, TellsWhatTheFacesOfTheBlockDoToThePressure)
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return result.err;
   };
-  EXPECT_NE(
-    warned("pressure 3 x programme; drive").find("take 3 x the pressure"),
-    std::string::npos);
-  EXPECT_NE(warned("pressure 5 MPa; drive").find("take 0 x the pressure"),
-            std::string::npos);
+  EXPECT_TRUE(
+    contains(warned("pressure 3 x programme; drive"), "take 3 x the pressure"));
+  EXPECT_TRUE(
+    contains(warned("pressure 5 MPa; drive"), "take 0 x the pressure"));
   EXPECT_EQ(warned("pressure programme; drive"), "");
 }

@@ -63,10 +63,8 @@ TEST(MeasuredTests, WarningsAreShownAndRightFilesDescribed)
   process.write("a.csv", header + "0,0,1,0\n1,,1,0.1\n2,2,1,0.1\n");
   const auto result = process.run({"check", "a.csv"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.err.find("left out: 1 (first: line 3)"), std::string::npos)
-    << result.err;
-  EXPECT_NE(result.out.find("a.csv: OK, 2 rows, 2 s"), std::string::npos)
-    << result.out;
+  EXPECT_TRUE(contains(result.err, "left out: 1 (first: line 3)"));
+  EXPECT_TRUE(contains(result.out, "a.csv: OK, 2 rows, 2 s"));
 }
 
 
@@ -152,6 +150,5 @@ TEST(MeasuredTests, WrongMapsAreRefused)
                                    "--set",
                                    "Convention/Friction sign=reversed"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(process.read("measured/raw.csv").find("1,1,5,0.1"),
-            std::string::npos);
+  EXPECT_TRUE(contains(process.read("measured/raw.csv"), "1,1,5,0.1"));
 }

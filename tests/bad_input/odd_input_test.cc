@@ -18,7 +18,7 @@ namespace
     EXPECT_EQ(result.exit_code, 2) << result.err;
     EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
     EXPECT_LE(result.err.size(), 1200u) << result.err;
-    EXPECT_NE(result.err.find(words), std::string::npos)
+    EXPECT_TRUE(contains(result.err, words))
       << "  \"" << words << "\" is not in: " << result.err;
   }
 } // namespace
@@ -72,9 +72,7 @@ TEST(OddInput, APushBeyondFrictionIsNoWrongInput)
          "--set",
          "Loading/Programme=press 1 MPa in 1 s; push 9 MPa in 1 s"});
       EXPECT_EQ(beyond.exit_code, 1);
-      EXPECT_NE(beyond.err.find("friction cannot hold the push"),
-                std::string::npos)
-        << beyond.err;
+      EXPECT_TRUE(contains(beyond.err, "friction cannot hold the push"));
     }
 }
 
@@ -94,9 +92,7 @@ TEST(OddInput, AFrontThatIsNowhereIsTold)
   const auto result =
     process.run({"run", "front.prm", "--quiet", "--output", "o"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.err.find("'slip front at r = 0.9999' has no value"),
-            std::string::npos)
-    << result.err;
+  EXPECT_TRUE(contains(result.err, "'slip front at r = 0.9999' has no value"));
 }
 
 

@@ -31,7 +31,7 @@ namespace
       const auto result = plant(arguments);
       EXPECT_EQ(result.exit_code, 2) << result.err;
       EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
-      EXPECT_NE(result.err.find(words), std::string::npos)
+      EXPECT_TRUE(contains(result.err, words))
         << "  \"" << words << "\" is not in: " << result.err;
     }
 
@@ -72,7 +72,7 @@ TEST_F(Plant, CampaignThatIsReadAndOpened)
   EXPECT_EQ(process.run({"check", "a/case.prm", "a/measured"}).exit_code, 0);
   const auto answer = plant({"--open", "a/answer.sealed"});
   EXPECT_EQ(answer.exit_code, 0);
-  EXPECT_NE(answer.out.find("\"damage\""), std::string::npos);
+  EXPECT_TRUE(contains(answer.out, "\"damage\""));
   expect_refusal({"a"}, "exists already");
   process.write("b.sealed", "not sealed\n");
   expect_refusal({"--open", "b.sealed"}, "is not a sealed answer");
@@ -88,7 +88,7 @@ TEST_F(Plant, ListsWhatCanBeHidden)
                                  "class one, two\n",
                                  "class narrow\n  pressure: G = ",
                                  "  damage: "})
-    EXPECT_NE(result.out.find(part), std::string::npos) << part;
+    EXPECT_TRUE(contains(result.out, part)) << part;
   EXPECT_TRUE(process.wrote_nothing());
 }
 

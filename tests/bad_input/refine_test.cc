@@ -80,7 +80,7 @@ TEST(Refine, finds_order_and_limit)
     std::regex("friction force at 0.00002 mm \\[N/mm\\], uniform: "
                "reference .* \\(Richardson, order (1.9|2)")))
     << result.out;
-  EXPECT_NE(result.out.find("report.html"), std::string::npos);
+  EXPECT_TRUE(contains(result.out, "report.html"));
 
   const std::string csv    = process.read("output/strip/refine/refinement.csv");
   const std::string force  = "friction force at 0.00002 mm";
@@ -101,8 +101,7 @@ TEST(Refine, finds_order_and_limit)
                "+uniform 1 \\(")))
     << result.out;
   // It is the same on all meshes: no order, and that is said.
-  EXPECT_NE(result.out.find("because the last two values agree"),
-            std::string::npos);
+  EXPECT_TRUE(contains(result.out, "because the last two values agree"));
 
   const Summary summary = read_summary(
     process.folder() / "output/strip/refine/uniform_1/summary.json");
@@ -110,9 +109,8 @@ TEST(Refine, finds_order_and_limit)
   EXPECT_EQ(summary.quantities[0].name, force);
   EXPECT_EQ(summary.quantities[0].unit, "N/mm");
   EXPECT_GT(summary.cpu_time, 0.);
-  EXPECT_NE(
-    process.read("output/strip/refine/report.html").find("Convergence of the"),
-    std::string::npos);
+  EXPECT_TRUE(contains(process.read("output/strip/refine/report.html"),
+                       "Convergence of the"));
 }
 
 
@@ -215,8 +213,7 @@ TEST(Refine, refuses_a_sweep_but_takes_a_member)
                         "  set Values = 1, 2\nend\n");
   const auto refused = process.run({"refine", "strip.prm"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("choose a member with --variant"),
-            std::string::npos);
+  EXPECT_TRUE(contains(refused.err, "choose a member with --variant"));
   EXPECT_FALSE(std::filesystem::exists(process.folder() / "output"));
 
   const auto taken =
@@ -255,8 +252,7 @@ TEST(Refine, adaptive_meshes)
                 "end\n");
   const auto result = process.run({"refine", "block.prm"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("(adaptive 0.02)"), std::string::npos)
-    << result.out;
+  EXPECT_TRUE(contains(result.out, "(adaptive 0.02)"));
   const std::string csv = process.read("output/block/refine/refinement.csv");
   const std::string quantity = "pressure at 10 mm";
   const std::string coarse   = row(csv, "adaptive 0.2", quantity);
@@ -270,6 +266,5 @@ TEST(Refine, adaptive_meshes)
   // Adaptive values still run away from each other by as much (0.110 and
   // 0.119 MPa): no limit is in sight, and the reference tells no errors.
   EXPECT_EQ(cell(fine, 12), "nan");
-  EXPECT_NE(result.out.find("not seen to approach a limit"), std::string::npos)
-    << result.out;
+  EXPECT_TRUE(contains(result.out, "not seen to approach a limit"));
 }

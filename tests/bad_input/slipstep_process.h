@@ -112,8 +112,7 @@ inline void expect_refusal(const SlipstepProcess::Result  &result,
   EXPECT_EQ(result.out, "");
   EXPECT_LE(result.n_error_lines(), 2u) << result.err;
   for (const std::string &word : words)
-    EXPECT_NE(result.err.find(word), std::string::npos)
-      << "  \"" << word << "\" is not in: " << result.err;
+    EXPECT_TRUE(contains(result.err, word));
 }
 
 /// A case which is right and short, should it ever be run.

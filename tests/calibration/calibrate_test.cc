@@ -10,6 +10,7 @@
 
 #include <cmath>
 
+#include "tests/file_text.h"
 #include "planted.h"
 #include "tests/temporary_folder.h"
 
@@ -164,11 +165,10 @@ TEST_F(Planted, AConditionOfTheLawIsABound)
         << fitted.constraint;
     }
   ASSERT_EQ(constraint_sentences(found).size(), 1u);
-  EXPECT_NE(constraint_sentences(found)[0].find("Static coefficient and "
-                                                "Kinetic coefficient stopped"),
-            std::string::npos);
-  EXPECT_NE(constraint_sentences(found)[0].find("want the other side"),
-            std::string::npos);
+  EXPECT_TRUE(contains(constraint_sentences(found)[0],
+                       "Static coefficient and "
+                       "Kinetic coefficient stopped"));
+  EXPECT_TRUE(contains(constraint_sentences(found)[0], "want the other side"));
   EXPECT_EQ(found.warnings.front(), constraint_sentences(found)[0]);
   EXPECT_TRUE(found.weak.empty());
   for (const FittedParameter &fitted : found.parameters)
@@ -197,7 +197,7 @@ TEST_F(Planted, WhatCannotBeFoundTogetherIsNamed)
                            "Friction/overstress/Viscosity",
                            "cannot all be found from these tests",
                            "Fix one of them; sliding at "})
-    EXPECT_NE(words.find(part), std::string::npos) << words;
+    EXPECT_TRUE(contains(words, part));
   EXPECT_LT(found.correlation[1][2], -0.95);
   // What moves together is found: the levels.
   EXPECT_GT(found.correlation[0][1], 0.99);
@@ -260,9 +260,8 @@ TEST_F(Planted, AParameterWithoutInfluenceIsNamed)
   catch (const InputError &error)
     {
       const std::string message = error.what();
-      EXPECT_NE(message.find("Friction/Normal stiffness has no influence"),
-                std::string::npos)
-        << message;
+      EXPECT_TRUE(
+        contains(message, "Friction/Normal stiffness has no influence"));
     }
 }
 
@@ -364,8 +363,7 @@ TEST_F(Planted, ARecordWithoutNoiseIsWarnedOf)
               "Friction/Static coefficient from 0.05 to 0.2"}}));
   EXPECT_NEAR(campaign.tests.front().noise, 1e-4, 3e-5);
   ASSERT_EQ(campaign.warnings().size(), 1u);
-  EXPECT_NE(campaign.warnings().front().find("constant.csv"),
-            std::string::npos);
+  EXPECT_TRUE(contains(campaign.warnings().front(), "constant.csv"));
 
   constant.friction.assign(100, 0.);
   write_measured_test(folder.path() / "constant.csv", constant);

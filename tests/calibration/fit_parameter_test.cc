@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/file_text.h"
 #include "planted.h"
 
 using namespace SlipStep;
@@ -35,8 +36,7 @@ namespace
   {
     const std::string message = refusal(list);
     for (const std::string &part : parts)
-      EXPECT_NE(message.find(part), std::string::npos)
-        << list << "\n  " << message;
+      EXPECT_TRUE(contains(message, part)) << list << "\n  " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
 } // namespace

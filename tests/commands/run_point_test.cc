@@ -44,22 +44,18 @@ TEST(RunPoint, StepsTooLongForTheEnergyAreWarnedOf)
   parameters.set("Time stepping/Least steps per statement", "1", "here");
   parameters.set("Time stepping/First slip", "1e6", "here");
   const std::string coarse = warnings("Time stepping/Tolerance", "1");
-  EXPECT_NE(coarse.find(" % of the work is neither"), std::string::npos);
-  EXPECT_NE(coarse.find("smaller Time stepping/Tolerance than 1 "),
-            std::string::npos)
-    << coarse;
+  EXPECT_TRUE(contains(coarse, " % of the work is neither"));
+  EXPECT_TRUE(contains(coarse, "smaller Time stepping/Tolerance than 1 "));
   // The table and the report say so, too.
   const std::vector<ReportedRun> runs = {{"a run", options.output}};
-  EXPECT_NE(result_table(parameters, runs).find("a run: warning: "),
-            std::string::npos);
+  EXPECT_TRUE(contains(result_table(parameters, runs), "a run: warning: "));
   write_report(options.output, parameters, runs);
   EXPECT_TRUE(contains(content(options.output / "report.html"),
                        " % of the work is neither"));
 
   parameters.set("Time stepping/Tolerance", "5e-5", "here");
-  EXPECT_NE(warnings("Time stepping/Equal steps per statement", "1")
-              .find("more Time stepping/Equal steps per statement than 1 "),
-            std::string::npos);
+  EXPECT_TRUE(contains(warnings("Time stepping/Equal steps per statement", "1"),
+                       "more Time stepping/Equal steps per statement than 1 "));
 }
 
 

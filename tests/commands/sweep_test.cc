@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/file_text.h"
+
 using namespace SlipStep;
 
 namespace
@@ -49,10 +51,10 @@ TEST(Sweep, OneFailureStopsNoOther)
   const std::string out = testing::internal::GetCapturedStdout();
   const std::string err = testing::internal::GetCapturedStderr();
   EXPECT_EQ(codes, (std::vector<int>{0, 1, 2, 1, 1, 0}));
-  EXPECT_NE(err.find("second: the block tips over\n"), std::string::npos);
-  EXPECT_NE(err.find("fourth: stopped by signal 11"), std::string::npos);
-  EXPECT_NE(err.find("fifth: cannot be started"), std::string::npos);
-  EXPECT_NE(out.find("third: a note\n"), std::string::npos);
+  EXPECT_TRUE(contains(err, "second: the block tips over\n"));
+  EXPECT_TRUE(contains(err, "fourth: stopped by signal 11"));
+  EXPECT_TRUE(contains(err, "fifth: cannot be started"));
+  EXPECT_TRUE(contains(out, "third: a note\n"));
 }
 
 
@@ -66,10 +68,8 @@ TEST(Sweep, ShowsOneProgressForAll)
                    false,
                    2);
   const std::string out = testing::internal::GetCapturedStdout();
-  EXPECT_NE(out.find("[ 25.0 %] case: 0 of 2 done; a 50 %; b 0 %"),
-            std::string::npos)
-    << out;
-  EXPECT_EQ(out.find("half"), std::string::npos);
+  EXPECT_TRUE(contains(out, "[ 25.0 %] case: 0 of 2 done; a 50 %; b 0 %"));
+  EXPECT_FALSE(contains(out, "half"));
 }
 
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -180,7 +181,7 @@ TEST(History, ADamagedFileIsReported)
     }
   catch (const InputError &error)
     {
-      EXPECT_NE(std::string(error.what()).find(".csv:3:"), std::string::npos)
+      EXPECT_TRUE(contains(std::string(error.what()), ".csv:3:"))
         << error.what();
     }
 }

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -128,9 +129,7 @@ TEST(Programme, AMissingSemicolonIsNamed)
     catch (const InputError &error)
       {
         const std::string message = error.what();
-        EXPECT_NE(message.find("';': it is missing before 'slide'"),
-                  std::string::npos)
-          << message;
+        EXPECT_TRUE(contains(message, "';': it is missing before 'slide'"));
       }
 }
 
@@ -271,19 +270,18 @@ TEST(Programme, TheCaretMarksTheFault)
 TEST(Programme, ALengthWithoutForIsTold)
 {
   for (const std::string extent : {"60 mm", "5 s"})
-    EXPECT_NE(
-      message_about_programme("slide " + extent).find("slide for " + extent),
-      std::string::npos);
+    EXPECT_TRUE(contains(message_about_programme("slide " + extent),
+                         "slide for " + extent));
 }
 
 
 
 TEST(Programme, TheNearestVerbIsNamed)
 {
-  EXPECT_NE(message_about_programme("sldie 1 mm/s for 1 mm").find("'slide'"),
-            std::string::npos);
-  EXPECT_NE(message_about_programme("pres 1 MPa in 1 s").find("'press'"),
-            std::string::npos);
+  EXPECT_TRUE(
+    contains(message_about_programme("sldie 1 mm/s for 1 mm"), "'slide'"));
+  EXPECT_TRUE(
+    contains(message_about_programme("pres 1 MPa in 1 s"), "'press'"));
 }
 
 
@@ -323,7 +321,7 @@ TEST(Programme, WarningsOfAFollowedTestArePassedOn)
        "0,0,5,0\n1,,5,0\n2,2,5,0.1\n";
   const Programme programme("follow gap.csv", default_speed, folder);
   ASSERT_EQ(programme.warnings().size(), 1u);
-  EXPECT_NE(programme.warnings()[0].find("left out: 1"), std::string::npos);
+  EXPECT_TRUE(contains(programme.warnings()[0], "left out: 1"));
 }
 
 

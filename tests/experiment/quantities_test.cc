@@ -8,6 +8,8 @@
 #include <cmath>
 #include <regex>
 
+#include "tests/file_text.h"
+
 using namespace SlipStep;
 
 namespace
@@ -159,7 +161,7 @@ TEST(Quantities, wrong_ones_are_refused_in_words)
     {"largest presure", "did you mean 'largest pressure'"},
     {"peak coefficient; peak coefficient", "listed twice"}};
   for (const auto &entry : cases)
-    EXPECT_NE(message_about(entry.first).find(entry.second), std::string::npos)
+    EXPECT_TRUE(contains(message_about(entry.first), entry.second))
       << entry.first << " -> " << message_about(entry.first);
 }
 

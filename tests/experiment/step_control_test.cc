@@ -13,6 +13,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "tests/file_text.h"
 #include "../temporary_folder.h"
 #include "point_run.h"
 
@@ -49,11 +50,10 @@ TEST(StepControl, EndsARunThatWouldHaveNone)
   catch (const RunError &error)
     {
       const std::string text = error.what();
-      EXPECT_NE(text.find("Statement 2 of the programme takes more than 3001 "
-                          "time steps (Time stepping/Most steps per "
-                          "statement)"),
-                std::string::npos)
-        << text;
+      EXPECT_TRUE(contains(text,
+                           "Statement 2 of the programme takes more than 3001 "
+                           "time steps (Time stepping/Most steps per "
+                           "statement)"));
     }
 }
 
@@ -63,8 +63,8 @@ TEST(StepControl, WarnsBeforeSlidingThatNothingHolds)
 {
   const auto text = warnings(point_parameters(falling));
   ASSERT_EQ(text.size(), 1u);
-  EXPECT_NE(text[0].find("(stribeck) between "), std::string::npos) << text[0];
-  EXPECT_NE(text[0].find("1 mm/s under 5 MPa"), std::string::npos) << text[0];
+  EXPECT_TRUE(contains(text[0], "(stribeck) between "));
+  EXPECT_TRUE(contains(text[0], "1 mm/s under 5 MPa"));
 
   // Slower than the fall and faster than it there is nothing to warn of.
   for (const char *speed : {"0.001", "100"})

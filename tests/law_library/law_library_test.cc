@@ -259,8 +259,7 @@ TEST(LawLibraryExport, OneLawIsAskedFor)
                          "  set Key = Friction/Static coefficient\n"
                          "  set Values = 0.11, 0.12\nend\n";
   EXPECT_NE(shell(program + " export " + laws.string() + end), 0);
-  EXPECT_TRUE(contains(content(message), "choose one with --variant"))
-    << content(message);
+  EXPECT_TRUE(contains(content(message), "choose one with --variant"));
   EXPECT_EQ(shell(program + " export " + laws.string() +
                   " --variant \"Static coefficient 0.12\"" + end),
             0)
@@ -339,18 +338,18 @@ TEST(LawLibraryStep, WhatIsWrongIsToldAndChangesNothing)
 {
   char message[300] = "";
   EXPECT_EQ(slipstep_law_read("/nowhere/law.prm", message, 300), nullptr);
-  EXPECT_TRUE(contains(message, "no such file")) << message;
+  EXPECT_TRUE(contains(message, "no such file"));
   EXPECT_EQ(slipstep_law_parse("subsection Friction\n set Efects = x\nend\n",
                                message,
                                300),
             nullptr);
-  EXPECT_TRUE(contains(message, "did you mean Friction/Effects")) << message;
+  EXPECT_TRUE(contains(message, "did you mean Friction/Effects"));
   EXPECT_EQ(slipstep_law_parse("subsection Loading\nend\n", message, 10),
             nullptr);
   EXPECT_EQ(std::string(message).size(), 9u);
   EXPECT_EQ(slipstep_law_named(test_folder().c_str(), "NONE   ", message, 300),
             nullptr);
-  EXPECT_TRUE(contains(message, "none.prm: no such file")) << message;
+  EXPECT_TRUE(contains(message, "none.prm: no such file"));
 
   slipstep_law *law = slipstep_law_parse("", nullptr, 0);
   ASSERT_NE(law, nullptr);

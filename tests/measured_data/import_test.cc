@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -104,9 +105,7 @@ TEST(Import, LoadsUnitsSignsAndConstants)
   EXPECT_EQ(test.condition, "dry");
   EXPECT_EQ(test.notes.at("licence"), "MIT");
   ASSERT_EQ(test.warnings.size(), 1u);
-  EXPECT_NE(test.warnings[0].find("left out: 1 (first: line 6)"),
-            std::string::npos)
-    << test.warnings[0];
+  EXPECT_TRUE(contains(test.warnings[0], "left out: 1 (first: line 6)"));
 }
 
 
@@ -137,7 +136,7 @@ TEST(Import, MistakesInTheMapAreNamed)
   const auto expect =
     [&](const std::string &path, const std::string &value, const char *words) {
       const std::string text = message(map_of(simple_with(path, value)), raw);
-      EXPECT_NE(text.find(words), std::string::npos)
+      EXPECT_TRUE(contains(text, words))
         << path << " = " << value << ": " << text;
     };
   expect("Columns/Displacement", "y in mm", "has no column 'y'");
@@ -164,7 +163,7 @@ TEST(Import, MistakesInTheMapAreNamed)
                      settings.end());
       settings.emplace_back(path, value);
       const std::string text = message(map_of(settings), raw);
-      EXPECT_NE(text.find(words), std::string::npos) << path << ": " << text;
+      EXPECT_TRUE(contains(text, words)) << path << ": " << text;
     }
 }
 
@@ -173,12 +172,12 @@ TEST(Import, MistakesInTheMapAreNamed)
 TEST(Import, FaultsOfTheRecordAreLocated)
 {
   const std::string head = "t,x,mu\n0,0,0\n";
-  EXPECT_NE(message(map_of(simple), write("a.csv", head + "1,1,O.1\n"))
-              .find("a.csv:3:5: 'O.1' is not a number"),
-            std::string::npos);
-  EXPECT_NE(message(map_of(simple), write("a.csv", head + "1,1,-0.1\n"))
-              .find("a.csv:3:5: friction drives the motion"),
-            std::string::npos);
+  EXPECT_TRUE(
+    contains(message(map_of(simple), write("a.csv", head + "1,1,O.1\n")),
+             "a.csv:3:5: 'O.1' is not a number"));
+  EXPECT_TRUE(
+    contains(message(map_of(simple), write("a.csv", head + "1,1,-0.1\n")),
+             "a.csv:3:5: friction drives the motion"));
   const auto reversed = simple_with("Convention/Friction sign", "reversed");
   EXPECT_EQ(message(map_of(reversed), write("a.csv", head + "1,1,-0.1\n")), "");
 }
@@ -196,7 +195,7 @@ TEST(Import, LongRecordsCanBeResampled)
                 write("a.csv", text));
   EXPECT_LE(test.time.size(), 20u);
   EXPECT_EQ(*std::max_element(test.friction.begin(), test.friction.end()), 0.2);
-  EXPECT_NE(test.notes.at("resampled").find("of 1000 rows"), std::string::npos);
+  EXPECT_TRUE(contains(test.notes.at("resampled"), "of 1000 rows"));
 }
 
 

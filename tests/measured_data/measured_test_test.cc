@@ -8,6 +8,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "tests/file_text.h"
 #include "tests/rows_header.h"
 #include "tests/temporary_folder.h"
 
@@ -94,8 +95,8 @@ TEST(MeasuredTest, FaultsAreLocated)
             ":4:3: ");
   EXPECT_EQ(message(header + row + "1,0,-1,0\n").substr(0, 6), ":3:5: ");
   EXPECT_EQ(message(header + row + "1,0,1,inf\n").substr(0, 6), ":3:7: ");
-  EXPECT_NE(message(header + row + "0,0,1,0\n").find("two rows of different"),
-            std::string::npos);
+  EXPECT_TRUE(
+    contains(message(header + row + "0,0,1,0\n"), "two rows of different"));
   EXPECT_NE(message(header + row), "");
   EXPECT_NE(message(""), "");
 }
@@ -107,10 +108,9 @@ TEST(MeasuredTest, AMissingColumnIsNamed)
   const std::string text =
     message("time_s,displacement_mm,presure_MPa\n0,0,1\n1,0,1\n");
   EXPECT_EQ(text.substr(0, 6), ":1:1: ");
-  EXPECT_NE(text.find("'pressure_MPa'"), std::string::npos) << text;
-  EXPECT_NE(text.find("mean presure_MPa?"), std::string::npos) << text;
-  EXPECT_NE(message("time_s," + header + "0,0,0,1,1\n").find("twice"),
-            std::string::npos);
+  EXPECT_TRUE(contains(text, "'pressure_MPa'"));
+  EXPECT_TRUE(contains(text, "mean presure_MPa?"));
+  EXPECT_TRUE(contains(message("time_s," + header + "0,0,0,1,1\n"), "twice"));
 }
 
 
@@ -135,12 +135,12 @@ TEST(MeasuredTest, AMissingOrWrongUnitIsAsked)
   std::string       text =
     message("time_s,displacement_mm, pressure,friction\n" + rows);
   EXPECT_EQ(text.substr(0, 7), ":1:25: ");
-  EXPECT_NE(text.find("'pressure_MPa'"), std::string::npos) << text;
+  EXPECT_TRUE(contains(text, "'pressure_MPa'"));
   text = message("time_s,displacement_inch,pressure_MPa,friction\n" + rows);
   EXPECT_EQ(text.substr(0, 6), ":1:8: ");
-  EXPECT_NE(text.find("not a unit of a length"), std::string::npos) << text;
+  EXPECT_TRUE(contains(text, "not a unit of a length"));
   text = message("time_s,displacement_mm,pressure_MPA,friction\n" + rows);
-  EXPECT_NE(text.find("nearest is MPa"), std::string::npos) << text;
+  EXPECT_TRUE(contains(text, "nearest is MPa"));
 }
 
 
@@ -177,14 +177,13 @@ TEST(MeasuredTest, DecimalMarksAreNotGuessed)
     "time_s;displacement_mm;pressure_MPa;friction\n";
   std::string text = message(semicolons + "0;0;5,8;0\n1;1;5.8;0,1\n");
   EXPECT_EQ(text.substr(0, 6), ":3:5: ");
-  EXPECT_NE(text.find("decimal comma and decimal point"), std::string::npos);
+  EXPECT_TRUE(contains(text, "decimal comma and decimal point"));
   text = message(semicolons + "0;0;5,8;0\n1;1;1.005,8;0,1\n");
   EXPECT_EQ(text.substr(0, 6), ":3:5: ");
   text = message(header + "0,0,1,0\n0,5,0,1,0\n");
-  EXPECT_NE(text.find("decimal comma need ';' or tabs"), std::string::npos)
-    << text;
+  EXPECT_TRUE(contains(text, "decimal comma need ';' or tabs"));
   text = message("\xFF\xFEt");
-  EXPECT_NE(text.find("UTF-16"), std::string::npos) << text;
+  EXPECT_TRUE(contains(text, "UTF-16"));
 }
 
 

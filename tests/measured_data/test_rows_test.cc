@@ -12,6 +12,7 @@
 #include <fstream>
 #include <random>
 
+#include "tests/file_text.h"
 #include "tests/rows_header.h"
 #include "tests/temporary_folder.h"
 
@@ -43,8 +44,7 @@ namespace
   void expect_warning(const MeasuredTest &test, const std::string &words)
   {
     ASSERT_EQ(test.warnings.size(), 1u);
-    EXPECT_NE(test.warnings[0].find(words), std::string::npos)
-      << test.warnings[0];
+    EXPECT_TRUE(contains(test.warnings[0], words));
   }
 } // namespace
 
@@ -98,7 +98,7 @@ TEST(TestRows, TimeThatGoesBackIsRefused)
   const std::string text =
     message_about_rows("0,0,1,0\n1,1,1,0.1\n2,1,1,0.1\n0,2,1,0.1\n1,3,1,0.1\n");
   EXPECT_EQ(text.substr(0, 6), ":5:1: ") << text;
-  EXPECT_NE(text.find("0 s follows 2 s"), std::string::npos) << text;
+  EXPECT_TRUE(contains(text, "0 s follows 2 s"));
 }
 
 
@@ -109,8 +109,8 @@ TEST(TestRows, PressureIsPositiveWhereThereIsFriction)
   EXPECT_EQ(message_about_rows("0,0,0,0\n1,1,0,0.1\n2,1,1,0.1\n").substr(0, 6),
             ":3:5: ");
   EXPECT_EQ(message_about_rows("0,0,1,0\n1,1,-2,0.1\n").substr(0, 6), ":3:5: ");
-  EXPECT_NE(message_about_rows("0,0,0,0\n1,1,0,0\n").find("zero throughout"),
-            std::string::npos);
+  EXPECT_TRUE(
+    contains(message_about_rows("0,0,0,0\n1,1,0,0\n"), "zero throughout"));
 }
 
 
@@ -134,7 +134,7 @@ TEST(TestRows, AWrongSignIsAskedNotGuessed)
   EXPECT_EQ(message_about_rows(back_and_forth), "");
   const std::string text = message_about_rows(wrong);
   EXPECT_EQ(text.substr(0, 3), ":2:") << text;
-  EXPECT_NE(text.find("slipstep import"), std::string::npos) << text;
+  EXPECT_TRUE(contains(text, "slipstep import"));
 }
 
 

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/file_text.h"
 #include "tests/rows_header.h"
 #include "tests/temporary_folder.h"
 
@@ -64,7 +65,7 @@ TEST(TestSet, AFolderIsASetInTheOrderOfNames)
 
 TEST(TestSet, AnEmptyFolderIsNamed)
 {
-  EXPECT_NE(message_of_set().find("without tests"), std::string::npos);
+  EXPECT_TRUE(contains(message_of_set(), "without tests"));
   EXPECT_THROW(read_test_set(test_folder() / "nowhere"), InputError);
 }
 
@@ -75,13 +76,11 @@ TEST(TestSet, ReplicatesMustHaveBeenMadeAlike)
   write("a.csv", "dry", 1., 0.1);
   write("b.csv", "dry", 1.5, 0.1);
   std::string text = message_of_set();
-  EXPECT_NE(text.find("b.csv: the condition 'dry' is that of"),
-            std::string::npos)
-    << text;
-  EXPECT_NE(text.find("pressure is 1.5 MPa, not 1 MPa"), std::string::npos);
+  EXPECT_TRUE(contains(text, "b.csv: the condition 'dry' is that of"));
+  EXPECT_TRUE(contains(text, "pressure is 1.5 MPa, not 1 MPa"));
   write("b.csv", "dry", 1., 0.2);
   text = message_of_set();
-  EXPECT_NE(text.find("but its mean speed is"), std::string::npos) << text;
+  EXPECT_TRUE(contains(text, "but its mean speed is"));
   write("b.csv", "dry, faster", 1., 0.2);
   EXPECT_EQ(message_of_set(), "");
 }

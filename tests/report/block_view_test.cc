@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -92,9 +93,7 @@ TEST(BlockView, ThinBlocksAreDrawnThicker)
   std::vector<std::string> warnings;
   const Picture            picture = block_picture(finished_run(), warnings);
   EXPECT_EQ(data_of(picture)["extent"], nlohmann::json({10., 0.75}));
-  EXPECT_NE(picture.caption.find("Drawn 3 times as thick along y."),
-            std::string::npos)
-    << picture.caption;
+  EXPECT_TRUE(contains(picture.caption, "Drawn 3 times as thick along y."));
   // Deformation is enlarged to a round number that is seen.
   EXPECT_EQ(data_of(picture)["scale"], 500.);
 }
@@ -115,7 +114,7 @@ TEST(BlockView, NothingIsShownOfARunWithoutFields)
   std::ofstream(run.folder / "surface_0002.csv") << "x0_mm\nabc\n";
   EXPECT_EQ(block_picture(run, warnings).svg, "");
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("surface_0002.csv"), std::string::npos);
+  EXPECT_TRUE(contains(warnings[0], "surface_0002.csv"));
 }
 
 
@@ -137,9 +136,9 @@ TEST(BlockView, MeshesStandSideBySide)
     mesh_gallery({{"uniform 0", run.folder}, {"failed", run.folder / "empty"}},
                  warnings);
   EXPECT_TRUE(warnings.empty());
-  EXPECT_NE(html.find("uniform 0, 30 unknowns"), std::string::npos) << html;
-  EXPECT_NE(html.find("Drawn 3 times as thick along y."), std::string::npos);
-  EXPECT_EQ(html.find("failed"), std::string::npos);
+  EXPECT_TRUE(contains(html, "uniform 0, 30 unknowns"));
+  EXPECT_TRUE(contains(html, "Drawn 3 times as thick along y."));
+  EXPECT_FALSE(contains(html, "failed"));
   EXPECT_EQ(mesh_gallery({}, warnings), "");
   EXPECT_NE(block_picture(run, warnings).svg, "");
 }

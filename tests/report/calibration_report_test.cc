@@ -322,12 +322,10 @@ TEST(CalibrationTable, ItFitsTheTerminalAndIsAligned)
              "  Rate                 0.800   1/mm     0.693 … 0.954   "
              "  0.4\n"))
     << table;
-  EXPECT_TRUE(contains(table, "* 0.1300")) << table;
-  EXPECT_TRUE(contains(table, "\n  drop       0.03              ± 0.002\n"))
-    << table;
-  EXPECT_TRUE(contains(table, "µm, end   ")) << table;
-  EXPECT_TRUE(contains(table, "\n  - Reference speed and Rate cannot be told"))
-    << table;
+  EXPECT_TRUE(contains(table, "* 0.1300"));
+  EXPECT_TRUE(contains(table, "\n  drop       0.03              ± 0.002\n"));
+  EXPECT_TRUE(contains(table, "µm, end   "));
+  EXPECT_TRUE(contains(table, "\n  - Reference speed and Rate cannot be told"));
 }
 
 

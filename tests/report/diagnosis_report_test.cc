@@ -175,14 +175,14 @@ TEST(DiagnosisTable, ItFitsTheTerminalAndHasAllThatMatters)
         EXPECT_LE(text_width(line), 100u) << line;
       EXPECT_TRUE(contains(table, "verdict: " + name_of(diagnosis.verdict)));
       for (const CandidateResult &candidate : diagnosis.candidates)
-        EXPECT_TRUE(contains(table, "\n  " + candidate.name)) << table;
+        EXPECT_TRUE(contains(table, "\n  " + candidate.name));
     }
   const std::string table = diagnosis_table(SyntheticDiagnosis::named());
-  EXPECT_TRUE(contains(table, "overstress/Viscosity   0.01230")) << table;
-  EXPECT_TRUE(contains(table, "0.01122 … 0.01362")) << table;
-  EXPECT_TRUE(contains(table, "speed 0.5 … 1.7 mm/s")) << table;
-  EXPECT_FALSE(contains(table, "flank")) << table;
-  EXPECT_TRUE(contains(table, "next test: sliding at 0.01 mm/min")) << table;
+  EXPECT_TRUE(contains(table, "overstress/Viscosity   0.01230"));
+  EXPECT_TRUE(contains(table, "0.01122 … 0.01362"));
+  EXPECT_TRUE(contains(table, "speed 0.5 … 1.7 mm/s"));
+  EXPECT_FALSE(contains(table, "flank"));
+  EXPECT_TRUE(contains(table, "next test: sliding at 0.01 mm/min"));
 }
 
 

@@ -39,9 +39,8 @@ TEST(Figure, DataAndScriptCanBeDrawnAgain)
   EXPECT_EQ(content(scratch_folder() / "curve.dat"),
             "# a\n# x y\n0 1\n2 3\n\n\n# b\n# x\n0.1\n");
   const std::string script = content(scratch_folder() / "curve.gp");
-  EXPECT_NE(script.find("set output 'curve.svg'"), std::string::npos);
-  EXPECT_NE(script.find("plot 'curve.dat' index 0 with lines"),
-            std::string::npos);
+  EXPECT_TRUE(contains(script, "set output 'curve.svg'"));
+  EXPECT_TRUE(contains(script, "plot 'curve.dat' index 0 with lines"));
 }
 
 
@@ -60,8 +59,8 @@ TEST(Figure, PicturesOnOnePageShareNoIds)
       const std::string svg = figure.inline_svg();
       EXPECT_EQ(svg.find("<svg"), 0u);
       EXPECT_EQ(count(svg, "</svg>"), 1u);
-      EXPECT_NE(svg.find("<title>x &lt; y</title>"), std::string::npos);
-      EXPECT_NE(svg.find("a_b {c} \"d\" 'e' \\f<"), std::string::npos);
+      EXPECT_TRUE(contains(svg, "<title>x &lt; y</title>"));
+      EXPECT_TRUE(contains(svg, "a_b {c} \"d\" 'e' \\f<"));
       EXPECT_GT(count(svg, "id="), 0u);
       EXPECT_EQ(count(svg, "id="),
                 count(svg, "id='" + name + "-") +
@@ -81,8 +80,8 @@ TEST(Figure, AnErrorInTheScriptIsAWarning)
   Figure figure(scratch_folder(), "broken", "Broken", 300, 200);
   figure.script() << "plot 'no such file' with lines\n";
   const std::string warning = figure.write();
-  EXPECT_NE(warning.find("Broken"), std::string::npos) << warning;
-  EXPECT_NE(warning.find("broken.gp"), std::string::npos) << warning;
+  EXPECT_TRUE(contains(warning, "Broken"));
+  EXPECT_TRUE(contains(warning, "broken.gp"));
   EXPECT_EQ(figure.inline_svg(), "");
 }
 
@@ -96,7 +95,7 @@ TEST(Figure, AMissingGnuplotIsAWarning)
   figure.script() << "plot sin(x)\n";
   const std::string warning = figure.write();
   setenv("PATH", path.c_str(), 1);
-  EXPECT_NE(warning.find("gnuplot-nox"), std::string::npos) << warning;
+  EXPECT_TRUE(contains(warning, "gnuplot-nox"));
   EXPECT_TRUE(std::filesystem::exists(scratch_folder() / "absent.gp"));
   EXPECT_FALSE(std::filesystem::exists(figure.svg_file()));
 }

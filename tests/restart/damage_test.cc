@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "tests/file_text.h"
 #include "restart_tools.h"
 
 using namespace SlipStep;
@@ -65,7 +66,7 @@ namespace
       EXPECT_EQ(result.exit_code, 2) << result.err;
       EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
       for (const std::string &word : words)
-        EXPECT_NE(result.err.find(word), std::string::npos)
+        EXPECT_TRUE(contains(result.err, word))
           << "  \"" << word << "\" is not in: " << result.err;
       EXPECT_TRUE(contents(output) == before);
     }
@@ -92,7 +93,7 @@ TEST_F(Damage, GivesWayToThePreviousCheckpoint)
       EXPECT_EQ(result.n_error_lines(), 1u) << result.err;
       for (const std::string &word :
            std::vector<std::string>{"warning: ", harm.second, ".previous"})
-        EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+        EXPECT_TRUE(contains(result.err, word));
       expect_finished(output);
       EXPECT_EQ(read_summary(path(output) / "summary.json").warnings.size(),
                 1u);
@@ -105,8 +106,7 @@ TEST_F(Damage, GivesWayToThePreviousCheckpoint)
   process.write("flipped/checkpoint/cells.0", cells);
   const auto result = run("flipped", {"--resume", "--quiet"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE(result.err.find("cells.0 has changed"), std::string::npos)
-    << result.err;
+  EXPECT_TRUE(contains(result.err, "cells.0 has changed"));
   expect_finished("flipped");
 }
 
@@ -190,7 +190,7 @@ TEST_F(Damage, NoneButAnotherCaseIsRefusedByName)
   const auto result =
     process.run({"point", "case.prm", "--output", "victim", "--resume"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("results of slipstep run"), std::string::npos);
+  EXPECT_TRUE(contains(result.err, "results of slipstep run"));
 }
 
 
@@ -242,13 +242,13 @@ TEST_F(Damage, AFullDiskIsToldAndTheRunGoesOn)
       for (const std::string part : {"warning: no checkpoint could be written",
                                      "see ulimit -f",
                                      "the last one is of step "})
-        EXPECT_NE(message.find(part), std::string::npos) << message;
+        EXPECT_TRUE(contains(message, part));
       if (is_killed)
         {
           const auto resumed = RestartTest::run(output, {"--resume"});
           EXPECT_EQ(resumed.exit_code, 0);
           EXPECT_EQ(resumed.err, "");
-          EXPECT_NE(resumed.out.find("Resumed after"), std::string::npos);
+          EXPECT_TRUE(contains(resumed.out, "Resumed after"));
         }
       expect_finished(output);
     }

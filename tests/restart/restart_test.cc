@@ -4,6 +4,7 @@
 
 #include <regex>
 
+#include "tests/file_text.h"
 #include "restart_tools.h"
 
 using namespace SlipStep;
@@ -69,12 +70,12 @@ TEST_F(Restart, AfterSigtermGoesOnBitForBit)
         EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1);
         for (const std::string part :
              {"stopped by a signal", " after step ", "--resume goes on"})
-          EXPECT_NE(message.find(part), std::string::npos) << message;
+          EXPECT_TRUE(contains(message, part));
       }
       const auto resumed = run(output, {"--resume"});
       EXPECT_EQ(resumed.exit_code, 0);
       EXPECT_EQ(resumed.err, "");
-      EXPECT_NE(resumed.out.find("Resumed after step "), std::string::npos);
+      EXPECT_TRUE(contains(resumed.out, "Resumed after step "));
       expect_finished(output);
       EXPECT_EQ(read_summary(path(output) / "summary.json").sessions, 2u);
       for (const std::string collection : {"/fields.pvd", "/contact.pvd"})
@@ -86,7 +87,7 @@ TEST_F(Restart, AfterSigtermGoesOnBitForBit)
       // A finished run is kept.
       const auto again = run(output, {"--resume"});
       EXPECT_EQ(again.exit_code, 0);
-      EXPECT_NE(again.out.find("Finished earlier"), std::string::npos);
+      EXPECT_TRUE(contains(again.out, "Finished earlier"));
       expect_finished(output);
     }
 }
@@ -103,8 +104,7 @@ TEST_F(Restart, OfAPushGoesOnBitForBit)
   process.write("case.prm", pushed + "0.06 MPa in 1 s\n");
   const auto other = run("victim", {"--resume"});
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_NE(other.err.find("Loading/Programme"), std::string::npos)
-    << other.err;
+  EXPECT_TRUE(contains(other.err, "Loading/Programme"));
 }
 
 
@@ -142,8 +142,7 @@ TEST_F(Restart, Sigusr1WritesACheckpointAndTheRunGoesOn)
     run.send(SIGKILL);
     run.wait();
     ASSERT_EQ(run.outcome(), -SIGKILL);
-    EXPECT_NE(run.out().find("Checkpoint written after step"),
-              std::string::npos);
+    EXPECT_TRUE(contains(run.out(), "Checkpoint written after step"));
   }
   EXPECT_EQ(run("victim", {"--resume", "--quiet"}).exit_code, 0);
   expect_finished("victim");
@@ -156,14 +155,14 @@ TEST_F(Restart, WithoutCheckpointStartsAnewAndSaysSo)
   run_and_kill("victim", 20, {"--set", never});
   const auto result = run("victim", {"--resume"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("starts anew"), std::string::npos) << result.out;
+  EXPECT_TRUE(contains(result.out, "starts anew"));
   expect_finished("victim");
 
   const auto point = [&]() {
     return process.run({"point", "case.prm", "--output", "point", "--resume"});
   };
-  EXPECT_NE(point().out.find("starts anew"), std::string::npos);
-  EXPECT_NE(point().out.find("Finished earlier"), std::string::npos);
+  EXPECT_TRUE(contains(point().out, "starts anew"));
+  EXPECT_TRUE(contains(point().out, "Finished earlier"));
 }
 
 
@@ -176,8 +175,7 @@ TEST_F(Restart, OnAnotherNumberOfRanksAgreesToRoundOff)
   run_and_kill("victim", 30, {"--set", often});
   const auto result = run("victim", {"--resume"}, joined(two_ranks));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("on 2 instead of 1 ranks"), std::string::npos)
-    << result.out;
+  EXPECT_TRUE(contains(result.out, "on 2 instead of 1 ranks"));
   expected();
   const auto a = read_history(path("victim/history.csv"));
   const auto b = read_history(path("undisturbed/history.csv"));
@@ -225,7 +223,7 @@ TEST_F(Restart, OnTwoRanksGoesOnBitForBit)
   }
   const auto result = run("victim", {"--resume"}, joined(two_ranks));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("Resumed after step "), std::string::npos);
+  EXPECT_TRUE(contains(result.out, "Resumed after step "));
   EXPECT_TRUE(history("victim") == history("undisturbed"));
 }
 
@@ -252,7 +250,7 @@ TEST_F(Restart, KeepsFinishedVariantsOfASweep)
     run.send(SIGTERM);
     run.wait();
     EXPECT_EQ(run.outcome(), -SIGTERM);
-    EXPECT_NE(run.err().find("--resume"), std::string::npos) << run.err();
+    EXPECT_TRUE(contains(run.err(), "--resume"));
   }
   ASSERT_TRUE(fs::exists(path("sweep/slow/checkpoint")));
   const auto kept   = fs::last_write_time(path("sweep/quick/history.csv"));
@@ -260,7 +258,7 @@ TEST_F(Restart, KeepsFinishedVariantsOfASweep)
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const std::string part :
        {"quick: Finished earlier", "slow: Resumed after step", "Report: "})
-    EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+    EXPECT_TRUE(contains(result.out, part));
   EXPECT_EQ(fs::last_write_time(path("sweep/quick/history.csv")), kept);
   EXPECT_EQ(run("undisturbed", {"--variant", "slow", "--quiet"}).exit_code, 0);
   EXPECT_TRUE(history("sweep/slow") == history("undisturbed/slow"));
@@ -297,21 +295,21 @@ TEST_F(Restart, KeepsFinishedRunsOfARefinementStudy)
     run.send(SIGTERM);
     run.wait();
     EXPECT_EQ(run.outcome(), -SIGTERM);
-    EXPECT_NE(run.err().find("--resume"), std::string::npos) << run.err();
+    EXPECT_TRUE(contains(run.err(), "--resume"));
   }
   ASSERT_TRUE(fs::exists(path("study/uniform_2/checkpoint")));
   const auto kept = fs::last_write_time(path("study/uniform_1/history.csv"));
   const auto other =
     process.run(refine({"--resume", "--set", "Block/Degree=2"}));
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_NE(other.err.find("Block/Degree"), std::string::npos) << other.err;
+  EXPECT_TRUE(contains(other.err, "Block/Degree"));
 
   const auto result = process.run(refine({"--resume"}));
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const std::string part : {"uniform 1: Finished earlier",
                                  "uniform 2: Resumed after step",
                                  "Report: "})
-    EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+    EXPECT_TRUE(contains(result.out, part));
   EXPECT_EQ(fs::last_write_time(path("study/uniform_1/history.csv")), kept);
   for (const std::string folder : {"uniform_0", "uniform_1", "uniform_2"})
     EXPECT_TRUE(is_finished(folder)) << folder;
@@ -444,7 +442,6 @@ TEST(Stop, ACalibrationEndsAtOnceAndWritesNothing)
   EXPECT_LT(std::chrono::steady_clock::now() - begin,
             std::chrono::seconds(100));
   EXPECT_EQ(run.outcome(), -SIGTERM);
-  EXPECT_NE(run.err().find("nothing was written"), std::string::npos)
-    << run.err();
+  EXPECT_TRUE(contains(run.err(), "nothing was written"));
   EXPECT_FALSE(fs::exists(process.folder() / "output"));
 }

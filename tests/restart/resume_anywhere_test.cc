@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/file_text.h"
 #include "restart_tools.h"
 
 using namespace SlipStep::Testing;
@@ -70,8 +71,7 @@ TEST_F(ResumeAnywhere, AFinishedRunIsKeptFromAnyFolder)
         {
           const auto again = resume(command, from, steps);
           EXPECT_EQ(again.exit_code, 0) << from << '\n' << again.err;
-          EXPECT_NE(again.out.find("results are kept"), std::string::npos)
-            << again.out;
+          EXPECT_TRUE(contains(again.out, "results are kept"));
         }
       // What the command does not use may change, in other words or in fact.
       for (const std::string setting :
@@ -110,12 +110,9 @@ TEST_F(ResumeAnywhere, ADamagedSummaryDoesNotHideACheckpoint)
       process.write("damaged/summary.json", text);
       const auto resumed = run("damaged", {"--resume"});
       EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-      EXPECT_NE(resumed.err.find("summary.json: this file is damaged"),
-                std::string::npos)
-        << resumed.err;
+      EXPECT_TRUE(contains(resumed.err, "summary.json: this file is damaged"));
       EXPECT_EQ(resumed.n_error_lines(), 1u) << resumed.err;
-      EXPECT_NE(resumed.out.find("Resumed after"), std::string::npos)
-        << resumed.out;
+      EXPECT_TRUE(contains(resumed.out, "Resumed after"));
       expect_finished("damaged");
     }
 }
@@ -131,8 +128,7 @@ TEST_F(ResumeAnywhere, AFinishedRunOfUnknownParametersIsNotTouched)
       process.write("output/used_parameters.prm", text);
       const auto resumed = run("output", {"--resume"});
       EXPECT_EQ(resumed.exit_code, 2);
-      EXPECT_NE(resumed.err.find("run without --resume"), std::string::npos)
-        << resumed.err;
+      EXPECT_TRUE(contains(resumed.err, "run without --resume"));
       EXPECT_EQ(history("output"), finished);
     }
 }

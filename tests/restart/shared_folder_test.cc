@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "tests/file_text.h"
 #include "restart_tools.h"
 
 using namespace SlipStep::Testing;
@@ -31,9 +32,8 @@ TEST_F(SharedFolder, ASecondRunIsTold)
       const auto second = run("output", more);
       EXPECT_EQ(second.exit_code, 2);
       EXPECT_EQ(second.n_error_lines(), 1u) << second.err;
-      EXPECT_NE(second.err.find("output is in use by slipstep run, process "),
-                std::string::npos)
-        << second.err;
+      EXPECT_TRUE(
+        contains(second.err, "output is in use by slipstep run, process "));
     }
   first.send(SIGCONT);
   first.wait();
@@ -51,7 +51,7 @@ TEST_F(SharedFolder, ASecondRunOnTwoRanksIsTold)
   const auto second =
     run("output", {}, "mpirun --oversubscribe --allow-run-as-root -q -np 2");
   EXPECT_EQ(second.exit_code, 2);
-  EXPECT_NE(second.err.find("is in use by"), std::string::npos) << second.err;
+  EXPECT_TRUE(contains(second.err, "is in use by"));
   first.send(SIGCONT);
   first.wait();
   expect_finished("output");
@@ -83,9 +83,7 @@ TEST_F(SharedFolder, EveryCommandHasItsOwn)
   const auto        wrong =
     process.run({"run", "case.prm", "--output", "output/case/point"});
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_NE(wrong.err.find("holds results of slipstep point, not of"),
-            std::string::npos)
-    << wrong.err;
+  EXPECT_TRUE(contains(wrong.err, "holds results of slipstep point, not of"));
   EXPECT_TRUE(process.read("output/case/point/report.html") == page);
 }
 

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -92,15 +93,6 @@ namespace
 
     const std::filesystem::path folder = test_folder();
   };
-
-
-
-  // ADD_FAILURE with both texts, which EXPECT_TRUE would not show.
-  void expect_contains(const std::string &text, const std::string &part)
-  {
-    EXPECT_NE(text.find(part), std::string::npos)
-      << "  \"" << part << "\" is not in\n  \"" << text << "\"";
-  }
 } // namespace
 
 
@@ -147,7 +139,7 @@ TEST_F(ParametersTest, AFileOverridesWhatItIncludes)
   EXPECT_EQ(p.integer("Block/Degree"), 2);
   EXPECT_LT(p.layer("Block/Degree"), p.layer("Title"));
   EXPECT_LT(p.layer("Title"), p.layer("Loading/Speed"));
-  expect_contains(p.origin("Block/Degree"), "inner.prm:2: Block/Degree");
+  EXPECT_TRUE(contains(p.origin("Block/Degree"), "inner.prm:2: Block/Degree"));
 }
 
 
@@ -165,9 +157,10 @@ TEST_F(ParametersTest, UnknownNamesComeWithTheNearest)
             "Loading/Speed?");
   EXPECT_EQ(error_of("\nsubsection Frction\nend\n"),
             "case.prm:2: unknown section Frction; did you mean Friction?");
-  expect_contains(error_of("set Xyzzyplugh = 1\n"), "slipstep parameters");
-  expect_contains(error_of("set Friction/softening = 1\n"),
-                  "is a section, not a key");
+  EXPECT_TRUE(
+    contains(error_of("set Xyzzyplugh = 1\n"), "slipstep parameters"));
+  EXPECT_TRUE(contains(error_of("set Friction/softening = 1\n"),
+                       "is a section, not a key"));
 }
 
 
@@ -180,15 +173,15 @@ TEST_F(ParametersTest, TheSameNameInOtherCapitalsIsNearest)
                                     "Friction/softning/Rate",
                                     "Title/Friction/softening/Rate",
                                     "Friction/SOFTENING/Rates"})
-    expect_contains(error_of("set " + written + " = 1\n"),
-                    "; did you mean Friction/softening/Rate?");
-  expect_contains(error_of("subsection Friction\nsubsection Softening\n"
-                           "set Rate = 1\nend\nend\n"),
-                  "; did you mean Friction/softening?");
+    EXPECT_TRUE(contains(error_of("set " + written + " = 1\n"),
+                         "; did you mean Friction/softening/Rate?"));
+  EXPECT_TRUE(contains(error_of("subsection Friction\nsubsection Softening\n"
+                                "set Rate = 1\nend\nend\n"),
+                       "; did you mean Friction/softening?"));
   // Nothing tells which.
-  expect_contains(error_of("set rate = 1\n"),
-                  "; did you mean Friction/softening/Rate or "
-                  "Friction/healing/Rate?");
+  EXPECT_TRUE(contains(error_of("set rate = 1\n"),
+                       "; did you mean Friction/softening/Rate or "
+                       "Friction/healing/Rate?"));
 }
 
 
@@ -206,16 +199,16 @@ TEST_F(ParametersTest, WrongValuesSayWhatIsAllowed)
             "mean wedge? Allowed is one of: box, wedge");
   EXPECT_EQ(error_of("set Block/Curved = perhaps\n"),
             "case.prm:1: Block/Curved = perhaps: allowed is true or false");
-  expect_contains(error_of("set Friction/Effects = subloading, heling\n"),
-                  "\"heling\" is not known; did you mean healing?");
-  expect_contains(error_of("set Loading/Speed = -1 mm/s\n"),
-                  "out of range; allowed is a speed");
-  expect_contains(error_of("set Loading/Speed = 1 mm/sec\n"),
-                  "nearest is mm/s");
-  expect_contains(error_of("set Block/Size = 1, 2 kg\n"), "\"2 kg\": ");
-  expect_contains(error_of("set Block/Size = 1\n"), "a list of 2 to 3");
-  expect_contains(error_of("set Block/Degree =\n"),
-                  "Block/Degree =: the value is missing");
+  EXPECT_TRUE(contains(error_of("set Friction/Effects = subloading, heling\n"),
+                       "\"heling\" is not known; did you mean healing?"));
+  EXPECT_TRUE(contains(error_of("set Loading/Speed = -1 mm/s\n"),
+                       "out of range; allowed is a speed"));
+  EXPECT_TRUE(
+    contains(error_of("set Loading/Speed = 1 mm/sec\n"), "nearest is mm/s"));
+  EXPECT_TRUE(contains(error_of("set Block/Size = 1, 2 kg\n"), "\"2 kg\": "));
+  EXPECT_TRUE(contains(error_of("set Block/Size = 1\n"), "a list of 2 to 3"));
+  EXPECT_TRUE(contains(error_of("set Block/Degree =\n"),
+                       "Block/Degree =: the value is missing"));
 }
 
 
@@ -230,7 +223,8 @@ TEST_F(ParametersTest, CapitalsOfWordsDoNotMatter)
   EXPECT_TRUE(p.boolean("Block/Curved"));
   EXPECT_EQ(p.text("Friction/Effects"), "softening, healing");
   // 1 MPa is not 1 mPa.
-  expect_contains(error_of("set Loading/Speed = 1 MM/s\n"), "nearest is mm/s");
+  EXPECT_TRUE(
+    contains(error_of("set Loading/Speed = 1 MM/s\n"), "nearest is mm/s"));
 
   Parameters q = declared();
   q.declare("Noise", "none", AnythingWithWords({"none", "from"}), "Words.");
@@ -247,20 +241,21 @@ TEST_F(ParametersTest, DecimalCommasAreToldAsSuch)
             "case.prm:1: Friction/healing/Rate = 0,05 1/s: " + hint +
               "0.05 1/s; allowed is a rate per time (in 1/s if no unit is "
               "given) of at least 0 1/s");
-  expect_contains(error_of("set Loading/Speed = 1.000,5 mm/s\n"),
-                  "decimals begin with a point, and nothing separates");
+  EXPECT_TRUE(contains(error_of("set Loading/Speed = 1.000,5 mm/s\n"),
+                       "decimals begin with a point, and nothing separates"));
   // Two lengths or three?
-  expect_contains(error_of("set Block/Size = 10,5 mm, 10 mm\n"),
-                  hint + "10.5 mm");
-  expect_contains(error_of("set Block/Size = 10,5 mm\n"), hint + "10.5 mm");
+  EXPECT_TRUE(
+    contains(error_of("set Block/Size = 10,5 mm, 10 mm\n"), hint + "10.5 mm"));
+  EXPECT_TRUE(
+    contains(error_of("set Block/Size = 10,5 mm\n"), hint + "10.5 mm"));
   EXPECT_EQ(error_of("set Block/Size = 10,20,30\n"), "");
   EXPECT_EQ(decimal_comma_hint("(0,0) to (10 mm, 5 mm)"), "");
   EXPECT_EQ(decimal_comma_hint("(0,5 mm, 0 mm)"), hint + "0.5 mm");
   EXPECT_EQ(error_of("set Block/Size = 10 mm,20 mm\n"), "");
-  expect_contains(error_of("subsection Sweep\n"
-                           "set Key = Friction/healing/Rate\n"
-                           "set Values = 0,1, 0,2\nend\n"),
-                  "case.prm:3: Sweep/Values = 0,1, 0,2: " + hint + "0.1");
+  EXPECT_TRUE(contains(error_of("subsection Sweep\n"
+                                "set Key = Friction/healing/Rate\n"
+                                "set Values = 0,1, 0,2\nend\n"),
+                       "case.prm:3: Sweep/Values = 0,1, 0,2: " + hint + "0.1"));
 }
 
 
@@ -270,24 +265,29 @@ TEST_F(ParametersTest, BrokenFilesAreRefused)
   EXPECT_EQ(error_of("set Title = a\n\nset Title = b\n"),
             "case.prm:3: Title is given twice, first in line 1");
   // Also when written in two ways.
-  expect_contains(error_of("subsection Block\nset Degree = 1\nend\n"
-                           "set Block/Degree = 2\n"),
-                  "case.prm:4: Block/Degree is given twice, first in line 2");
+  EXPECT_TRUE(
+    contains(error_of("subsection Block\nset Degree = 1\nend\n"
+                      "set Block/Degree = 2\n"),
+             "case.prm:4: Block/Degree is given twice, first in line 2"));
   EXPECT_EQ(error_of("subsection Block\n"),
             "case.prm:1: subsection Block, begun here, is never closed by an "
             "\"end\"");
-  expect_contains(error_of("subsection Block\nend\nend\n"), "case.prm:3: ");
-  expect_contains(error_of("subsektion Block\n"), "did you mean subsection?");
-  expect_contains(error_of("set Title\n"), "case.prm:1: \"set Title\" is not");
-  expect_contains(error_of("set Title = a \\\n"), "the file ends after a \\");
-  expect_contains(error_of("include nowhere.prm\n"),
-                  "case.prm:1: include nowhere.prm: no such file");
-  expect_contains(error_of("include case.prm\n"), "circle of includes");
+  EXPECT_TRUE(
+    contains(error_of("subsection Block\nend\nend\n"), "case.prm:3: "));
+  EXPECT_TRUE(
+    contains(error_of("subsektion Block\n"), "did you mean subsection?"));
+  EXPECT_TRUE(
+    contains(error_of("set Title\n"), "case.prm:1: \"set Title\" is not"));
+  EXPECT_TRUE(
+    contains(error_of("set Title = a \\\n"), "the file ends after a \\"));
+  EXPECT_TRUE(contains(error_of("include nowhere.prm\n"),
+                       "case.prm:1: include nowhere.prm: no such file"));
+  EXPECT_TRUE(contains(error_of("include case.prm\n"), "circle of includes"));
   write("other.prm", "set Title = other\n");
-  expect_contains(error_of("set Title = own\ninclude other.prm\n"),
-                  "move the include up");
-  expect_contains(error_of("subsection Block\ninclude other.prm\nend\n"),
-                  "outside of subsections");
+  EXPECT_TRUE(contains(error_of("set Title = own\ninclude other.prm\n"),
+                       "move the include up"));
+  EXPECT_TRUE(contains(error_of("subsection Block\ninclude other.prm\nend\n"),
+                       "outside of subsections"));
 }
 
 
@@ -320,7 +320,7 @@ TEST_F(ParametersTest, AllErrorsAreToldAtOnceInTheOrderOfTheFile)
   for (unsigned int i = 0; i < 23; ++i)
     many += "set Nothing = 1\n";
   const std::string message = error_of(many);
-  expect_contains(message, "case.prm:20: unknown key");
+  EXPECT_TRUE(contains(message, "case.prm:20: unknown key"));
   EXPECT_EQ(message.substr(message.rfind('\n')), "\nand 3 more");
 }
 
@@ -333,17 +333,19 @@ TEST_F(ParametersTest, AMissingEndNamesTheSectionThatIsOpen)
                      "subsection Loading\n  set Speed = 1 mm/s\nend\n"),
             "case.prm:4: an \"end\" is missing before subsection Loading: "
             "subsection softening is open since line 2");
-  expect_contains(error_of("\nsubsection Friction\n"
-                           "set Loading/Speed = 1 mm/s\nend\n"),
-                  "an \"end\" is missing: subsection Friction is open since "
-                  "line 2");
-  expect_contains(error_of("subsection Variants\nsubsection a\n"
-                           "subsection b\nend\nend\n"),
-                  "case.prm:3: unknown section b; if it is a variant, an "
-                  "\"end\" is missing: subsection a is open since line 2");
-  expect_contains(error_of("subsection Sweep\nset Key = Block/Degree\n"
-                           "subsection Block\nend\nend\n"),
-                  "subsection Sweep is open since line 1");
+  EXPECT_TRUE(
+    contains(error_of("\nsubsection Friction\n"
+                      "set Loading/Speed = 1 mm/s\nend\n"),
+             "an \"end\" is missing: subsection Friction is open since "
+             "line 2"));
+  EXPECT_TRUE(
+    contains(error_of("subsection Variants\nsubsection a\n"
+                      "subsection b\nend\nend\n"),
+             "case.prm:3: unknown section b; if it is a variant, an "
+             "\"end\" is missing: subsection a is open since line 2"));
+  EXPECT_TRUE(contains(error_of("subsection Sweep\nset Key = Block/Degree\n"
+                                "subsection Block\nend\nend\n"),
+                       "subsection Sweep is open since line 1"));
   write("other.prm", "set Title = a\nsubsection Block\n");
   EXPECT_EQ(error_of("include other.prm\nset Block/Degree = 1\n"),
             "other.prm:2: subsection Block, begun here, is never closed by an "
@@ -359,8 +361,9 @@ TEST_F(ParametersTest, LinesMayEndAsOnAnySystem)
       EXPECT_EQ(read("# note" + end + "set Block/Degree = 2" + end)
                   .integer("Block/Degree"),
                 2);
-      expect_contains(error_of("set Title = a" + end + "set Titel = b" + end),
-                      "case.prm:2: ");
+      EXPECT_TRUE(
+        contains(error_of("set Title = a" + end + "set Titel = b" + end),
+                 "case.prm:2: "));
     }
 }
 
@@ -397,12 +400,12 @@ TEST_F(ParametersTest, SetOverridesAndNamesItsOrigin)
   };
   EXPECT_EQ(message([&] { p.set("Titel", "x", "--set"); }),
             "--set: unknown key Titel; did you mean Title?");
-  expect_contains(message([&] { p.set("Block/Degree", "3", "--set"); }),
-                  "--set Block/Degree = 3: allowed is");
+  EXPECT_TRUE(contains(message([&] { p.set("Block/Degree", "3", "--set"); }),
+                       "--set Block/Degree = 3: allowed is"));
   EXPECT_EQ(message([&] { p.reject("Title", "too short"); }),
             "--set Title = option: too short");
-  expect_contains(message([&] { p.reject("Block/Form", "no"); }),
-                  "Block/Form = box (the default): no");
+  EXPECT_TRUE(contains(message([&] { p.reject("Block/Form", "no"); }),
+                       "Block/Form = box (the default): no"));
 }
 
 
@@ -417,7 +420,7 @@ TEST_F(ParametersTest, ASweepHasAVariantPerValue)
   const Parameters variant = p.with_variant(p.variants()[1]);
   EXPECT_DOUBLE_EQ(variant.number("Loading/Speed"), 1. / 6.);
   EXPECT_TRUE(variant.variants().empty());
-  expect_contains(variant.origin("Loading/Speed"), "case.prm:3: ");
+  EXPECT_TRUE(contains(variant.origin("Loading/Speed"), "case.prm:3: "));
 
   // A value with a comma needs semicolons; a bare number gets its key's name.
   const Parameters lists = read("subsection Sweep\n  set Key = Block/Size\n"
@@ -457,7 +460,8 @@ TEST_F(ParametersTest, VariantsNameTheirKeys)
   EXPECT_TRUE(
     read("include sweep.prm\nsubsection Variants\nend\n").variants().empty());
   // Without one it does nothing.
-  expect_contains(error_of("subsection Variants\nend\n"), "Variants is empty");
+  EXPECT_TRUE(
+    contains(error_of("subsection Variants\nend\n"), "Variants is empty"));
 }
 
 
@@ -479,23 +483,24 @@ TEST_F(ParametersTest, WrongSweepsAreRefused)
   const auto sweep = [this](const std::string &lines) {
     return error_of("subsection Sweep\n" + lines + "end\n");
   };
-  expect_contains(sweep("set Key = Loading/Sped\nset Values = 1\n"),
-                  "case.prm:2: unknown key Loading/Sped; did you mean "
-                  "Loading/Speed?");
-  expect_contains(sweep("set Key = Block/Degree\nset Values = 1, 5\n"),
-                  "case.prm:3: Block/Degree = 5: allowed is");
-  expect_contains(sweep("set Key = Block/Degree\n"), "needs both");
-  expect_contains(sweep("set Key = Block/Degree\nset Values = 1, 1\n"),
-                  "case.prm:3: the variant \"Degree 1\" is given twice");
-  expect_contains(sweep("set Kay = Block/Degree\n"), "did you mean Key?");
-  expect_contains(error_of("subsection Variants\nsubsection a\nend\n"
-                           "subsection a\nend\nend\n"),
-                  "case.prm:4: the variant \"a\" is given twice");
-  expect_contains(error_of("subsection Variants\nsubsection a\n"
-                           "set Block/Degre = 1\nend\nend\n"),
-                  "case.prm:3: unknown key Block/Degre; did you mean");
-  expect_contains(error_of("subsection Variants\nend\nsubsection Sweep\nend\n"),
-                  "case.prm:3: both Variants and Sweep");
+  EXPECT_TRUE(contains(sweep("set Key = Loading/Sped\nset Values = 1\n"),
+                       "case.prm:2: unknown key Loading/Sped; did you mean "
+                       "Loading/Speed?"));
+  EXPECT_TRUE(contains(sweep("set Key = Block/Degree\nset Values = 1, 5\n"),
+                       "case.prm:3: Block/Degree = 5: allowed is"));
+  EXPECT_TRUE(contains(sweep("set Key = Block/Degree\n"), "needs both"));
+  EXPECT_TRUE(contains(sweep("set Key = Block/Degree\nset Values = 1, 1\n"),
+                       "case.prm:3: the variant \"Degree 1\" is given twice"));
+  EXPECT_TRUE(contains(sweep("set Kay = Block/Degree\n"), "did you mean Key?"));
+  EXPECT_TRUE(contains(error_of("subsection Variants\nsubsection a\nend\n"
+                                "subsection a\nend\nend\n"),
+                       "case.prm:4: the variant \"a\" is given twice"));
+  EXPECT_TRUE(contains(error_of("subsection Variants\nsubsection a\n"
+                                "set Block/Degre = 1\nend\nend\n"),
+                       "case.prm:3: unknown key Block/Degre; did you mean"));
+  EXPECT_TRUE(
+    contains(error_of("subsection Variants\nend\nsubsection Sweep\nend\n"),
+             "case.prm:3: both Variants and Sweep"));
 }
 
 
@@ -516,8 +521,8 @@ TEST_F(ParametersTest, PrintedPrmReadsBackTheSame)
 
   std::ostringstream shorter;
   p.print(shorter, Parameters::Format::prm, {"Friction/healing"});
-  EXPECT_EQ(shorter.str().find("subsection healing"), std::string::npos);
-  EXPECT_NE(shorter.str().find("subsection softening"), std::string::npos);
+  EXPECT_FALSE(contains(shorter.str(), "subsection healing"));
+  EXPECT_TRUE(contains(shorter.str(), "subsection softening"));
 }
 
 
@@ -604,8 +609,9 @@ TEST_F(ParametersTest, PrintsForProgramsAndPages)
   EXPECT_EQ(degree.at("documentation"), "Of elements.");
 
   p.print(page, Parameters::Format::markdown);
-  expect_contains(page.str(), "## Friction/softening\n\n| Key |");
-  expect_contains(page.str(), "| Degree | `1` | a whole number from 1 to 2 |");
+  EXPECT_TRUE(contains(page.str(), "## Friction/softening\n\n| Key |"));
+  EXPECT_TRUE(
+    contains(page.str(), "| Degree | `1` | a whole number from 1 to 2 |"));
 }
 
 
@@ -631,14 +637,14 @@ TEST_F(ParametersTest, FindsKeysAndSectionsByTheirLastNames)
       }
     catch (const InputError &error)
       {
-        expect_contains(error.what(), words);
-        expect_contains(error.what(), "asked");
+        EXPECT_TRUE(contains(error.what(), words));
+        EXPECT_TRUE(contains(error.what(), "asked"));
       }
 
   std::ostringstream out;
   p.print(out, Parameters::Format::keys, {}, {}, find("Block"));
   EXPECT_EQ(out.str().find("Block/"), 0u);
-  EXPECT_EQ(out.str().find("Friction"), std::string::npos);
+  EXPECT_FALSE(contains(out.str(), "Friction"));
 }
 
 
@@ -652,5 +658,5 @@ TEST_F(ParametersTest, PrintsASchema)
   const auto degree =
     schema.at("properties").at("Block").at("properties").at("Degree");
   EXPECT_EQ(degree.at("default"), "1");
-  expect_contains(degree.at("description"), "a whole number from 1 to 2");
+  EXPECT_TRUE(contains(degree.at("description"), "a whole number from 1 to 2"));
 }

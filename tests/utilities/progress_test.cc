@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/file_text.h"
+
 using namespace SlipStep;
 
 
@@ -28,7 +30,7 @@ TEST(Progress, AFileGetsFewPlainLines)
   EXPECT_LE(n, 23);
   EXPECT_EQ(text.find('\r'), std::string::npos);
   EXPECT_EQ(text.find("[  0.0 %] 10 mm/min: step 0\n"), 0u);
-  EXPECT_NE(text.find("[100.0 %] 10 mm/min: done in "), std::string::npos);
+  EXPECT_TRUE(contains(text, "[100.0 %] 10 mm/min: done in "));
 }
 
 
@@ -59,8 +61,8 @@ TEST(Progress, TheTimeLeftIsNotCutOff)
   progress.update(0.2, std::string(300, 'x'), 7.);
   const std::string text = out.str();
   const std::string last = text.substr(text.rfind('\r'));
-  EXPECT_NE(last.find("x ..., about "), std::string::npos) << last;
-  EXPECT_NE(last.find("7.0 s left"), std::string::npos) << last;
+  EXPECT_TRUE(contains(last, "x ..., about "));
+  EXPECT_TRUE(contains(last, "7.0 s left"));
 }
 
 
