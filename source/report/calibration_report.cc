@@ -86,14 +86,8 @@ namespace SlipStep
     {
       if (calibration.derived.empty())
         return "";
-      std::vector<TableLine> lines = {
-        {"quantity", "formula", "value", "standard deviation"}};
-      for (const DerivedQuantity &quantity : calibration.derived)
-        lines.push_back({quantity.name,
-                         quantity.formula,
-                         short_text(quantity.value),
-                         deviation_text(quantity)});
-      return heading("Derived quantities") + html_table(lines) +
+      return heading("Derived quantities") +
+             html_table(derived_lines(calibration, true)) +
              note("In units of mm, s, N, MPa, rad.");
     }
 
@@ -147,45 +141,11 @@ namespace SlipStep
                   "positive.");
     }
 
-    std::vector<TableLine> test_lines(const Calibration &calibration)
-    {
-      std::vector<TableLine> lines = {{"test",
-                                       "rows",
-                                       "start rms",
-                                       "rms",
-                                       "noise",
-                                       "rms/noise",
-                                       "mean offset",
-                                       "correlated rows",
-                                       "work measured [N/mm]",
-                                       "fitted [N/mm]",
-                                       "difference [%]"}};
-      for (const TestMisfit &test : calibration.tests)
-        {
-          const double difference =
-            100. * (test.simulated_work / test.measured_work - 1.);
-          lines.push_back(
-            {test.name,
-             std::to_string(test.n_rows),
-             short_text(test.start_rms, 3),
-             short_text(test.rms, 3),
-             short_text(test.noise, 3) +
-               (test.noise_is_stated ? " (stated)" : ""),
-             fixed_text(noise_ratio(test), 2),
-             fixed_text(test.mean, 5),
-             short_text(test.correlation_length, 2),
-             short_text(test.measured_work),
-             short_text(test.simulated_work),
-             (difference > 0. ? "+" : "") + fixed_text(difference, 2)});
-        }
-      return lines;
-    }
-
     std::string tests_section(const Calibration &calibration)
     {
       if (calibration.tests.empty())
         return "";
-      return heading("Tests") + html_table(test_lines(calibration)) +
+      return heading("Tests") + html_table(test_lines(calibration, true)) +
              note("rms: of measured minus fitted friction; start rms: with the "
                   "start values; noise: estimated from the rows unless stated; "
                   "correlated rows: how many in a row are off together; work: "

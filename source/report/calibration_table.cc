@@ -31,31 +31,6 @@ namespace SlipStep
            plain_text(fitted.parameter.in_unit(fitted.parameter.start), 5)});
       return lines;
     }
-
-    std::vector<TableLine> derived_lines(const Calibration &calibration)
-    {
-      std::vector<TableLine> lines = {
-        {"derived", "value", "standard deviation"}};
-      for (const DerivedQuantity &quantity : calibration.derived)
-        lines.push_back({quantity.name,
-                         short_text(quantity.value),
-                         deviation_text(quantity)});
-      return lines;
-    }
-
-    std::vector<TableLine> short_test_lines(const Calibration &calibration)
-    {
-      std::vector<TableLine> lines = {
-        {"test", "rows", "start rms", "rms", "noise", "rms/noise"}};
-      for (const TestMisfit &test : calibration.tests)
-        lines.push_back({test.name,
-                         std::to_string(test.n_rows),
-                         short_text(test.start_rms, 3),
-                         short_text(test.rms, 3),
-                         short_text(test.noise, 3),
-                         fixed_text(noise_ratio(test), 2)});
-      return lines;
-    }
   } // namespace
 
 
@@ -73,9 +48,10 @@ namespace SlipStep
                     }))
       text += "  * at a bound, or at a condition of the law\n";
     if (!calibration.derived.empty())
-      text += "\n" + text_table(derived_lines(calibration), terminal_width);
+      text +=
+        "\n" + text_table(derived_lines(calibration, false), terminal_width);
     if (!calibration.tests.empty())
-      text += "\n" + text_table(short_test_lines(calibration), terminal_width);
+      text += "\n" + text_table(test_lines(calibration, false), terminal_width);
     if (!calibration.weak.empty())
       text += "\n  What these tests hardly determine:\n";
     for (const WeakDirection &direction : calibration.weak)

@@ -237,4 +237,61 @@ namespace SlipStep
              "± " + short_text(quantity.deviation, 2) :
              "unknown";
   }
+
+
+
+  std::vector<TableLine> derived_lines(const Calibration &calibration,
+                                       const bool         in_full)
+  {
+    ColumnTable<DerivedQuantity> table(calibration.derived);
+    table.add(in_full ? "quantity" : "derived", &DerivedQuantity::name);
+    if (in_full)
+      table.add("formula", &DerivedQuantity::formula);
+    table.add("value", [](const DerivedQuantity &quantity) {
+      return short_text(quantity.value);
+    });
+    table.add("standard deviation", [](const DerivedQuantity &quantity) {
+      return deviation_text(quantity);
+    });
+    return table.lines;
+  }
+
+
+
+  std::vector<TableLine> test_lines(const Calibration &calibration,
+                                    const bool         in_full)
+  {
+    ColumnTable<TestMisfit> table(calibration.tests);
+    const auto              add = [&](const std::string &head,
+                         double TestMisfit::*value,
+                         const int           n_digits) {
+      table.add(head, [&](const TestMisfit &test) {
+        return short_text(test.*value, n_digits);
+      });
+    };
+    table.add("test", &TestMisfit::name);
+    table.add("rows", [](const TestMisfit &test) {
+      return std::to_string(test.n_rows);
+    });
+    add("start rms", &TestMisfit::start_rms, 3);
+    add("rms", &TestMisfit::rms, 3);
+    table.add("noise", [&](const TestMisfit &test) {
+      return short_text(test.noise, 3) +
+             (in_full && test.noise_is_stated ? " (stated)" : "");
+    });
+    table.add("rms/noise", 2, noise_ratio);
+    if (!in_full)
+      return table.lines;
+
+    table.add("mean offset", 5, &TestMisfit::mean);
+    add("correlated rows", &TestMisfit::correlation_length, 2);
+    add("work measured [N/mm]", &TestMisfit::measured_work, 4);
+    add("fitted [N/mm]", &TestMisfit::simulated_work, 4);
+    table.add("difference [%]", [](const TestMisfit &test) {
+      const double difference =
+        100. * (test.simulated_work / test.measured_work - 1.);
+      return (difference > 0. ? "+" : "") + fixed_text(difference, 2);
+    });
+    return table.lines;
+  }
 } // namespace SlipStep

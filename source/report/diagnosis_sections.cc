@@ -93,12 +93,7 @@ namespace SlipStep
                                        "block − point, after"}};
       for (const ElementCheck &check : checks)
         if (!check.displacement.empty())
-          lines.push_back({check.test,
-                           percent_text(check.block_gap_before),
-                           percent_text(check.block_gap_after),
-                           percent_text(check.point_gap_before),
-                           percent_text(check.point_gap_after),
-                           percent_text(check.difference)});
+          lines.push_back(element_line(check));
       return lines.size() > 1 ? html_table(lines) : "";
     }
   } // namespace

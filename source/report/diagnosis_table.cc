@@ -122,12 +122,7 @@ namespace SlipStep
           remarks +=
             wrapped_text(check.test + ": " + check.remark, 2, terminal_width);
         else
-          lines.push_back({check.test,
-                           percent_text(check.block_gap_before),
-                           percent_text(check.block_gap_after),
-                           percent_text(check.point_gap_before),
-                           percent_text(check.point_gap_after),
-                           percent_text(check.difference)});
+          lines.push_back(element_line(check));
       return "\n" +
              (lines.size() > 1 ? text_table(lines, terminal_width) : "") +
              remarks;

@@ -393,6 +393,20 @@ namespace SlipStep
 
 
 
+  TableLine element_line(const ElementCheck &check)
+  {
+    TableLine line = {check.test};
+    for (const double gap : {check.block_gap_before,
+                             check.block_gap_after,
+                             check.point_gap_before,
+                             check.point_gap_after,
+                             check.difference})
+      line.push_back(percent_text(gap));
+    return line;
+  }
+
+
+
   std::string noise_text(const NoiseComponent &component)
   {
     std::string text = short_text(component.value, 2);

@@ -3,6 +3,7 @@
 #define slipstep_report_calibration_text_h
 
 #include <slipstep/calibration/calibration.h>
+#include <slipstep/report/text_table.h>
 
 #include <string>
 #include <vector>
@@ -42,6 +43,12 @@ namespace SlipStep
   /// "± 0.002", or "×/÷ 1.05" on a logarithmic scale.
   std::string deviation_text(const FittedParameter &fitted);
   std::string deviation_text(const DerivedQuantity &quantity);
+
+  /// @param in_full with what the terminal has no room for
+  std::vector<TableLine> derived_lines(const Calibration &calibration,
+                                       const bool         in_full);
+  std::vector<TableLine> test_lines(const Calibration &calibration,
+                                    const bool         in_full);
   ///@}
 } // namespace SlipStep
 

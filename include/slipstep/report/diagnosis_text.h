@@ -55,6 +55,10 @@ namespace SlipStep
   /// "0.041 … 0.049"; "≥ 0.041", "≤ 0.049" or "open" where it has no end.
   std::string interval_text(const DiagnosedParameter &parameter);
 
+  /// Test, gap of the block before and after, of the point before and after,
+  /// difference of block and point.
+  TableLine element_line(const ElementCheck &check);
+
   /// A component of the noise with its interval, without its name.
   std::string noise_text(const NoiseComponent &component);
   ///@}
