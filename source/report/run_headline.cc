@@ -294,15 +294,9 @@ namespace SlipStep
               std::find(speeds.begin(), speeds.end(), speed) == speeds.end())
             speeds.push_back(speed);
         }
-      if (speeds.empty())
-        return "";
-      std::string text = "The machine is too soft for steady sliding at ";
-      for (std::size_t i = 0; i < speeds.size(); ++i)
-        text += (i == 0                 ? "" :
-                 i + 1 == speeds.size() ? " and " :
-                                          ", ") +
-                speeds[i];
-      return text + ": stick-slip.";
+      return speeds.empty() ? "" :
+                              "The machine is too soft for steady sliding at " +
+                                list_text(speeds) + ": stick-slip.";
     }
 
     /// Of slides at whose end part of the contact still sticks.

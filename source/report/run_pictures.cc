@@ -9,6 +9,8 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -346,10 +348,7 @@ namespace SlipStep
     for (const PictureQuantity &quantity : picture_quantities())
       if (std::find(names.begin(), names.end(), quantity.name) == names.end())
         names.push_back(quantity.name);
-    std::string text;
-    for (const std::string &name : names)
-      text += (text.empty() ? "" : ", ") + name;
-    return text;
+    return boost::algorithm::join(names, ", ");
   }
 
 

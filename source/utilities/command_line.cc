@@ -9,6 +9,7 @@
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/version.h>
 
+#include <boost/algorithm/string/join.hpp>
 #include <boost/program_options.hpp>
 
 #include <algorithm>
@@ -216,15 +217,13 @@ namespace SlipStep
       for (const Command &command : commands())
         if (command.name == name)
           return command;
-      std::string known;
-      for (const std::string &other : command_names())
-        known += (known.empty() ? "" : ", ") + other;
       const bool is_case =
         name.size() > 4 && name.compare(name.size() - 4, 4, ".prm") == 0;
-      throw InputError("unknown command \"" + name + "\"" +
-                       (is_case ? "; did you mean slipstep run " + name + "?" :
-                                  did_you_mean(name, command_names())) +
-                       "\n  known commands: " + known);
+      throw InputError(
+        "unknown command \"" + name + "\"" +
+        (is_case ? "; did you mean slipstep run " + name + "?" :
+                   did_you_mean(name, command_names())) +
+        "\n  known commands: " + boost::algorithm::join(command_names(), ", "));
     }
 
 
@@ -431,17 +430,12 @@ namespace SlipStep
             throw InputError("slipstep " + command.name + " has no option --" +
                              name);
         }
-      if (values.count("format") == 0)
-        return;
-      std::string known;
-      for (const std::string &format : command.formats)
-        {
-          if (format == line.format)
-            return;
-          known += (known.empty() ? "" : ", ") + format;
-        }
-      throw InputError("--format " + line.format +
-                       ": allowed is one of: " + known);
+      const std::vector<std::string> &formats = command.formats;
+      if (values.count("format") > 0 &&
+          std::find(formats.begin(), formats.end(), line.format) ==
+            formats.end())
+        throw InputError("--format " + line.format + ": allowed is one of: " +
+                         boost::algorithm::join(formats, ", "));
     }
   } // namespace
 

@@ -10,6 +10,7 @@
 #include <slipstep/utilities/parameters.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/sweep.h>
+#include <slipstep/utilities/text.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 
@@ -106,11 +107,8 @@ namespace SlipStep
           if (!near.empty())
             return near;
         }
-      std::string shown;
-      for (std::size_t i = 0; i < same.size() && same.size() <= most_shown; ++i)
-        shown += (i == 0 ? "" : i + 1 == same.size() ? " or " : ", ") + same[i];
-      if (!shown.empty())
-        return shown;
+      if (!same.empty() && same.size() <= most_shown)
+        return list_text(same, "or");
 
       std::vector<std::string> siblings;
       std::string              section;
