@@ -2,6 +2,7 @@
 #include <slipstep/commands/commands.h>
 
 #include <slipstep/measured_data/import_map.h>
+#include <slipstep/measured_data/import_record.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/sweep.h>
@@ -10,6 +11,7 @@
 
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <sstream>
 
 namespace SlipStep
@@ -18,8 +20,8 @@ namespace SlipStep
   {
     namespace fs = std::filesystem;
 
-    /// A test to be converted: the map as it is for this test, and the name of
-    /// its file without extension, "" = that of the raw file.
+    /// What one map converts: the map as it is for a variant, and the name of
+    /// the test's file without extension, "" = that of the raw file.
     struct Job
     {
       Parameters  map;
@@ -53,7 +55,7 @@ namespace SlipStep
 
 
 
-    fs::path raw_file_of(const Job &job, const CommandLine &line)
+    std::vector<RawFile> raw_files_of(const Job &job, const CommandLine &line)
     {
       const std::string name = job.map.text("Raw file/Name");
       const bool        is_told =
@@ -62,18 +64,63 @@ namespace SlipStep
         throw InputError(line.files.front().string() +
                          ": the raw file is missing: set Raw file/Name, or "
                          "name it behind the map");
-      const fs::path file = is_told ? line.files[1] :
-                            line.files.size() > 1 ?
-                                      line.files[1] / with_home(name) :
-                                      job.map.resolve(name);
-      if (!fs::is_regular_file(file))
-        throw InputError((is_told ? std::string("slipstep import") :
-                                    job.map.origin("Raw file/Name")) +
-                         ": there is no file " + file.string() +
-                         (is_told ? "" :
-                                    "; name the folder of the raw files behind "
-                                    "the map"));
-      return file;
+      const fs::path pattern = line.files.size() > 1 && !is_told ?
+                                 line.files[1] / with_home(name) :
+                                 job.map.resolve(name);
+      if (is_told)
+        {
+          RawFile file{line.files[1], {}};
+          if (!fs::is_regular_file(file.file))
+            throw InputError("slipstep import: there is no file " +
+                             file.file.string());
+          if (has_wildcards(name) &&
+              !matches_pattern(file.file.filename().string(),
+                               pattern.filename().string(),
+                               file.found))
+            job.map.reject("Raw file/Name",
+                           file.file.filename().string() +
+                             " is no name of this pattern");
+          return {file};
+        }
+      if (has_wildcards(name))
+        try
+          {
+            return files_of_pattern(pattern);
+          }
+        catch (const InputError &error)
+          {
+            throw InputError(job.map.origin("Raw file/Name") + ": " +
+                             error.what() +
+                             "; name the folder of the raw files behind the "
+                             "map");
+          }
+      if (!fs::is_regular_file(pattern))
+        throw InputError(job.map.origin("Raw file/Name") +
+                         ": there is no file " + pattern.string() +
+                         "; name the folder of the raw files behind the map");
+      return {{pattern, {}}};
+    }
+
+
+
+    // Each to a file of its own.
+    void add_tests(std::vector<MeasuredTest>       &tests,
+                   std::map<fs::path, std::string> &origins,
+                   const std::vector<MeasuredTest> &more,
+                   const RawFile                   &raw,
+                   const fs::path                  &folder)
+    {
+      for (MeasuredTest test : more)
+        {
+          test.file = folder / test.file;
+          const auto [it, is_new] =
+            origins.emplace(test.file, raw.file.string());
+          if (!is_new)
+            throw InputError(test.file.string() + " would come from " +
+                             it->second + " and from " + raw.file.string() +
+                             ": give them other names (Test/File)");
+          tests.push_back(test);
+        }
     }
 
 
@@ -98,9 +145,13 @@ namespace SlipStep
         std::istringstream words(text);
         std::string        first, second;
         words >> first >> second;
-        if ((first == "subsection" &&
-             (second == "Raw" || second == "Columns")) ||
-            (first == "set" && second.rfind("Columns/", 0) == 0))
+        // Of sections and keys that no case has.
+        for (const std::string section :
+             {"Raw", "Columns", "Convention", "Correction", "Selection"})
+          if ((first == "subsection" && second == section) ||
+              (first == "set" && second.rfind(section + "/", 0) == 0))
+            return true;
+        if (first == "set" && second == "Raw")
           return true;
       }
     return false;
@@ -130,14 +181,21 @@ namespace SlipStep
                               line.files.front().parent_path() / "measured" :
                               fs::path(line.output);
 
-    std::vector<MeasuredTest> tests;
+    std::vector<MeasuredTest>       tests;
+    std::map<fs::path, std::string> origins;
     for (const Job &job : jobs)
       {
-        const fs::path raw = raw_file_of(job, line);
-        tests.push_back(import_test(job.map, raw));
-        tests.back().file =
-          folder /
-          ((job.stem.empty() ? raw.stem().string() : job.stem) + ".csv");
+        const std::vector<RawFile> raw_files = raw_files_of(job, line);
+        for (const RawFile &raw : raw_files)
+          add_tests(tests,
+                    origins,
+                    import_record(job.map,
+                                  raw,
+                                  job.stem.empty() || raw_files.size() > 1 ?
+                                    raw.file.stem().string() :
+                                    job.stem),
+                    raw,
+                    folder);
       }
     check_conditions(tests);
 

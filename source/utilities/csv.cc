@@ -109,6 +109,30 @@ namespace SlipStep
       return error == std::errc() && stop == end && !cell.empty();
     }
 
+    // Only where they part three digits each, before the decimals.
+    bool take_out_marks(const std::string_view cell,
+                        const char             mark,
+                        std::string           &plain)
+    {
+      const auto is_digit = [&](const std::size_t i) {
+        return i < cell.size() &&
+               std::isdigit(static_cast<unsigned char>(cell[i])) != 0;
+      };
+      plain.clear();
+      bool has_mark = false;
+      for (std::size_t i = 0; i < cell.size(); ++i)
+        if (cell[i] != mark)
+          plain += cell[i];
+        else if (i > 0 && is_digit(i - 1) && is_digit(i + 1) &&
+                 is_digit(i + 2) && is_digit(i + 3) && !is_digit(i + 4) &&
+                 plain.find_first_of(".,eE") == std::string::npos &&
+                 (has_mark || i <= 4))
+          has_mark = true;
+        else
+          return false;
+      return true;
+    }
+
     bool read_number_with_comma(const std::string_view cell, double &value)
     {
       std::array<char, 64> copy;
@@ -252,12 +276,60 @@ namespace SlipStep
     while (cells.next(cell))
       names.emplace_back(cell);
     n_cells = names.size();
-    if (format.has_header)
-      return;
-    next = begin;
-    comment_values.clear();
-    for (std::size_t i = 0; i < n_cells; ++i)
-      names[i] = "column " + std::to_string(i + 1);
+    if (!format.has_header)
+      {
+        next = begin;
+        comment_values.clear();
+        for (std::size_t i = 0; i < n_cells; ++i)
+          names[i] = "column " + std::to_string(i + 1);
+      }
+    unit_names.resize(n_cells);
+    if (format.units_line > 0)
+      read_units();
+  }
+
+
+
+  void CsvTable::read_units()
+  {
+    const char *const end   = text->data() + text->size();
+    const char       *begin = text->data();
+    for (std::size_t n = 1; n < format.units_line && begin != end; ++n)
+      {
+        begin = std::find(begin, end, '\n');
+        begin += begin != end;
+      }
+    std::string_view line{begin,
+                          std::size_t(std::find(begin, end, '\n') - begin)};
+    if (trim(line).empty())
+      fail(begin,
+           "line " + std::to_string(format.units_line) +
+             " is said to have the units of the columns, but it is empty");
+    next =
+      std::max(next,
+               line.data() + line.size() + (line.data() + line.size() != end));
+    if (line.front() == '#')
+      line.remove_prefix(1);
+    Cells            cells(line, format.delimiter);
+    std::string_view cell;
+    for (std::size_t i = 0; cells.next(cell); ++i)
+      {
+        double value = 0.;
+        if (read_number(cell, value) || read_number_with_comma(cell, value))
+          fail(cell.data(),
+               "line " + std::to_string(format.units_line) +
+                 " is said to have the units of the columns, but '" +
+                 std::string(cell) + "' is a number");
+        if (cell.size() > 1 && ((cell.front() == '[' && cell.back() == ']') ||
+                                (cell.front() == '(' && cell.back() == ')')))
+          cell = trim(cell.substr(1, cell.size() - 2));
+        if (i < n_cells)
+          unit_names[i] = cell == "-" ? "" : std::string(cell);
+        else if (!cell.empty())
+          fail(cell.data(),
+               "the line of units has more cells than the header, which has " +
+                 std::to_string(n_cells));
+      }
   }
 
 
@@ -338,6 +410,31 @@ namespace SlipStep
 
 
 
+  // What a map of an import can say of it.
+  std::string CsvTable::why_no_number(const std::string_view cell) const
+  {
+    std::string plain;
+    double      value = 0.;
+    for (const char mark : {'.', ',', ' ', '\''})
+      if (mark != format.thousands_mark && mark != format.decimal_mark &&
+          cell.find(mark) != std::string_view::npos &&
+          take_out_marks(cell, mark, plain) &&
+          (read_number(plain, value) || read_number_with_comma(plain, value)))
+        return std::string("; if '") + mark +
+               "' parts thousands, a map of slipstep import says so: Raw "
+               "file/Thousands mark";
+    const bool has_letter =
+      std::any_of(cell.begin(), cell.end(), [](const char c) {
+        return std::isalpha(static_cast<unsigned char>(c)) != 0;
+      });
+    if (begin_of_row.size() == 1 && has_letter && format.units_line == 0)
+      return "; if this line has the units, a map of slipstep import says so: "
+             "Raw file/Units line";
+    return "";
+  }
+
+
+
   double CsvTable::read_cell(const std::string_view cell,
                              const std::size_t      column) const
   {
@@ -346,10 +443,17 @@ namespace SlipStep
     if (format.may_have_gaps && is_gap(cell))
       return std::numeric_limits<double>::quiet_NaN();
 
+    std::string_view number = cell;
+    std::string      plain;
+    if (format.thousands_mark != '\0')
+      number = take_out_marks(cell, format.thousands_mark, plain) ?
+                 std::string_view(plain) :
+                 std::string_view();
+
     const char *other = nullptr;
-    if (read_number(cell, value))
+    if (read_number(number, value))
       {
-        if (cell.find('.') != std::string_view::npos)
+        if (number.find('.') != std::string_view::npos)
           {
             other = format.decimal_mark == ',' ? cell.data() : first_comma;
             if (first_point == nullptr)
@@ -357,8 +461,8 @@ namespace SlipStep
           }
       }
     else if (format.delimiter != ',' && format.decimal_mark != '.' &&
-             cell.find(',') != std::string_view::npos &&
-             read_number_with_comma(cell, value))
+             number.find(',') != std::string_view::npos &&
+             read_number_with_comma(number, value))
       {
         other = first_point;
         if (first_comma == nullptr)
@@ -368,7 +472,8 @@ namespace SlipStep
       fail(cell.data(),
            cell.empty() ?
              "the value of " + columns[column].name + " is missing" :
-             "'" + std::string(cell) + "' is not a number (" + name + ")");
+             "'" + std::string(cell) + "' is not a number (" + name + ")" +
+               why_no_number(cell));
     if (other != nullptr)
       fail(cell.data(),
            "'" + std::string(cell) +
@@ -378,9 +483,23 @@ namespace SlipStep
 
 
 
+  std::string CsvTable::name() const
+  {
+    return file.string();
+  }
+
+
+
   const std::vector<std::string> &CsvTable::header() const
   {
     return names;
+  }
+
+
+
+  const std::vector<std::string> &CsvTable::units() const
+  {
+    return unit_names;
   }
 
 

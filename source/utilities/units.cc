@@ -176,6 +176,27 @@ namespace SlipStep
         for (std::size_t at = unit.find(written); at != std::string::npos;
              at             = unit.find(written))
           unit.replace(at, written.size(), plain);
+      const std::vector<std::pair<std::string, std::string>> words = {
+        {"sec", "s"},
+        {"secs", "s"},
+        {"second", "s"},
+        {"seconds", "s"},
+        {"msec", "ms"},
+        {"minutes", "min"},
+        {"hours", "h"},
+        {"micron", "um"},
+        {"microns", "um"},
+        {"micrometer", "um"},
+        {"Newton", "N"},
+        {"newton", "N"},
+        {"N/mm2", "N/mm^2"},
+        {"mm2", "mm^2"},
+        {"Celsius", "degC"},
+        {"deg C", "degC"},
+        {"deg. C", "degC"}};
+      for (const auto &[written, plain] : words)
+        if (unit == written)
+          return plain;
       return unit;
     }
 

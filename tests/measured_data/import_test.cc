@@ -3,12 +3,14 @@
 // Files of instruments, converted by a map.
 
 #include <slipstep/measured_data/import_map.h>
+#include <slipstep/measured_data/import_record.h>
 #include <slipstep/measured_data/test_set.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -36,6 +38,13 @@ namespace
     for (const auto &[path, value] : settings)
       map.set(path, value, "--set");
     return map;
+  }
+
+  MeasuredTest import_test(const Parameters &map, const fs::path &raw)
+  {
+    const auto tests = import_record(map, {raw, {}}, raw.stem().string());
+    EXPECT_EQ(tests.size(), 1u);
+    return tests.front();
   }
 
   std::string message(const Parameters &map, const fs::path &raw)
@@ -196,6 +205,333 @@ TEST(Import, LongRecordsCanBeResampled)
   EXPECT_LE(test.time.size(), 20u);
   EXPECT_EQ(*std::max_element(test.friction.begin(), test.friction.end()), 0.2);
   EXPECT_TRUE(contains(test.notes.at("resampled"), "of 1000 rows"));
+}
+
+
+
+namespace
+{
+  std::vector<MeasuredTest>
+  parts(const std::vector<std::pair<std::string, std::string>> &settings,
+        const fs::path                                         &raw)
+  {
+    return import_record(map_of(settings), {raw, {}}, raw.stem().string());
+  }
+
+  void expect_refused(const std::vector<std::pair<std::string, std::string>> &s,
+                      const fs::path    &raw,
+                      const std::string &words)
+  {
+    const std::string text = message(map_of(s), raw);
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+    EXPECT_EQ(text.find("column1"), std::string::npos) << text;
+  }
+
+  // Triangular strokes of 1 mm in 10 s with a rest of 2 s at every end; a force
+  // of 2 N against the motion, and a sensor with a zero and a drift.
+  fs::path strokes(const std::string &name,
+                   const double       zero,
+                   const double       drift,
+                   const int          n_strokes = 6)
+  {
+    std::string text = "t [s];x [mm];F [N]\n";
+    for (int i = 0; i <= 120 * n_strokes; ++i)
+      {
+        const double t     = 0.1 * i;
+        const int    n     = i / 120;
+        const double along = std::min(1., (i % 120) / 100.);
+        const double x     = n % 2 == 0 ? along : 1. - along;
+        text += std::to_string(t) + ';' + std::to_string(x) + ';' +
+                std::to_string((n % 2 == 0 ? 2. : -2.) + zero +
+                               drift * (t - 6. * n_strokes)) +
+                '\n';
+      }
+    return write(name, text);
+  }
+
+  const std::vector<std::pair<std::string, std::string>> of_strokes = {
+    {"Columns/Time", "t [s]"},
+    {"Columns/Displacement", "x [mm]"},
+    {"Columns/Tangential load", "F [N]"},
+    {"Constants/Normal load", "10 N"},
+    {"Constants/Area", "4 mm^2"}};
+
+  std::vector<std::pair<std::string, std::string>>
+  and_also(std::vector<std::pair<std::string, std::string>>        settings,
+           const std::vector<std::pair<std::string, std::string>> &more)
+  {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+} // namespace
+
+
+
+// A seal takes its part of the force: F - 20 mm^2 p, with 10 bar = 1 MPa.
+TEST(Import, ColumnsCanBeFormulas)
+{
+  const auto raw = write("raw.csv",
+                         "t,x (um),F [kN],p,N,U\n"
+                         "0,0,0.02,10,100,1\n1,500,0.03,10,100,2\n"
+                         "2,1000,0.04,20,,3\n3,1500,0.04,20,100,3\n");
+  const auto test =
+    import_test(map_of(
+                  {{"Columns/Time", "60*{t in min} in s"},
+                   {"Columns/Displacement", "{x (um)}"},
+                   {"Columns/Friction", "({F [kN]} - 20*{p in bar})/{N in N}"},
+                   {"Columns/Pressure", "{p in bar} + 0.5 in MPa"},
+                   {"Columns/Temperature", "20 + 10*{U as recorded} in degC"}}),
+                raw);
+  EXPECT_EQ(test.time, std::vector<double>({0., 3600., 10800.}));
+  EXPECT_EQ(test.displacement, std::vector<double>({0., 0.5, 1.5}));
+  EXPECT_EQ(test.pressure, std::vector<double>({1.5, 1.5, 2.5}));
+  ASSERT_EQ(test.friction.size(), 3u);
+  EXPECT_NEAR(test.friction[0], 0., 1e-15);
+  EXPECT_NEAR(test.friction[1], 0.1, 1e-15);
+  EXPECT_NEAR(test.friction[2], 0., 1e-15);
+  EXPECT_EQ(test.temperature, std::vector<double>({30., 40., 50.}));
+}
+
+
+
+TEST(Import, MistakesInFormulasAreNamed)
+{
+  const auto raw  = write("raw.csv", "t,x,F,N\n0,0,0,1\n1,1,0.1,1\n");
+  const auto with = [](const std::string &formula) {
+    return simple_with("Columns/Friction", formula);
+  };
+  EXPECT_EQ(message(map_of(with("{F in N}/{N in N}")), raw), "");
+  expect_refused(with("{F}/{N in N}"), raw, "the unit is missing");
+  expect_refused(with("{F in V}/{N in N}"), raw, "as recorded");
+  expect_refused(with("{G in N}/{N in N}"), raw, "has no column 'G'");
+  expect_refused(with("{F in N}/{N in N"), raw, "a } is missing");
+  expect_refused(with("{F in N}/N"), raw, "columns stand in braces");
+  expect_refused(with("0,5*{F in N}"), raw, "separates nothing");
+  expect_refused(with("{F in N}*({N in N}"), raw, "columns stand in braces");
+  expect_refused(with("{F in N} in N"), raw, "a plain number has no unit");
+  expect_refused(with("{F in N}/0"), raw, "not finite");
+}
+
+
+
+TEST(Import, UnitsHaveALineAndThousandsAMark)
+{
+  const auto raw = write("raw.txt",
+                         "Messung 7\n"
+                         "Zeit;Weg;Kraft;Last\n"
+                         "[s];[\xC2\xB5m];N;kN\n"
+                         "0,0;0;0;1,5\n"
+                         "0,5;1.000,5;150;1,5\n"
+                         "1,0;2.001,0;1.500,00;1,5\n");
+  auto       map = std::vector<std::pair<std::string, std::string>>{
+          {"Raw file/Header line", "2"},
+          {"Raw file/Units line", "3"},
+          {"Raw file/Thousands mark", "point"},
+          {"Columns/Time", "Zeit"},
+          {"Columns/Displacement", "Weg"},
+          {"Columns/Tangential load", "Kraft"},
+          {"Columns/Normal load", "Last"},
+          {"Constants/Area", "1 cm^2"}};
+  const auto test = import_test(map_of(map), raw);
+  EXPECT_EQ(test.displacement, std::vector<double>({0., 1.0005, 2.001}));
+  EXPECT_EQ(test.friction, std::vector<double>({0., 0.1, 1.}));
+  EXPECT_EQ(test.notes.at("area"), "100 mm^2");
+  map[2].second = "none";
+  expect_refused(map, raw, "raw.txt:5:5: '1.000,5' is not a number");
+  expect_refused(map, raw, "Raw file/Thousands mark");
+  map[1].second = "4";
+  expect_refused(map, raw, "'0,0' is a number");
+  map[1].second = "9";
+  expect_refused(map, raw, "it is empty");
+  map[1].second = "2";
+  expect_refused(map, raw, "this is the header line");
+  map[1].second = "0";
+  expect_refused(map, raw, "the unit is missing");
+  for (auto &setting : map)
+    if (setting.first == "Columns/Time")
+      setting.second = "Zeit in s";
+    else if (setting.first == "Columns/Displacement")
+      setting.second = "Weg in um";
+    else if (setting.first == "Columns/Tangential load")
+      setting.second = "Kraft in N";
+    else if (setting.first == "Columns/Normal load")
+      setting.second = "Last in kN";
+  expect_refused(map, raw, "Raw file/Units line");
+}
+
+
+
+TEST(Import, RecordsAreCutAtReversalsAndCycles)
+{
+  const auto raw     = strokes("a.csv", 0., 0.);
+  const auto strokes = parts(and_also(of_strokes,
+                                      {{"Selection/Cut", "at reversals"},
+                                       {"Test/Condition", "10 N, {way}"}}),
+                             raw);
+  ASSERT_EQ(strokes.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i)
+    {
+      EXPECT_EQ(strokes[i].condition,
+                i % 2 == 0 ? "10 N, forth" : "10 N, back");
+      EXPECT_EQ(strokes[i].file.string(),
+                "a_part_" + std::to_string(i + 1) + ".csv");
+      EXPECT_EQ(strokes[i].time.front(), 0.);
+      EXPECT_NEAR(strokes[i].time.back(), i == 0 ? 9.9 : 12., 2.01) << i;
+    }
+  EXPECT_EQ(strokes[2].name, "a, part 3");
+  EXPECT_NE(strokes[2].notes.at("part").find("3 of 6"), std::string::npos);
+
+  const auto cycles = parts(and_also(of_strokes,
+                                     {{"Selection/Cut", "every 2 cycles"},
+                                      {"Selection/Row step", "4"}}),
+                            raw);
+  ASSERT_EQ(cycles.size(), 1u);
+  EXPECT_NEAR(cycles[0].time.back(), 48., 0.41);
+  EXPECT_NEAR(cycles[0].time[1], 0.4, 1e-12);
+}
+
+
+
+TEST(Import, RecordsAreCutAtHoldsAndTimes)
+{
+  const auto raw    = strokes("a.csv", 0., 0.);
+  const auto cut_at = [&](const std::string &cut, const std::string &chosen) {
+    return parts(and_also(of_strokes,
+                          {{"Selection/Cut", cut},
+                           {"Selection/Parts", chosen},
+                           {"Convention/Start from zero", "false"}}),
+                 raw);
+  };
+  // Rests from 10 to 12 s and so on: the last one ends the record.
+  const auto at = cut_at("at holds of 1.9 s", "all");
+  ASSERT_EQ(at.size(), 7u);
+  EXPECT_NEAR(at[1].time.front(), 10., 0.11);
+  EXPECT_NEAR(at[2].time.front(), 22., 0.11);
+  const auto after = cut_at("after holds of 1.9 s", "2 to 3, 5");
+  ASSERT_EQ(after.size(), 3u);
+  EXPECT_NEAR(after[0].time.front(), 12., 0.11);
+  EXPECT_NEAR(after[1].time.front(), 24., 0.11);
+  EXPECT_NEAR(after[2].time.front(), 48., 0.11);
+  const auto timed = cut_at("at 20 s, 0.5 min", "all");
+  ASSERT_EQ(timed.size(), 3u);
+  EXPECT_EQ(timed[1].time.front(), 20.);
+  EXPECT_EQ(timed[2].time.front(), 30.);
+
+  const auto refused = [&](const std::string &cut,
+                           const std::string &chosen,
+                           const std::string &words) {
+    expect_refused(and_also(of_strokes,
+                            {{"Selection/Cut", cut},
+                             {"Selection/Parts", chosen}}),
+                   raw,
+                   words);
+  };
+  refused("at holds of 3 s", "all", "no rest of 3 s");
+  refused("at holds of 3", "all", "unit is missing");
+  refused("every 9 cycles", "all", "turns 5 times only");
+  refused("every two cycles", "all", "allowed: none, at reversals");
+  refused("sometimes", "all", "allowed: none, at reversals");
+  refused("at 100 s", "all", "outside of the record");
+  refused("at 30 s, 20 s", "all", "must increase");
+  refused("at reversals", "7", "6 parts only");
+  refused("at reversals", "2, 1 to 3", "named twice");
+  refused("at reversals", "two", "write numbers of parts");
+}
+
+
+
+// The closed form: what was added comes off again.
+TEST(Import, ZeroAndDriftOfASensorAreTakenOff)
+{
+  const double zero = 0.37, drift = 0.004;
+  const auto   raw = strokes("a.csv", zero, drift);
+  const auto   test =
+    import_test(map_of(and_also(of_strokes,
+                                {{"Correction/Zero", "mean of strokes"},
+                                 {"Correction/Drift", "linear"}})),
+                raw);
+  for (std::size_t i = 0; i < test.friction.size(); ++i)
+    EXPECT_NEAR(std::abs(test.friction[i]), 0.2, 2e-5) << i;
+  EXPECT_NE(test.notes.at("corrected").find("drift of 0.004"),
+            std::string::npos)
+    << test.notes.at("corrected");
+  EXPECT_NE(test.notes.at("corrected").find("less 0.37"), std::string::npos)
+    << test.notes.at("corrected");
+
+  const auto first =
+    import_test(map_of(and_also(
+                  of_strokes, {{"Correction/Zero", "mean of the first 0 s"}})),
+                strokes("b.csv", 1., 0.));
+  EXPECT_NEAR(first.friction[0], 0., 1e-12);
+  EXPECT_NEAR(first.friction[130], -0.4, 1e-12);
+
+  const auto with = [&](const std::string &key, const std::string &value) {
+    return and_also(of_strokes, {{"Correction/" + key, value}});
+  };
+  expect_refused(with("Zero", "0.3"), raw, "mean of strokes");
+  expect_refused(with("Zero", "mean of the first 2"), raw, "unit is missing");
+  expect_refused(with("Drift", "quadratic"), raw, "allowed: none, linear");
+  expect_refused(with("Zero", "mean of strokes"),
+                 strokes("c.csv", 1., 0., 1),
+                 "strokes both ways");
+}
+
+
+
+TEST(Import, WhatIsAssumedIsSaid)
+{
+  auto settings = of_strokes;
+  for (auto &setting : settings)
+    if (setting.first == "Constants/Normal load")
+      setting.second = "10 N assumed";
+  const auto test = import_test(map_of(settings), strokes("a.csv", 0., 0.));
+  EXPECT_EQ(test.notes.at("assumed"), "Normal load = 10 N");
+  EXPECT_EQ(test.friction[5], 0.2);
+}
+
+
+
+TEST(Import, WildcardsTellConditions)
+{
+  std::map<std::string, std::string> found;
+  EXPECT_TRUE(matches_pattern("PPS_100N_1.tsv", "*_*N_?.tsv", found));
+  EXPECT_EQ(found,
+            (std::map<std::string, std::string>{{"1", "PPS"},
+                                                {"2", "100"},
+                                                {"3", "1"}}));
+  found.clear();
+  EXPECT_TRUE(
+    matches_pattern("PPS+30PTFE_60N_200RPM_2.tsv", "*_*N*_?.tsv", found));
+  EXPECT_EQ(found.at("3"), "_200RPM");
+  EXPECT_FALSE(matches_pattern("PPS_100N_1.txt", "*_*N_?.tsv", found));
+
+  fs::create_directory(test_folder() / "runs");
+  for (const std::string name : {"dry_5N_b", "wet_7N_a", "dry_5N_a"})
+    write("runs/" + name + ".txt", "t,x,F\n0,0,0\n1,1,1\n");
+  write("runs/notes.md", "");
+  const auto files = files_of_pattern(test_folder() / "runs" / "*_*N_?.txt");
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_EQ(files[0].file.filename(), "dry_5N_a.txt");
+  const auto map  = map_of({{"Columns/Time", "t in s"},
+                            {"Columns/Displacement", "x in mm"},
+                            {"Columns/Tangential load", "F in N"},
+                            {"Constants/Normal load", "{2} N"},
+                            {"Constants/Area", "1 mm^2"},
+                            {"Test/Name", "{1}, run {3}"},
+                            {"Test/File", "{1} {3}"},
+                            {"Test/Condition", "{1}, {2} N"}});
+  const auto test = import_record(map, files[2], "").front();
+  EXPECT_EQ(test.name, "wet, run a");
+  EXPECT_EQ(test.condition, "wet, 7 N");
+  EXPECT_EQ(test.file, "wet_a.csv");
+  EXPECT_EQ(test.friction[1], 1. / 7.);
+
+  EXPECT_THROW(files_of_pattern(test_folder() / "runs" / "*.dat"), InputError);
+  EXPECT_THROW(files_of_pattern(test_folder() / "r*" / "*.txt"), InputError);
+  auto wrong = map_of(simple_with("Test/Condition", "{4}"));
+  EXPECT_NE(message(wrong, write("raw.csv", "t,x,mu\n0,0,0\n1,1,0.1\n"))
+              .find("nothing is known as {4}"),
+            std::string::npos);
 }
 
 

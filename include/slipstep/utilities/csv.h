@@ -34,6 +34,13 @@ namespace SlipStep
     /// Without one, columns have numbers only and rows begin at header_line.
     bool has_header = true;
 
+    /// Line with the units of the columns, counted from 1; rows begin below it
+    /// and below the header. 0: none.
+    std::size_t units_line = 0;
+
+    /// Between groups of three digits, as in 1.234,5; 0: nothing is.
+    char thousands_mark = '\0';
+
     /// Whether an empty cell (or NaN, NA, n/a, null, none, -, --) is read as a
     /// quiet NaN instead of being refused.
     bool may_have_gaps = false;
@@ -64,10 +71,18 @@ namespace SlipStep
     ///   that it is to have here
     void read(const std::map<std::string, std::size_t> &columns);
 
+    /// Of the file.
+    std::string name() const;
+
     /// The names in the header line.
     const std::vector<std::string> &header() const;
 
-    /// The same for a message: printable, and no longer than that.
+    /// What the line of units has for each column, without brackets; "" where
+    /// there is none.
+    const std::vector<std::string> &units() const;
+
+    /// The names in the header for a message: printable, and no longer than
+    /// that.
     std::string header_words() const;
 
     /// What the `# key: value` comments say, keys in lower case.
@@ -99,6 +114,8 @@ namespace SlipStep
 
     void read_header();
 
+    void read_units();
+
     void choose_delimiter(const std::string_view line);
 
     void read_row(const std::string_view line);
@@ -107,6 +124,8 @@ namespace SlipStep
 
     double read_cell(const std::string_view cell,
                      const std::size_t      column) const;
+
+    std::string why_no_number(const std::string_view cell) const;
 
     /// Find the next line from @p next on that is neither blank nor a comment.
     bool next_line(std::string_view &line);
@@ -125,6 +144,7 @@ namespace SlipStep
 
     std::map<std::string, std::string> comment_values;
     std::vector<std::string>           names;
+    std::vector<std::string>           unit_names;
     std::string_view                   header_text;
     std::size_t                        n_cells = 0;
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef slipstep_measured_data_raw_files_h
+#define slipstep_measured_data_raw_files_h
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// A raw file, and what the wildcards of its pattern stood for: "1", "2", ...
+  struct RawFile
+  {
+    std::filesystem::path              file;
+    std::map<std::string, std::string> found;
+  };
+
+  /// Whether a name has wildcards.
+  bool has_wildcards(const std::string &name);
+
+  /// Whether @p name has this pattern: * stands for any letters, as few as will
+  /// do, ? for one.
+  /// @param found what each wildcard stands for
+  bool matches_pattern(const std::string                  &name,
+                       const std::string                  &pattern,
+                       std::map<std::string, std::string> &found);
+
+  /// The files of a pattern, in the order of their names. Wildcards are in the
+  /// name, not in the folder.
+  /// @throws InputError if there is none
+  std::vector<RawFile> files_of_pattern(const std::filesystem::path &pattern);
+
+  /// The text with values in place of {names}.
+  /// @throws InputError for a name that is not there, listing those that are
+  std::string filled_in(const std::string                        &text,
+                        const std::map<std::string, std::string> &values);
+} // namespace SlipStep
+
+#endif

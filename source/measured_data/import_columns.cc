@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/utilities.h>
+
+#include <slipstep/measured_data/import_columns.h>
+#include <slipstep/measured_data/measured_test.h>
+
+#include <cmath>
+#include <limits>
+
+namespace SlipStep
+{
+  const std::vector<ColumnKey> &column_keys()
+  {
+    using D                                 = Dimension;
+    static const std::vector<ColumnKey> all = {
+      {"Time", D::time, "Time."},
+      {"Displacement", D::length, "Displacement, or distance slid."},
+      {"Pressure", D::stress, "Nominal pressure."},
+      {"Normal load", D::force, "Normal load, instead of the pressure."},
+      {"Friction", D::number, "Coefficient of friction."},
+      {"Tangential load",
+       D::force,
+       "Tangential load, instead of the coefficient."},
+      {"Displacement y", D::length, "The same along the second axis."},
+      {"Friction y", D::number, "The same along the second axis."},
+      {"Tangential load y", D::force, "The same along the second axis."},
+      {"Temperature", D::temperature, "Temperature, optional."}};
+    return all;
+  }
+
+
+
+  std::optional<Dimension> dimension_of_unit(const std::string &unit)
+  {
+    for (const Dimension dimension : {Dimension::length,
+                                      Dimension::time,
+                                      Dimension::speed,
+                                      Dimension::stress,
+                                      Dimension::force,
+                                      Dimension::area,
+                                      Dimension::temperature})
+      try
+        {
+          unit_conversion(unit, dimension);
+          return dimension;
+        }
+      catch (const InputError &)
+        {
+          // It is one of the others, or none.
+        }
+    return {};
+  }
+
+
+
+  ImportColumns::ImportColumns(const Parameters &map, CsvTable &table)
+    : map(map)
+    , table(table)
+  {
+    for (const ColumnKey &key : column_keys())
+      {
+        const std::string path = "Columns/" + key.name;
+        const std::string text = map.text(path);
+        if (text.empty())
+          continue;
+        if (text.find('{') != std::string::npos)
+          recipes[key.name] = read_formula(key);
+        else
+          {
+            Recipe recipe;
+            recipe.sources          = {find_source(path, text, key.dimension)};
+            recipe.sources[0].label = key.name;
+            recipes[key.name]       = recipe;
+          }
+      }
+  }
+
+
+
+  // "column 3", or a name in the header.
+  std::size_t ImportColumns::find_column(const std::string &path,
+                                         const std::string &name) const
+  {
+    const std::vector<std::string> &header = table.header();
+    if (name.rfind("column ", 0) == 0 &&
+        name.find_first_not_of("0123456789", 7) == std::string::npos)
+      {
+        const std::size_t number = std::atol(name.c_str() + 7);
+        if (number < 1 || number > header.size())
+          map.reject(path,
+                     table.name() + " has " + std::to_string(header.size()) +
+                       " columns");
+        return number - 1;
+      }
+    std::size_t position = header.size();
+    for (std::size_t i = 0; i < header.size(); ++i)
+      {
+        if (header[i] != name)
+          continue;
+        if (position < header.size())
+          map.reject(path,
+                     table.name() + " has two columns '" + name +
+                       "': choose by number, 'column " +
+                       std::to_string(position + 1) + "' or 'column " +
+                       std::to_string(i + 1) + "'");
+        position = i;
+      }
+    if (position == header.size())
+      map.reject(path,
+                 table.name() + " has no column '" + name + "'" +
+                   did_you_mean(name, header) +
+                   " (it has: " + table.header_words() + ")");
+    return position;
+  }
+
+
+
+  // Read "NAME in UNIT". Without a dimension any unit will do, or none if the
+  // map says so.
+  ImportColumns::Source
+  ImportColumns::find_source(const std::string             &path,
+                             const std::string             &text,
+                             const std::optional<Dimension> dimension) const
+  {
+    const std::string bare = " as recorded";
+    std::size_t       in   = text.rfind(" in ");
+    const bool        is_bare =
+      !dimension.has_value() && text.size() > bare.size() &&
+      text.compare(text.size() - bare.size(), bare.size(), bare) == 0;
+    if (is_bare)
+      in = text.size() - bare.size();
+    std::string name = text.substr(0, in);
+    std::string unit =
+      in == std::string::npos || is_bare ? "" : text.substr(in + 4);
+    for (const std::string &heading : table.header())
+      if (heading == text) // "Stroke in mm" is its name
+        name = text;
+    Source source{"", find_column(path, name), {}};
+    if (is_bare || dimension == Dimension::number)
+      return source;
+    if (unit.empty())
+      unit = table.units()[source.position];
+    if (unit.empty())
+      unit = split_heading(table.header()[source.position]).unit;
+    const std::string remedy =
+      dimension.has_value() ?
+        "'" + name + " in " + base_unit(*dimension) + "', or whatever it is" :
+        "{" + name + " in N}, or whatever it is; {" + name +
+          " as recorded} is the bare number";
+    if (unit.empty())
+      map.reject(path, "the unit is missing: write " + remedy);
+    const std::optional<Dimension> wanted =
+      dimension.has_value() ? dimension : dimension_of_unit(unit);
+    if (!wanted.has_value())
+      map.reject(path,
+                 "\"" + unit + "\" is no unit that this program knows; {" +
+                   name + " as recorded} is the bare number");
+    try
+      {
+        source.conversion = unit_conversion(unit, *wanted);
+      }
+    catch (const InputError &error)
+      {
+        map.reject(path, error.what());
+      }
+    return source;
+  }
+
+
+
+  ImportColumns::Recipe ImportColumns::read_formula(const ColumnKey &key) const
+  {
+    const std::string path = "Columns/" + key.name;
+    std::string       text = map.text(path);
+    Recipe            recipe;
+
+    if (text.rfind('{') > text.rfind('}') ||
+        text.find('}') == std::string::npos)
+      map.reject(path, "a } is missing");
+    // "... in kN": behind the last column, for their names may have the word.
+    const std::size_t in = text.rfind(" in ");
+    if (in != std::string::npos && text.find('}', in) == std::string::npos)
+      {
+        const std::string unit = dealii::Utilities::trim(text.substr(in + 4));
+        text.resize(in);
+        try
+          {
+            recipe.conversion = unit_conversion(unit, key.dimension);
+          }
+        catch (const InputError &error)
+          {
+            map.reject(path, error.what());
+          }
+      }
+
+    std::string              plain;
+    std::vector<std::string> variables;
+    for (std::size_t at = 0; at < text.size();)
+      {
+        const std::size_t open = text.find('{', at);
+        plain += text.substr(at, open - at);
+        if (open == std::string::npos)
+          break;
+        const std::size_t close = text.find('}', open);
+        const std::string inside =
+          dealii::Utilities::trim(text.substr(open + 1, close - open - 1));
+        Source source = find_source(path, inside, {});
+        source.label  = key.name + ": " + inside;
+        std::size_t i = 0;
+        while (i < recipe.sources.size() &&
+               recipe.sources[i].label != source.label)
+          ++i;
+        if (i == recipe.sources.size())
+          {
+            recipe.sources.push_back(source);
+            variables.push_back("column" + std::to_string(i + 1));
+          }
+        plain += variables[i];
+        at = close + 1;
+      }
+    try
+      {
+        // First as it is written, for a mark at the right place.
+        check_formula(text);
+        recipe.formula.emplace(plain, variables);
+      }
+    catch (const InputError &error)
+      {
+        map.reject(path,
+                   std::string(error.what()) +
+                     "; columns stand in braces, {NAME in UNIT}, and count in "
+                     "mm, s, N, MPa, degC");
+      }
+    return recipe;
+  }
+
+
+
+  void ImportColumns::read()
+  {
+    std::map<std::string, std::size_t> positions;
+    for (const auto &recipe : recipes)
+      for (const Source &source : recipe.second.sources)
+        positions[source.label] = source.position;
+    table.read(positions);
+  }
+
+
+
+  bool ImportColumns::has(const std::string &key) const
+  {
+    return recipes.count(key) > 0;
+  }
+
+
+
+  std::vector<double> ImportColumns::values(const std::string &key) const
+  {
+    const Recipe       &recipe = recipes.at(key);
+    std::vector<double> result(table.size());
+    std::vector<double> arguments(recipe.sources.size());
+
+    std::vector<const std::vector<double> *> columns;
+    for (const Source &source : recipe.sources)
+      columns.push_back(&table[source.label]);
+    for (std::size_t row = 0; row < result.size(); ++row)
+      {
+        bool has_gap = false;
+        for (std::size_t i = 0; i < columns.size(); ++i)
+          {
+            arguments[i] = recipe.sources[i].conversion((*columns[i])[row]);
+            has_gap      = has_gap || std::isnan(arguments[i]);
+          }
+        result[row] = has_gap ?
+                        std::numeric_limits<double>::quiet_NaN() :
+                      recipe.formula.has_value() ?
+                        recipe.conversion((*recipe.formula)(arguments)) :
+                        arguments[0];
+      }
+    return result;
+  }
+
+
+
+  void ImportColumns::reject(const std::size_t  row,
+                             const std::string &key,
+                             const std::string &why) const
+  {
+    const auto recipe = recipes.find(key);
+    table.reject(row,
+                 recipe == recipes.end() ? key :
+                                           recipe->second.sources[0].label,
+                 why);
+  }
+} // namespace SlipStep
