@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/commands/commands.h>
+#include <slipstep/commands/outcome.h>
+#include <slipstep/commands/results_folder.h>
 
 #include <slipstep/measured_data/import_map.h>
+#include <slipstep/measured_data/import_proposal.h>
 #include <slipstep/measured_data/import_record.h>
 #include <slipstep/measured_data/test_set.h>
+#include <slipstep/report/import_report.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/sweep.h>
 #include <slipstep/utilities/home_folder.h>
 #include <slipstep/utilities/text.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <fstream>
 #include <iostream>
@@ -132,6 +137,74 @@ namespace SlipStep
       if (error || !fs::is_directory(folder))
         throw InputError(folder.string() + ": this folder cannot be created");
     }
+    // What the map makes of the file, or why it makes nothing of it.
+    std::vector<MeasuredTest> tests_of(const ImportProposal &proposal,
+                                       std::string          &problem)
+    {
+      if (!proposal.is_complete())
+        return {};
+      try
+        {
+          return import_record(proposal.map(),
+                               {proposal.file, {}},
+                               proposal.file.stem().string());
+        }
+      catch (const InputError &error)
+        {
+          problem = error.what();
+          return {};
+        }
+    }
+
+
+
+    // A record without a map: look at it, and write one.
+    int propose_map(const CommandLine &line)
+    {
+      const fs::path file = line.files.front();
+      if (fs::is_directory(file))
+        throw InputError(file.string() +
+                         ": this is a folder; name one record of it to get a "
+                         "map, which may then have wildcards");
+      if (line.files.size() > 1 || !line.settings.empty() ||
+          !line.variant.empty())
+        throw InputError("slipstep import: " + file.string() +
+                         " is no map (.prm), so it is looked at alone");
+      const fs::path map =
+        file.parent_path() / (file.stem().string() + "_map.prm");
+      if (fs::exists(map))
+        throw InputError(map.string() +
+                         ": this map is there already; go on with slipstep "
+                         "import " +
+                         map.string() + ", or remove it");
+      const fs::path output = line.output.empty() ?
+                                fs::path("output") / file.stem() / "import" :
+                                fs::path(line.output);
+      check_output_folder(output, "--output");
+
+      const ImportProposal proposal = propose_import(file);
+      std::string          problem;
+      const auto           tests = tests_of(proposal, problem);
+      const ResultsFolder  results(output, line.command);
+      remove_earlier_results(output);
+      write_file(map, proposal.text());
+      print_warnings(
+        write_import_report(output, proposal, map, tests, problem));
+      if (!problem.empty())
+        print_warnings({"the map does not convert the record yet: " + problem});
+      if (!line.quiet)
+        {
+          std::cout << import_table(proposal);
+          for (const MeasuredTest &test : tests)
+            std::cout << describe(test) << '\n';
+          std::cout << "Map: " << map.string()
+                    << (proposal.is_complete() ? " (look through it)" :
+                                                 " (incomplete: see 'open')")
+                    << "\nReport: " << (output / "report.html").string()
+                    << std::endl;
+        }
+      return done;
+    }
   } // namespace
 
 
@@ -161,16 +234,22 @@ namespace SlipStep
 
   void check_import_map(const fs::path &file, const CommandLine &line)
   {
-    const std::size_t n_tests = read_jobs(file, line).size();
+    const std::vector<Job> jobs = read_jobs(file, line);
+    const std::string      name = jobs.front().map.text("Raw file/Name");
     if (!line.quiet)
       std::cout << file.string() << ": OK, a map for slipstep import, "
-                << counted(n_tests, "test") << std::endl;
+                << (jobs.size() == 1 && has_wildcards(name) ?
+                      "all " + name :
+                      counted(jobs.size(), "test"))
+                << std::endl;
   }
 
 
 
   int import_tests(const CommandLine &line)
   {
+    if (line.files.front().extension() != ".prm")
+      return propose_map(line);
     const std::vector<Job> jobs = read_jobs(line.files.front(), line);
     if (jobs.size() > 1 && line.files.size() > 1 &&
         !fs::is_directory(line.files[1]))

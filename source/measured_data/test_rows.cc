@@ -34,6 +34,31 @@ namespace SlipStep
       return filled;
     }
 
+    /// Of friction along a path [mm].
+    struct Work
+    {
+      double done     = 0.; ///< against the motion
+      double possible = 0.; ///< the same without signs
+    };
+
+    void add_work(const std::vector<double> &displacement,
+                  const std::vector<double> &friction,
+                  Work                      &work)
+    {
+      if (displacement.empty() || friction.empty())
+        return;
+      // Measured positions tremble, and the tremble knows no direction.
+      const std::vector<double> smooth =
+        without_jitter(displacement, 0.005 * range_of(displacement));
+      for (std::size_t i = 1; i < friction.size(); ++i)
+        {
+          const double done =
+            0.5 * (friction[i] + friction[i - 1]) * (smooth[i] - smooth[i - 1]);
+          work.done += done;
+          work.possible += std::abs(done);
+        }
+    }
+
     /// The rows of a test, on their way to being in order.
     class RowsOfTest
     {
@@ -236,25 +261,10 @@ namespace SlipStep
 
     void RowsOfTest::check_sign_of_friction() const
     {
-      double     work = 0., possible = 0.;
-      const auto add = [&](const std::vector<double> &displacement,
-                           const std::vector<double> &friction) {
-        if (displacement.empty() || friction.empty())
-          return;
-        // Measured positions tremble, and the tremble knows no direction.
-        const std::vector<double> smooth =
-          without_jitter(displacement, 0.005 * range_of(displacement));
-        for (std::size_t i = 1; i < kept.size(); ++i)
-          {
-            const double done = 0.5 * (friction[i] + friction[i - 1]) *
-                                (smooth[i] - smooth[i - 1]);
-            work += done;
-            possible += std::abs(done);
-          }
-      };
-      add(test.displacement, test.friction);
-      add(test.displacement_y, test.friction_y);
-      if (work >= -0.5 * possible)
+      Work work;
+      add_work(test.displacement, test.friction, work);
+      add_work(test.displacement_y, test.friction_y, work);
+      if (work.done >= -0.5 * work.possible)
         return;
 
       std::size_t row = 0;
@@ -325,6 +335,23 @@ namespace SlipStep
     rows.check_pressure();
     rows.check_sign_of_friction();
     rows.warn_of_scales();
+  }
+
+
+
+  double share_of_resistance(const std::vector<double> &displacement,
+                             const std::vector<double> &friction)
+  {
+    std::vector<double> known_displacement, known_friction;
+    for (std::size_t i = 0; i < friction.size(); ++i)
+      if (!std::isnan(displacement[i]) && !std::isnan(friction[i]))
+        {
+          known_displacement.push_back(displacement[i]);
+          known_friction.push_back(friction[i]);
+        }
+    Work work;
+    add_work(known_displacement, known_friction, work);
+    return work.possible > 0. ? work.done / work.possible : 0.;
   }
 
 

@@ -113,13 +113,16 @@ namespace SlipStep
          {"set", "output", "variant", "quiet"},
          {}},
         {"import",
-         "MAP.prm [RAW]",
+         "RAW | MAP.prm [RAW]",
          "convert files of instruments into measured tests",
-         "MAP.prm says which column holds what in which unit, what is not in\n"
-         "the file (area, pressure), and what its signs mean; \"slipstep\n"
-         "parameters import\" prints one to start from. RAW is the file, or the\n"
-         "folder of the files, that the map names. The tests, one per variant\n"
-         "of the map, go into the folder \"measured\" beside it.\n",
+         "RAW alone, as the instrument wrote it, is looked at: a map is written\n"
+         "beside it (RAW_map.prm), every line with the reason why, and a page\n"
+         "that shows what it makes of the record (output/RAW/import). MAP.prm\n"
+         "says which column holds what in which unit, what is not in the file\n"
+         "(area, pressure), and what its signs mean; \"slipstep parameters\n"
+         "import\" prints all of its keys. RAW behind it is the file, or the\n"
+         "folder of the files, that the map names. The tests, one per variant,\n"
+         "file and part, go into the folder \"measured\" beside the map.\n",
          1,
          2,
          {"set", "output", "variant", "quiet"},

@@ -43,8 +43,10 @@ namespace SlipStep
   int diagnose_case(const CommandLine &line);
 
   /// `slipstep import MAP.prm [RAW]`: convert files of instruments into
-  /// measured tests, one per variant of the map. RAW is the file, or the folder
-  /// of the files, instead of the folder of the map.
+  /// measured tests. RAW is the file, or the folder of the files, instead of
+  /// the folder of the map. `slipstep import RAW` without a map looks at the
+  /// file, writes a map for it (RAW_map.prm), and a page that shows what it
+  /// makes of the record.
   ///
   /// The tests go into the folder `measured` beside the map, or that of
   /// --output. Nothing is written before all of them are converted and fit

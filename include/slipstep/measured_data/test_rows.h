@@ -41,6 +41,12 @@ namespace SlipStep
   /// @throws InputError through @p origin, or if fewer than two rows are left
   void tidy_rows(MeasuredTest &test, const RowOrigin &origin);
 
+  /// Share of the work of friction that is done against the motion, less the
+  /// share that drives it: 1 where it resists throughout, -1 where it drives; 0
+  /// without any. Rows with gaps (NaN) do not count.
+  double share_of_resistance(const std::vector<double> &displacement,
+                             const std::vector<double> &friction);
+
   /// The displacement with changes of direction less than 2 @p band left out:
   /// it follows only where it would be farther off than @p band.
   std::vector<double> without_jitter(const std::vector<double> &displacement,

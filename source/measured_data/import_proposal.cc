@@ -1,0 +1,600 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/measured_data/import_columns.h>
+#include <slipstep/measured_data/import_map.h>
+#include <slipstep/measured_data/import_proposal.h>
+#include <slipstep/measured_data/import_record.h>
+#include <slipstep/measured_data/measured_test.h>
+#include <slipstep/measured_data/test_rows.h>
+#include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/text.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// Words in the names of columns that speak for a key, and against it.
+    struct KeyWords
+    {
+      std::string              key;
+      std::vector<std::string> words;  ///< parts of a name
+      std::vector<std::string> labels; ///< whole names
+      std::vector<std::string> against;
+    };
+
+    // In English and German.
+    const std::vector<KeyWords> &key_words()
+    {
+      static const std::vector<KeyWords> all = {
+        {"Time", {"time", "zeit", "elapsed"}, {"t"}, {"step", "date", "temp"}},
+        {"Displacement",
+         {"displ",
+          "position",
+          "distance",
+          "weg",
+          "stroke",
+          "travel",
+          "slip",
+          "verschiebung",
+          "strecke"},
+         {"x", "u", "s", "d", "pos", "path", "hub"},
+         {"wear",
+          "verschlei",
+          "radius",
+          "thick",
+          "dicke",
+          "width",
+          "height",
+          "normal",
+          "vertical"}},
+        {"Friction",
+         {"coefficient",
+          "friction",
+          "reibwert",
+          "reibungszahl",
+          "beiwert",
+          "reibungskoeff"},
+         {"mu", "cof", "\xC2\xB5", "\xCE\xBC", "\xB5", "f"},
+         {"force", "kraft", "load", "stress", "torque", "moment"}},
+        {"Tangential load",
+         {"friction",
+          "tangential",
+          "reibkraft",
+          "reibungskraft",
+          "shear",
+          "lateral",
+          "pull",
+          "zugkraft"},
+         {"ft", "fx", "f_t", "f_x", "ff", "fr", "t", "f", "force", "kraft"},
+         {"coefficient", "stress", "normal", "torque"}},
+        {"Normal load",
+         {"normal", "load", "anpress", "last", "vertical", "clamp"},
+         {"fn", "fz", "f_n", "f_z", "n", "p"},
+         {"stress", "friction", "tangential", "shear"}},
+        {"Pressure",
+         {"pressure", "stress", "druck", "pressung", "spannung"},
+         {"p", "sigma", "sigma_n", "sn"},
+         {"shear", "tau", "schub", "oil", "friction", "atmos"}},
+        {"Temperature", {"temp"}, {"t", "theta"}, {}}};
+      return all;
+    }
+
+    const std::vector<std::string> shear_words = {"shear", "tau", "schub"};
+
+    bool has_word(const std::string              &name,
+                  const std::vector<std::string> &words)
+    {
+      return std::any_of(words.begin(), words.end(), [&](const auto &word) {
+        return name.find(word) != std::string::npos;
+      });
+    }
+
+    // "Displ [mm]", "displacement_mm", "Time, s", "Weg in mm", "F / N".
+    void
+    split_name(const std::string &heading, std::string &name, std::string &unit)
+    {
+      const Heading split = split_heading(heading);
+      name                = split.name;
+      unit                = split.unit;
+      if (split.has_brackets)
+        return;
+      for (const std::string mark : {" in ", ", ", " / ", "/", "_", " "})
+        {
+          const std::size_t at = heading.rfind(mark);
+          if (at == std::string::npos || at == 0)
+            continue;
+          const std::string behind = heading.substr(at + mark.size());
+          if (!dimension_of_unit(behind).has_value())
+            continue;
+          name = split_heading(heading.substr(0, at)).name;
+          unit = behind;
+          return;
+        }
+    }
+
+
+
+    /// Looks at one file.
+    class Observer
+    {
+    public:
+      explicit Observer(const std::filesystem::path &file)
+      {
+        proposal.file   = file;
+        proposal.layout = record_layout(file);
+      }
+
+      ImportProposal propose();
+
+    private:
+      void guess(const std::string &path,
+                 const std::string &value,
+                 const std::string &reason,
+                 const bool         is_open = false)
+      {
+        proposal.guesses.push_back({path, value, reason, is_open});
+      }
+
+      void guess_layout();
+
+      void read_columns();
+
+      int score(const KeyWords &words, const std::size_t column) const;
+
+      std::string reference(const std::size_t column) const;
+
+      void choose_columns();
+
+      void guess_column(const std::string &key, const std::size_t column);
+
+      void guess_shear_stress();
+
+      void guess_loads();
+
+      void guess_signs();
+
+      const SeenColumn *taken_as(const std::string &key) const;
+
+      ImportProposal                   proposal;
+      std::vector<std::vector<double>> values; ///< of each column
+    };
+
+
+
+    void Observer::guess_layout()
+    {
+      const RecordLayout &layout = proposal.layout;
+      guess("Raw file/Name",
+            proposal.file.filename().string(),
+            counted(layout.n_rows, "row") + " of " +
+              counted(layout.n_cells, "cell") + ", the first is line " +
+              std::to_string(layout.first_row));
+      guess("Raw file/Delimiter",
+            layout.delimiter == '\t' ? "tab" :
+            layout.delimiter == ';'  ? "semicolon" :
+            layout.delimiter == ','  ? "comma" :
+                                       "blanks",
+            "makes the most numbers of the rows");
+      if (layout.decimal_mark != '\0')
+        guess("Raw file/Decimal mark",
+              layout.decimal_mark == ',' ? "comma" : "point",
+              layout.has_doubtful_commas ?
+                "all numbers with a comma have three digits behind it: does "
+                "it part thousands?" :
+                "as the numbers have it");
+      if (layout.thousands_mark != '\0')
+        guess("Raw file/Thousands mark",
+              layout.thousands_mark == '.' ? "point" :
+              layout.thousands_mark == ',' ? "comma" :
+                                             "apostrophe",
+              "numbers have a second mark");
+      if (layout.header_line == 0 || layout.has_unclear_header)
+        {
+          guess("Raw file/Has header",
+                "false",
+                layout.header_line == 0 ?
+                  "no line of names before the rows" :
+                  "line " + std::to_string(layout.header_line) +
+                    " has not as many names as rows have cells");
+          guess("Raw file/Header line",
+                std::to_string(layout.first_row),
+                "where the rows begin");
+        }
+      else
+        guess("Raw file/Header line",
+              std::to_string(layout.header_line),
+              "the last line of words before the rows");
+      if (layout.units_line > 0 && !layout.has_unclear_header)
+        guess("Raw file/Units line",
+              std::to_string(layout.units_line),
+              "it has units, mostly");
+      if (!layout.comment_marks.empty())
+        {
+          std::string marks;
+          for (const std::string &mark : layout.comment_marks)
+            marks += (marks.empty() ? "" : ", ") + mark;
+          guess("Raw file/Comment marks",
+                marks,
+                "lines between or behind the rows begin like this");
+        }
+    }
+
+
+
+    void Observer::read_columns()
+    {
+      CsvTable table(proposal.file, raw_format(proposal.map()));
+      std::map<std::string, std::size_t> positions;
+      const bool                         is_named =
+        proposal.layout.header_line > 0 && !proposal.layout.has_unclear_header;
+      for (std::size_t i = 0; i < table.header().size(); ++i)
+        {
+          SeenColumn column;
+          column.number = i + 1;
+          if (is_named)
+            split_name(table.header()[i], column.name, column.unit);
+          if (!table.units()[i].empty())
+            column.unit = table.units()[i];
+          const auto &numbers = proposal.layout.numbers;
+          column.has_numbers =
+            std::find(numbers.begin(), numbers.end(), i) != numbers.end();
+          if (column.has_numbers)
+            positions["column " + std::to_string(i + 1)] = i;
+          proposal.columns.push_back(column);
+        }
+      table.read(positions);
+      values.resize(proposal.columns.size());
+      for (const auto &[name, i] : positions)
+        {
+          values[i] = table[name];
+          std::vector<double> known;
+          for (const double value : values[i])
+            if (!std::isnan(value))
+              known.push_back(value);
+          if (known.empty())
+            continue;
+          const auto range = std::minmax_element(known.begin(), known.end());
+          proposal.columns[i].least = *range.first;
+          proposal.columns[i].most  = *range.second;
+        }
+    }
+
+
+
+    // Above 0: it may be; a name and a unit are worth more than either.
+    int Observer::score(const KeyWords &words, const std::size_t column) const
+    {
+      const SeenColumn &seen = proposal.columns[column];
+      if (!seen.has_numbers || !seen.taken_as.empty() ||
+          has_word(seen.name, words.against))
+        return 0;
+      Dimension dimension = Dimension::number;
+      for (const ColumnKey &key : column_keys())
+        if (key.name == words.key)
+          dimension = key.dimension;
+      const auto known    = seen.unit.empty() ? std::optional<Dimension>() :
+                                                dimension_of_unit(seen.unit);
+      const bool has_unit = !seen.unit.empty() && seen.unit != "-" &&
+                            seen.unit != "1" && seen.unit != "/";
+      if (known.has_value() ? *known != dimension :
+                              has_unit && dimension == Dimension::number)
+        return 0;
+      int points = 0;
+      for (const std::string &word : words.words)
+        points += seen.name.find(word) != std::string::npos ? 4 : 0;
+      for (const std::string &label : words.labels)
+        points += seen.name == label ? 4 : 0;
+      const bool varies = seen.most > seen.least;
+      if (known.has_value() && dimension != Dimension::force)
+        points += 3;
+      if (points == 0)
+        return 0;
+      if (known.has_value())
+        points += 2;
+      if (varies)
+        points += 2;
+      if (words.key == "Time")
+        {
+          const std::vector<double> &time = values[column];
+          if (!varies || !std::is_sorted(time.begin(), time.end()))
+            return 0;
+        }
+      if (words.key == "Displacement" && !varies)
+        return 0;
+      if (words.key == "Friction" &&
+          median(values[column]) > 3.) // a percentage, or a force
+        return 0;
+      return points;
+    }
+
+
+
+    // How a map names a column.
+    std::string Observer::reference(const std::size_t column) const
+    {
+      const CsvTable     table(proposal.file, raw_format(proposal.map()));
+      const std::string &name = table.header()[column];
+      const bool         is_unique =
+        std::count(table.header().begin(), table.header().end(), name) == 1;
+      const bool is_plain =
+        !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+          const auto byte = static_cast<unsigned char>(c);
+          return byte >= 0x20 && byte < 0x7f && c != '#' && c != '\\' &&
+                 c != '{' && c != '}';
+        });
+      return is_unique && is_plain ? name :
+                                     "column " + std::to_string(column + 1);
+    }
+
+
+
+    void Observer::guess_column(const std::string &key,
+                                const std::size_t  column)
+    {
+      SeenColumn &seen    = proposal.columns[column];
+      seen.taken_as       = key;
+      Dimension dimension = Dimension::number;
+      for (const ColumnKey &known : column_keys())
+        if (known.name == key)
+          dimension = known.dimension;
+      const std::string name  = reference(column);
+      const std::string range = "from " + rounded_text(seen.least, 5) + " to " +
+                                rounded_text(seen.most, 5);
+      if (dimension == Dimension::number)
+        {
+          guess("Columns/" + key, name, range);
+          return;
+        }
+      const bool is_known =
+        !seen.unit.empty() && dimension_of_unit(seen.unit) == dimension;
+      // Letters that a file in another encoding would not show.
+      const bool is_plain =
+        std::all_of(seen.unit.begin(), seen.unit.end(), [](const char c) {
+          return static_cast<unsigned char>(c) < 0x7f;
+        });
+      const std::string unit = is_plain ?
+                                 seen.unit :
+                               dimension == Dimension::temperature ?
+                                 "degC" :
+                               dimension == Dimension::stress ?
+                                 "N/mm^2" :
+                                 "u" + seen.unit.substr(seen.unit.size() - 1);
+      const bool is_negative = (key == "Normal load" || key == "Pressure") &&
+                               median(values[column]) < 0.;
+      const std::string in =
+        name + " in " + (is_known ? unit : base_unit(dimension));
+      guess("Columns/" + key,
+            is_negative ? "-1*{" + in + "}" : in,
+            range +
+              (is_known ? "" :
+               seen.unit.empty() ?
+                          "; the file does not say the unit" :
+                          "; no unit is known as '" + seen.unit + "'") +
+              (is_negative ? "; compression counts positive here" : ""),
+            !is_known);
+    }
+
+
+
+    void Observer::choose_columns()
+    {
+      for (const KeyWords &words : key_words())
+        {
+          std::size_t best   = 0;
+          int         points = 0;
+          for (std::size_t i = 0; i < proposal.columns.size(); ++i)
+            if (const int found = score(words, i); found > points)
+              {
+                best   = i;
+                points = found;
+              }
+          if (points == 0 ||
+              (words.key == "Tangential load" && taken_as("Friction")) ||
+              (words.key == "Normal load" && taken_as("Pressure")))
+            continue;
+          guess_column(words.key, best);
+        }
+    }
+
+
+
+    // Friction of a laboratory that records stresses.
+    void Observer::guess_shear_stress()
+    {
+      if (taken_as("Friction") || taken_as("Tangential load") ||
+          !taken_as("Pressure"))
+        return;
+      for (std::size_t i = 0; i < proposal.columns.size(); ++i)
+        {
+          SeenColumn &seen = proposal.columns[i];
+          if (!seen.has_numbers || !has_word(seen.name, shear_words) ||
+              dimension_of_unit(seen.unit) != Dimension::stress)
+            continue;
+          const SeenColumn &pressure = *taken_as("Pressure");
+          seen.taken_as              = "Friction";
+          guess("Columns/Friction",
+                "{" + reference(i) + " in " + seen.unit + "}/{" +
+                  reference(pressure.number - 1) + " in " + pressure.unit + "}",
+                "shear stress over normal stress");
+          return;
+        }
+    }
+
+
+
+    const SeenColumn *Observer::taken_as(const std::string &key) const
+    {
+      for (const SeenColumn &column : proposal.columns)
+        if (column.taken_as == key)
+          return &column;
+      return nullptr;
+    }
+
+
+
+    // What only a notebook knows.
+    void Observer::guess_loads()
+    {
+      if (!taken_as("Time"))
+        guess("Columns/Time",
+              "column 1 in s",
+              "no column of increasing numbers is called like a time",
+              true);
+      if (!taken_as("Displacement"))
+        guess("Constants/Speed",
+              "1 mm/s",
+              "no column is called like a displacement: which one is it "
+              "(Columns/Displacement), or how fast did it slide?",
+              true);
+      if (!taken_as("Friction") && !taken_as("Tangential load"))
+        guess("Columns/Friction",
+              "column 2",
+              "no column is called like a coefficient or a tangential load",
+              true);
+      const bool has_load = taken_as("Normal load");
+      if (!has_load && !taken_as("Pressure"))
+        {
+          if (taken_as("Tangential load"))
+            guess("Constants/Normal load",
+                  "5 N assumed",
+                  "no column is called like a normal load; without 'assumed' "
+                  "if it is known",
+                  true);
+          else
+            guess("Constants/Pressure",
+                  "5 MPa",
+                  "no column is called like a pressure",
+                  true);
+        }
+      if (has_load || (taken_as("Tangential load")))
+        guess("Constants/Area",
+              "1 mm^2 assumed",
+              taken_as("Pressure") ?
+                "turns the pressure into a normal load" :
+                "turns the normal load into a pressure; without 'assumed' if "
+                "it is known",
+              true);
+    }
+
+
+
+    void Observer::guess_signs()
+    {
+      const SeenColumn *displacement = taken_as("Displacement");
+      const SeenColumn *friction     = taken_as("Friction");
+      if (friction == nullptr)
+        friction = taken_as("Tangential load");
+      if (displacement == nullptr || friction == nullptr)
+        return;
+      const double share = share_of_resistance(values[displacement->number - 1],
+                                               values[friction->number - 1]);
+      const std::string words =
+        rounded_text(50. * (1. + share), 3) +
+        " % of the work of friction as recorded is done against the motion";
+      if (share < -0.5)
+        guess("Convention/Friction sign", "reversed", words);
+      else if (share < 0.5)
+        guess("Convention/Friction sign",
+              "as recorded",
+              words + ": is a zero of the sensor to be taken off "
+                      "(Correction/Zero)?");
+    }
+
+
+
+    ImportProposal Observer::propose()
+    {
+      guess_layout();
+      read_columns();
+      choose_columns();
+      guess_shear_stress();
+      guess_loads();
+      guess_signs();
+      guess("Test/Condition",
+            "dry, 5 N",
+            "tests of the same condition are replicates",
+            true);
+      return proposal;
+    }
+
+
+
+    // Wrapped, each line begun with the mark.
+    std::string comment(const std::string &text, const std::string &mark)
+    {
+      constexpr std::size_t width = 78;
+      std::istringstream    words(text);
+      std::string           lines, line = mark, word;
+      while (words >> word)
+        {
+          if (line.size() + 1 + word.size() > width && line != mark)
+            {
+              lines += line + '\n';
+              line = mark;
+            }
+          line += ' ' + word;
+        }
+      return lines + line + '\n';
+    }
+  } // namespace
+
+
+
+  bool ImportProposal::is_complete() const
+  {
+    return std::none_of(guesses.begin(), guesses.end(), [](const auto &guess) {
+      return guess.is_open && guess.path != "Test/Condition";
+    });
+  }
+
+
+
+  Parameters ImportProposal::map() const
+  {
+    Parameters result;
+    declare_import_parameters(result);
+    for (const ImportGuess &guess : guesses)
+      if (!guess.is_open)
+        result.set(guess.path, guess.value, "proposal");
+    return result;
+  }
+
+
+
+  std::string ImportProposal::text() const
+  {
+    std::string text = comment(
+      "A proposal for " + file.filename().string() +
+        ": every line was guessed, with the reason above it. Look "
+        "through it" +
+        (is_complete() ? "" : ", complete the lines that begin with '# set'") +
+        ", then: slipstep import THIS_FILE",
+      "#");
+    for (const std::string name :
+         {"Raw file", "Columns", "Constants", "Convention", "Test"})
+      {
+        std::string lines;
+        for (const ImportGuess &guess : guesses)
+          if (guess.path.rfind(name + "/", 0) == 0)
+            lines += comment(guess.reason, "  #") +
+                     (guess.is_open ? "  # set " : "  set ") +
+                     guess.path.substr(name.size() + 1) + " = " + guess.value +
+                     '\n';
+        if (!lines.empty())
+          text += "subsection " + name + '\n' + lines + "end\n";
+      }
+    return text;
+  }
+
+
+
+  ImportProposal propose_import(const std::filesystem::path &file)
+  {
+    return Observer(file).propose();
+  }
+} // namespace SlipStep

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/measured_data/import_columns.h>
+#include <slipstep/measured_data/measured_test.h>
+#include <slipstep/measured_data/record_layout.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+namespace SlipStep
+{
+  namespace
+  {
+    bool is_digit_at(const std::string &text, const std::size_t i)
+    {
+      return i < text.size() &&
+             std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+    }
+
+    std::string without_blanks(const std::string &text)
+    {
+      const char       *blanks = " \t\r";
+      const std::size_t first  = text.find_first_not_of(blanks);
+      return first == std::string::npos ?
+               "" :
+               text.substr(first, text.find_last_not_of(blanks) - first + 1);
+    }
+
+    std::vector<std::string> lines_of(const std::filesystem::path &file)
+    {
+      std::ifstream in(file, std::ios::binary);
+      if (!in || std::filesystem::is_directory(file))
+        throw InputError(file.string() + ": this file cannot be read");
+      std::string text{std::istreambuf_iterator<char>(in), {}};
+      if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0)
+        throw InputError(file.string() +
+                         ": this text is in UTF-16; save it as UTF-8");
+      if (text.find('\0') != std::string::npos)
+        throw InputError(file.string() +
+                         ": this is no text; export the record as one");
+      if (text.rfind("\xEF\xBB\xBF", 0) == 0)
+        text.erase(0, 3);
+      if (text.find('\n') == std::string::npos)
+        std::replace(text.begin(), text.end(), '\r', '\n');
+      std::vector<std::string> lines;
+      for (std::size_t begin = 0; begin < text.size();)
+        {
+          const std::size_t end = std::min(text.find('\n', begin), text.size());
+          lines.push_back(text.substr(begin, end - begin));
+          begin = end + 1;
+        }
+      return lines;
+    }
+
+    std::vector<std::string> cells_of(const std::string &line,
+                                      const char         delimiter)
+    {
+      std::vector<std::string> cells;
+      const std::string text = delimiter == ' ' ? without_blanks(line) : line;
+      for (std::size_t begin = 0; begin <= text.size();)
+        {
+          const bool is_quoted = begin < text.size() && text[begin] == '"';
+          const std::size_t quote =
+            is_quoted ? text.find('"', begin + 1) : std::string::npos;
+          const std::size_t from = quote == std::string::npos ? begin : quote;
+          const std::size_t end =
+            std::min(delimiter == ' ' ? text.find_first_of(" \t", from) :
+                                        text.find(delimiter, from),
+                     text.size());
+          std::string cell = without_blanks(text.substr(begin, end - begin));
+          if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
+            cell = without_blanks(cell.substr(1, cell.size() - 2));
+          cells.push_back(cell);
+          begin = end + 1;
+          if (delimiter == ' ')
+            while (begin < text.size() &&
+                   (text[begin] == ' ' || text[begin] == '\t'))
+              ++begin;
+        }
+      return cells;
+    }
+
+    /// What a number is written with.
+    struct NumberMarks
+    {
+      bool is_number   = false;
+      char decimal     = '\0';
+      char thousands   = '\0';
+      bool is_doubtful = false; ///< the mark might part thousands
+    };
+
+    NumberMarks marks_of(const std::string &cell)
+    {
+      NumberMarks marks;
+      std::size_t i =
+        cell.empty() || (cell[0] != '-' && cell[0] != '+') ? 0 : 1;
+      const std::size_t begin = i;
+      if (!is_digit_at(cell, i) &&
+          !((cell[i] == '.' || cell[i] == ',') && is_digit_at(cell, i + 1)))
+        return marks;
+      std::string used;
+      while (is_digit_at(cell, i) ||
+             (i < cell.size() &&
+              std::string(".,'").find(cell[i]) != std::string::npos))
+        {
+          if (!is_digit_at(cell, i))
+            used += cell[i];
+          ++i;
+        }
+      const std::size_t end = i;
+      if (i < cell.size() && (cell[i] == 'e' || cell[i] == 'E'))
+        {
+          i +=
+            i + 1 < cell.size() && (cell[i + 1] == '-' || cell[i + 1] == '+') ?
+              2 :
+              1;
+          if (!is_digit_at(cell, i))
+            return marks;
+          while (is_digit_at(cell, i))
+            ++i;
+        }
+      if (i != cell.size())
+        return marks;
+      marks.is_number = true;
+      if (used.empty())
+        return marks;
+      const char last  = used.back();
+      const bool alike = used.find_first_not_of(last) == std::string::npos;
+      if (alike && (used.size() > 1 || last == '\''))
+        marks.thousands = last;
+      else
+        {
+          marks.decimal        = last;
+          marks.thousands      = alike ? '\0' : used.front();
+          const std::size_t at = cell.find(last);
+          marks.is_doubtful    = alike && last == ',' && end - at == 4 &&
+                              at - begin <= 3 && at > begin &&
+                              cell[begin] != '0';
+        }
+      return marks;
+    }
+
+    /// A table that one delimiter makes of the lines.
+    struct TableFound
+    {
+      char              delimiter = '\0';
+      std::size_t       n_cells = 0, n_rows = 0, first = 0;
+      std::size_t       n_filled = 0;  ///< without those empty at the end
+      double            quality  = 0.; ///< numbers in all rows
+      std::vector<bool> is_row;
+    };
+
+    std::size_t n_filled_in(const std::vector<std::string> &cells)
+    {
+      return std::count_if(cells.begin(), cells.end(), [](const auto &cell) {
+        return !cell.empty();
+      });
+    }
+
+    bool is_row_of(const std::vector<std::string> &cells,
+                   std::size_t                    &n_numbers)
+    {
+      n_numbers = std::count_if(cells.begin(), cells.end(), [](const auto &c) {
+        return marks_of(c).is_number;
+      });
+      return n_numbers >= 2 && 3 * n_numbers >= n_filled_in(cells);
+    }
+
+    /// Rows of one number of cells.
+    struct AlikeRows
+    {
+      std::vector<std::size_t> rows;
+      std::size_t              n_numbers = 0, n_filled = 0, last_filled = 0;
+    };
+
+    TableFound table_of(const std::vector<std::string> &lines,
+                        const char                      delimiter)
+    {
+      std::map<std::size_t, AlikeRows> found; // by number of cells
+      for (std::size_t i = 0; i < lines.size(); ++i)
+        {
+          const auto  cells     = cells_of(lines[i], delimiter);
+          std::size_t n_numbers = 0;
+          if (lines[i][0] == '#' || !is_row_of(cells, n_numbers))
+            continue;
+          AlikeRows &alike = found[cells.size()];
+          alike.rows.push_back(i);
+          alike.n_numbers += n_numbers;
+          alike.n_filled += n_filled_in(cells);
+          std::size_t last = cells.size();
+          while (last > 0 && cells[last - 1].empty())
+            --last;
+          alike.last_filled = std::max(alike.last_filled, last);
+        }
+      TableFound table;
+      for (const auto &[n_cells, alike] : found)
+        {
+          // What cuts numbers in two has few of them whole.
+          const double share   = double(alike.n_numbers) / alike.n_filled;
+          const double quality = share * share * alike.n_numbers;
+          if (alike.rows.size() < 2 || quality <= table.quality)
+            continue;
+          table = {delimiter,
+                   n_cells,
+                   alike.rows.size(),
+                   alike.rows.front(),
+                   alike.last_filled,
+                   quality,
+                   {}};
+          table.is_row.assign(lines.size(), false);
+          for (const std::size_t row : alike.rows)
+            table.is_row[row] = true;
+        }
+      return table;
+    }
+
+    bool is_unit(const std::string &cell)
+    {
+      const bool has_brackets =
+        cell.size() > 2 && ((cell.front() == '[' && cell.back() == ']') ||
+                            (cell.front() == '(' && cell.back() == ')'));
+      return has_brackets || cell == "%" || cell == "V" || cell == "mV" ||
+             dimension_of_unit(cell).has_value();
+    }
+
+    // Mostly units and gaps.
+    bool is_line_of_units(const std::vector<std::string> &cells)
+    {
+      std::size_t n_units = 0, n_others = 0;
+      for (const std::string &cell : cells)
+        if (is_unit(cell))
+          ++n_units;
+        else if (!cell.empty() && cell != "-")
+          ++n_others;
+      return n_units >= 2 && n_others <= n_units / 2;
+    }
+
+    bool has_names(const std::vector<std::string> &cells)
+    {
+      return n_filled_in(cells) >= 2 &&
+             std::none_of(cells.begin(), cells.end(), [](const auto &cell) {
+               return marks_of(cell).is_number;
+             });
+    }
+
+    // Names may be behind a hash.
+    std::string without_hash(const std::string &line)
+    {
+      return line.substr(std::min(line.find_first_not_of("#"), line.size()));
+    }
+
+    void find_header(const std::vector<std::string> &lines,
+                     const TableFound               &table,
+                     RecordLayout                   &layout)
+    {
+      std::size_t line = layout.first_row - 1; // counted from 1: the one before
+      const auto  go_up = [&]() {
+        while (line > 0 && without_blanks(lines[line - 1]).empty())
+          --line;
+      };
+      const auto cells = [&]() {
+        return line == 0 ?
+                 std::vector<std::string>() :
+                 cells_of(without_hash(lines[line - 1]), layout.delimiter);
+      };
+      go_up();
+      if (line > 0 && is_line_of_units(cells()) && line > 1)
+        {
+          const std::size_t units = line--;
+          go_up();
+          if (has_names(cells()))
+            layout.units_line = units;
+          else
+            line = units;
+        }
+      if (!has_names(cells()))
+        return;
+      layout.has_unclear_header =
+        cells().size() > layout.n_cells || cells().size() < table.n_filled;
+      layout.header_line = line;
+    }
+
+    // "Test completed at 17:10": the words that such a line begins with.
+    void find_other_lines(const std::vector<std::string> &lines,
+                          const TableFound               &table,
+                          RecordLayout                   &layout)
+    {
+      constexpr std::size_t most_marks = 5;
+      std::set<std::string> marks;
+      for (std::size_t i = table.first; i < lines.size(); ++i)
+        {
+          const std::string line = without_blanks(lines[i]);
+          if (table.is_row[i] || line.empty() || line[0] == '#' ||
+              std::isalpha(static_cast<unsigned char>(line[0])) == 0)
+            continue;
+          const std::string mark = without_blanks(
+            line.substr(0, line.find_first_of("0123456789,;\t:")));
+          if (!mark.empty() && marks.size() < most_marks)
+            marks.insert(mark);
+        }
+      layout.comment_marks.assign(marks.begin(), marks.end());
+    }
+
+    void find_numbers(const std::vector<std::string> &lines,
+                      const TableFound               &table,
+                      RecordLayout                   &layout)
+    {
+      std::vector<std::size_t> n_numbers(layout.n_cells, 0),
+        n_filled(layout.n_cells, 0);
+      std::map<char, std::size_t> decimals, thousands;
+      std::size_t                 n_doubtful = 0;
+      for (std::size_t i = table.first; i < lines.size(); ++i)
+        {
+          if (!table.is_row[i])
+            continue;
+          const auto cells = cells_of(lines[i], layout.delimiter);
+          for (std::size_t k = 0; k < layout.n_cells; ++k)
+            {
+              const NumberMarks marks = marks_of(cells[k]);
+              n_filled[k] += !cells[k].empty();
+              n_numbers[k] += marks.is_number;
+              ++decimals[marks.decimal];
+              ++thousands[marks.thousands];
+              n_doubtful += marks.is_doubtful;
+            }
+        }
+      decimals.erase('\0');
+      thousands.erase('\0');
+      layout.decimal_mark = decimals[','] > decimals['.'] ? ',' :
+                            decimals['.'] > 0             ? '.' :
+                                                            '\0';
+      for (const auto &[mark, n] : thousands)
+        if (mark != layout.decimal_mark)
+          layout.thousands_mark = mark;
+      // 1.234 where other numbers have a decimal comma.
+      if (layout.decimal_mark == ',' && decimals['.'] > 0)
+        layout.thousands_mark = '.';
+      if (layout.decimal_mark == '.' && decimals[','] > 0)
+        layout.thousands_mark = ',';
+      layout.has_doubtful_commas =
+        n_doubtful > 0 && n_doubtful == decimals[','];
+      for (std::size_t k = 0; k < layout.n_cells; ++k)
+        if (n_numbers[k] >= 2 && 2 * n_numbers[k] > n_filled[k])
+          layout.numbers.push_back(k);
+    }
+  } // namespace
+
+
+
+  RecordLayout record_layout(const std::filesystem::path &file)
+  {
+    const std::vector<std::string> lines = lines_of(file);
+    TableFound                     best;
+    for (const char delimiter : {'\t', ';', ',', ' '})
+      {
+        const TableFound table = table_of(lines, delimiter);
+        if (table.quality > best.quality)
+          best = table;
+      }
+    if (best.n_rows < 2)
+      throw InputError(file.string() +
+                       ": there is no table of numbers in this file");
+    RecordLayout layout;
+    layout.delimiter = best.delimiter;
+    layout.n_rows    = best.n_rows;
+    layout.n_cells   = best.n_cells;
+    layout.first_row = best.first + 1;
+    find_header(lines, best, layout);
+    find_other_lines(lines, best, layout);
+    find_numbers(lines, best, layout);
+    return layout;
+  }
+} // namespace SlipStep

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/report/gallery.h>
+#include <slipstep/report/import_report.h>
+#include <slipstep/report/page.h>
+#include <slipstep/utilities/csv.h>
+#include <slipstep/measured_data/import_record.h>
+#include <slipstep/utilities/text.h>
+#include <slipstep/utilities/write_file.h>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// Two columns of numbers as rows of a picture, thinned.
+    Rows points_of(const std::vector<double> &x, const std::vector<double> &y)
+    {
+      Rows rows;
+      for (std::size_t i = 0; i < y.size(); ++i)
+        if (std::isfinite(x[i]) && std::isfinite(y[i]))
+          rows.push_back({x[i], y[i]});
+      return thinned(rows);
+    }
+
+    void draw_curve(const std::filesystem::path    &folder,
+                    const std::string              &name,
+                    const std::vector<std::string> &labels, // x and y
+                    const std::vector<double>      &x,
+                    const std::vector<double>      &y,
+                    Gallery                        &gallery,
+                    std::vector<std::string>       &warnings)
+    {
+      const Rows rows = points_of(x, y);
+      Range      of_x, of_y;
+      for (const auto &row : rows)
+        {
+          of_x.add(row[0]);
+          of_y.add(row[1]);
+        }
+      SmallPicture picture(folder, name, labels[1] + " over " + labels[0]);
+      picture.axes(labels[0], of_x, labels[1], of_y);
+      picture.plot(labels[1],
+                   labels,
+                   rows,
+                   "using 1:2 with lines lc rgb '" +
+                     std::string(Colour::after) + "' lw 1");
+      picture.finish(gallery, warnings);
+    }
+
+    // As the map converts it.
+    void draw_test(const std::filesystem::path &folder,
+                   const MeasuredTest          &test,
+                   Gallery                     &gallery,
+                   std::vector<std::string>    &warnings)
+    {
+      draw_curve(folder,
+                 "friction",
+                 {"displacement [mm]", "friction"},
+                 test.displacement,
+                 test.friction,
+                 gallery,
+                 warnings);
+      for (const Channel &channel : channels())
+        if (channel.name != "time" && !(test.*channel.values).empty())
+          draw_curve(folder,
+                     channel.name + "_over_time",
+                     {"time [s]",
+                      channel.name + (channel.unit.empty() ?
+                                        "" :
+                                        " [" + channel.unit + "]")},
+                     test.time,
+                     test.*channel.values,
+                     gallery,
+                     warnings);
+    }
+
+    // As recorded, while nobody knows what it is.
+    void draw_columns(const std::filesystem::path &folder,
+                      const ImportProposal        &proposal,
+                      Gallery                     &gallery,
+                      std::vector<std::string>    &warnings)
+    {
+      constexpr std::size_t most = 12;
+      CsvTable              table(proposal.file, raw_format(proposal.map()));
+      std::map<std::string, std::size_t> positions;
+      for (const SeenColumn &column : proposal.columns)
+        if (column.has_numbers && positions.size() < most)
+          positions["column_" + std::to_string(column.number)] =
+            column.number - 1;
+      table.read(positions);
+      std::vector<double> rows(table.size());
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i] = i + 1;
+      for (const SeenColumn &column : proposal.columns)
+        if (const std::string name = "column_" + std::to_string(column.number);
+            positions.count(name) > 0)
+          draw_curve(folder,
+                     name,
+                     {"row",
+                      "column " + std::to_string(column.number) +
+                        (column.name.empty() ? "" : " " + column.name)},
+                     rows,
+                     table[name],
+                     gallery,
+                     warnings);
+    }
+
+    std::string columns_section(const ImportProposal &proposal)
+    {
+      std::vector<TableLine> lines = {
+        {"column", "name", "unit", "from", "to", "taken as"}};
+      for (const SeenColumn &column : proposal.columns)
+        lines.push_back(
+          {std::to_string(column.number),
+           column.name,
+           column.unit,
+           column.has_numbers ? rounded_text(column.least, 5) : "no numbers",
+           column.has_numbers ? rounded_text(column.most, 5) : "",
+           column.taken_as});
+      return heading("The columns of the record") + html_table(lines, "values");
+    }
+
+    std::string guesses_section(const ImportProposal        &proposal,
+                                const std::filesystem::path &map)
+    {
+      std::vector<TableLine> lines = {{"key", "value", "why"}};
+      for (const ImportGuess &guess : proposal.guesses)
+        lines.push_back({guess.path,
+                         guess.is_open ? "open: " + guess.value : guess.value,
+                         guess.reason});
+      return heading("The map") +
+             note(map.string() + ". Edit it, then: slipstep import " +
+                  map.string()) +
+             html_table(lines, "values");
+    }
+  } // namespace
+
+
+
+  std::string import_table(const ImportProposal &proposal)
+  {
+    std::string text;
+    for (const ImportGuess &guess : proposal.guesses)
+      text += std::string(guess.is_open ? "  open   " : "  taken  ") +
+              guess.path + " = " + guess.value + '\n' +
+              wrapped_text(guess.reason, 11, terminal_width);
+    return text;
+  }
+
+
+
+  std::vector<std::string>
+  write_import_report(const std::filesystem::path     &folder,
+                      const ImportProposal            &proposal,
+                      const std::filesystem::path     &map,
+                      const std::vector<MeasuredTest> &tests,
+                      const std::string               &problem)
+  {
+    const std::filesystem::path pictures = folder / "report";
+    std::filesystem::create_directories(pictures);
+    Gallery                  gallery;
+    std::vector<std::string> warnings;
+    if (tests.empty())
+      {
+        gallery.title   = "The columns as recorded";
+        gallery.caption = "Of up to twelve columns with numbers.";
+        draw_columns(pictures, proposal, gallery, warnings);
+      }
+    else
+      {
+        gallery.title   = "The test that the map makes of it";
+        gallery.caption = "Friction is positive where it resists motion in "
+                          "the positive direction.";
+        draw_test(pictures, tests.front(), gallery, warnings);
+      }
+    if (!tests.empty())
+      warnings.insert(warnings.end(),
+                      tests.front().warnings.begin(),
+                      tests.front().warnings.end());
+
+    std::string content;
+    if (!problem.empty())
+      content += problem_box(problem);
+    for (const std::string &text : warnings)
+      content += problem_box(text);
+    content += gallery_section(gallery) + columns_section(proposal) +
+               guesses_section(proposal, map);
+    write_file(folder / "report.html",
+               html_page("Import of " + proposal.file.filename().string(),
+                         proposal.is_complete() ?
+                           "Every line of the map was guessed: look whether "
+                           "the pictures are what you measured." :
+                           "The map is incomplete: what is open, only you "
+                           "can say.",
+                         content));
+    return warnings;
+  }
+} // namespace SlipStep

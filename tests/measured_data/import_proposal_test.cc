@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Maps proposed for files as instruments, spreadsheets and people write them.
+
+#include <slipstep/measured_data/import_proposal.h>
+#include <slipstep/measured_data/import_record.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "tests/temporary_folder.h"
+
+using namespace SlipStep;
+
+namespace
+{
+  namespace fs = std::filesystem;
+
+  struct Example
+  {
+    std::string name;
+    std::string text;
+    /// "Columns/Time = t in s"; what is open has "? " before it.
+    std::vector<std::string> expected;
+    std::vector<std::string> absent; ///< paths
+  };
+
+  std::vector<std::string> lines_of(const ImportProposal &proposal)
+  {
+    std::vector<std::string> lines;
+    for (const ImportGuess &guess : proposal.guesses)
+      lines.push_back((guess.is_open ? "? " : "") + guess.path + " = " +
+                      guess.value);
+    return lines;
+  }
+
+  std::string all_lines_of(const ImportProposal &proposal)
+  {
+    std::string text;
+    for (const std::string &line : lines_of(proposal))
+      text += "\n    " + line;
+    return text;
+  }
+
+  ImportProposal proposal_for(const std::string &name, const std::string &text)
+  {
+    const fs::path file = test_folder() / name;
+    std::ofstream(file, std::ios::binary) << text;
+    return propose_import(file);
+  }
+
+  const std::vector<Example> examples = {
+    {"english.csv",
+     "Time (s),Displacement (mm),Normal Force (N),Friction Force (N),COF\n"
+     "0,0,100,0,0\n0.1,0.01,100.2,5,0.05\n0.2,0.02,99.9,10,0.1\n",
+     {"Raw file/Delimiter = comma",
+      "Raw file/Header line = 1",
+      "Columns/Time = Time (s) in s",
+      "Columns/Displacement = Displacement (mm) in mm",
+      "Columns/Normal load = Normal Force (N) in N",
+      "Columns/Friction = COF",
+      "? Constants/Area = 1 mm^2 assumed"},
+     {"Convention/Friction sign", "Raw file/Units line"}},
+    {"german_excel.csv",
+     "\xEF\xBB\xBFZeit [s];Weg [mm];Normalkraft [N];Reibkraft [N]\r\n"
+     "0,0;0,00;100,5;0,1\r\n0,1;0,01;100,4;5,2\r\n0,2;0,02;100,6;10,3\r\n",
+     {"Raw file/Delimiter = semicolon",
+      "Raw file/Decimal mark = comma",
+      "Columns/Time = Zeit [s] in s",
+      "Columns/Displacement = Weg [mm] in mm",
+      "Columns/Normal load = Normalkraft [N] in N",
+      "Columns/Tangential load = Reibkraft [N] in N"},
+     {"Raw file/Thousands mark"}},
+    {"units_line.txt",
+     "Zeit\tWeg\tDruck\tReibwert\ns\tmm\tMPa\t-\n0\t0\t5.8\t0\n"
+     "1\t0.1\t5.8\t0.1\n2\t0.2\t5.8\t0.11\n",
+     {"Raw file/Delimiter = tab",
+      "Raw file/Header line = 1",
+      "Raw file/Units line = 2",
+      "Columns/Time = Zeit in s",
+      "Columns/Displacement = Weg in mm",
+      "Columns/Pressure = Druck in MPa",
+      "Columns/Friction = Reibwert"},
+     {"Constants/Area"}},
+    {"brackets_below.txt",
+     "Pruefbericht 12\nPruefer: N. N.\n\nZeit;Traverse Weg;Kraft\n[s];[mm];[N]\n"
+     "0,00;0,000;0,12\n0,02;0,001;1,43\n0,04;0,002;2,51\n",
+     {"Raw file/Header line = 4",
+      "Raw file/Units line = 5",
+      "Columns/Displacement = Traverse Weg in mm",
+      "Columns/Tangential load = Kraft in N",
+      "? Constants/Normal load = 5 N assumed",
+      "? Constants/Area = 1 mm^2 assumed"},
+     {}},
+    {"thousands.csv",
+     "t in s;s in um;Ft in N;Fn in N\n0,0;0,0;0,0;1.500,0\n"
+     "0,5;1.000,5;150,0;1.500,0\n1,0;2.001,0;160,0;1.500,0\n",
+     {"Raw file/Decimal mark = comma",
+      "Raw file/Thousands mark = point",
+      "Columns/Time = t in s in s",
+      "Columns/Displacement = s in um in um",
+      "Columns/Tangential load = Ft in N in N"},
+     {}},
+    {"doubtful.txt",
+     "t [s]\tx [um]\tmu\tp [MPa]\n0\t1,000\t0\t5\n1\t2,000\t0\t5\n"
+     "2\t3,000\t0\t5\n",
+     {"Raw file/Decimal mark = comma", "Columns/Friction = mu"},
+     {}},
+    {"old_mac.txt",
+     "time_s,displacement_um,pressure_MPa,mu\r0,0,1,0\r1,1,1,0.1\r2,2,1,0.1\r",
+     {"Columns/Time = time_s in s",
+      "Columns/Displacement = displacement_um in um",
+      "Columns/Pressure = pressure_MPa in MPa",
+      "Columns/Friction = mu"},
+     {}},
+    {"no_header.dat",
+     "0 0.0 0.00 100\n1 0.1 0.05 100\n2 0.2 0.06 100\n",
+     {"Raw file/Delimiter = blanks",
+      "Raw file/Has header = false",
+      "Raw file/Header line = 1",
+      "? Columns/Time = column 1 in s",
+      "? Columns/Friction = column 2",
+      "? Constants/Speed = 1 mm/s",
+      "? Constants/Pressure = 5 MPa"},
+     {}},
+    {"blank_names.dat",
+     "Time (s)  Position (mm)  Friction coefficient\n"
+     "0.0  0.0  0.00\n1.0  0.1  0.05\n2.0  0.2  0.06\n",
+     {"Raw file/Has header = false", "Raw file/Header line = 2"},
+     {}},
+    {"hash_header.txt",
+     "# rig 3\n# t[s] x[mm] mu[-] sigma_n[MPa]\n0 0 0 5\n1 1 0.1 5\n2 2 0.1 5\n",
+     {"Raw file/Header line = 2",
+      "Columns/Time = t[s] in s",
+      "Columns/Friction = mu[-]",
+      "Columns/Pressure = sigma_n[MPa] in MPa"},
+     {}},
+    {"reversed.txt",
+     "Time [s]\tNormal [uN]\tPosition [mm]\tFriction [uN]\n"
+     "0\t5e6\t0\t-1e6\n1\t5e6\t1\t-2e6\n2\t5e6\t2\t-2e6\n3\t5e6\t1\t2e6\n",
+     {"Columns/Normal load = Normal [uN] in uN",
+      "Columns/Tangential load = Friction [uN] in uN",
+      "Convention/Friction sign = reversed"},
+     {}},
+    {"compression_negative.txt",
+     "t [s];x [mm];Fz [kN];Fx [kN]\n0;0;-5;0\n1;1;-5;0.5\n2;2;-5;0.6\n",
+     {"Columns/Normal load = -1*{Fz [kN] in kN}",
+      "Columns/Tangential load = Fx [kN] in kN"},
+     {}},
+    {"stresses.csv",
+     "time [s],slip [um],shear stress [MPa],normal stress [MPa]\n"
+     "0,0,0,30\n1,10,13,30\n2,20,15,30\n",
+     {"Columns/Pressure = normal stress [MPa] in MPa",
+      "Columns/Friction = {shear stress [MPa] in MPa}/{normal stress [MPa] in "
+      "MPa}"},
+     {"Constants/Area"}},
+    {"clock.txt",
+     "Uhrzeit;Pruefzeit [s];Weg [m];Last [N];Reibungszahl;Temperatur [\xC2\xB0"
+     "C]\n10:00:01;1,0;0,1;60;0,10;25,1\n10:00:02;2,0;0,2;60;0,11;25,2\n"
+     "10:00:03;3,0;0,3;60;0,12;25,3\nTest completed at 10:00\n",
+     {"Columns/Time = Pruefzeit [s] in s",
+      "Columns/Displacement = Weg [m] in m",
+      "Columns/Normal load = Last [N] in N",
+      "Columns/Friction = Reibungszahl",
+      "Columns/Temperature = column 6 in degC",
+      "Raw file/Comment marks = Test completed at"},
+     {}},
+    {"gaps.csv",
+     "t [s];x [mm];p [bar];mu;Bemerkung\n0;0;58;0;\n1;;58;0,1;Start\n"
+     "2;2;58;NaN;\n3;3;58;0,1;\n4;4;58;0,1;\n",
+     {"Columns/Pressure = p [bar] in bar", "Columns/Friction = mu"},
+     {}},
+    {"no_units.csv",
+     "Time,Distance,Load,Friction\n0,0,60,0\n1,150,60,0.1\n2,300,60,0.1\n",
+     {"? Columns/Time = Time in s",
+      "? Columns/Displacement = Distance in mm",
+      "? Columns/Normal load = Load in N",
+      "Columns/Friction = Friction"},
+     {}},
+    {"strange_unit.csv",
+     "Time [s],Position [counts],Pressure [psi],Friction []\n"
+     "0,0,800,0\n1,150,800,0.1\n2,300,800,0.1\n",
+     {"Columns/Time = Time [s] in s", "Columns/Friction = Friction []"},
+     {}},
+    {"two_alike.txt",
+     "\tTest Time\tStep Time\tRadius\tDistance\tFriction Force\tFriction "
+     "Coefficient\tFriction Force\t\n"
+     "\t6,\t3600,\t22\t0,000\t0,0\t0,00\t0,0\t\n"
+     "\t7,\t3600,\t22\t0,150\t0,1\t0,10\t0,1\t\n"
+     "\t8,\t3600,\t22\t0,300\t0,1\t0,11\t0,1\t\n",
+     {"? Columns/Time = Test Time in s",
+      "? Columns/Displacement = Distance in mm",
+      "Columns/Friction = Friction Coefficient"},
+     {}},
+    {"swiss.csv",
+     "t [s];x [um];mu;p [MPa]\n0;0;0;5\n1;1'000.5;0.1;5\n2;2'000.5;0.1;5\n",
+     {"Raw file/Decimal mark = point",
+      "Raw file/Thousands mark = apostrophe",
+      "Columns/Displacement = x [um] in um"},
+     {}},
+    {"quoted.csv",
+     "\"Time, s\",\"Displacement, mm\",\"COF\",\"Pressure, MPa\"\n"
+     "\"0\",\"0\",\"0\",\"5\"\n\"1\",\"1\",\"0.1\",\"5\"\n"
+     "\"2\",\"2\",\"0.1\",\"5\"\n",
+     {"Raw file/Delimiter = comma",
+      "Columns/Time = Time, s in s",
+      "Columns/Displacement = Displacement, mm in mm",
+      "Columns/Friction = COF"},
+     {}},
+    {"latin_1.csv",
+     "Zeit [s];Weg [\xB5m];Reibungszahl \xB5;p [N/mm\xB2]\n0;0;0;5\n"
+     "1;1;0,1;5\n2;2;0,1;5\n",
+     {"Columns/Displacement = column 2 in um",
+      "Columns/Friction = column 3",
+      "Columns/Pressure = column 4 in N/mm^2"},
+     {}}};
+} // namespace
+
+
+
+TEST(ImportProposal, RealLookingFilesAreUnderstood)
+{
+  for (const Example &example : examples)
+    {
+      const ImportProposal proposal = proposal_for(example.name, example.text);
+      const auto           lines    = lines_of(proposal);
+      for (const std::string &line : example.expected)
+        EXPECT_NE(std::find(lines.begin(), lines.end(), line), lines.end())
+          << example.name << ": " << line << " is not in"
+          << all_lines_of(proposal);
+      for (const std::string &path : example.absent)
+        for (const ImportGuess &guess : proposal.guesses)
+          EXPECT_NE(guess.path, path) << example.name << all_lines_of(proposal);
+    }
+}
+
+
+
+// What it is sure of converts as it is.
+TEST(ImportProposal, CompleteMapsConvert)
+{
+  unsigned int n_complete = 0;
+  for (const Example &example : examples)
+    {
+      const ImportProposal proposal = proposal_for(example.name, example.text);
+      if (!proposal.is_complete())
+        continue;
+      ++n_complete;
+      const auto tests =
+        import_record(proposal.map(), {proposal.file, {}}, "a");
+      ASSERT_EQ(tests.size(), 1u) << example.name;
+      EXPECT_GE(tests[0].time.size(), 3u) << example.name;
+    }
+  EXPECT_GE(n_complete, 7u);
+}
+
+
+
+// The file of a map says the same, and why.
+TEST(ImportProposal, MapsAreWrittenWithReasons)
+{
+  for (const Example &example : examples)
+    {
+      const ImportProposal proposal = proposal_for(example.name, example.text);
+      const fs::path       file     = test_folder() / "map.prm";
+      std::ofstream(file) << proposal.text();
+      Parameters map = proposal.map(), read = proposal.map();
+      read.read(file);
+      EXPECT_TRUE(read.has_values_of(map)) << proposal.text();
+      for (const ImportGuess &guess : proposal.guesses)
+        EXPECT_FALSE(guess.reason.empty()) << guess.path;
+    }
+}
+
+
+
+TEST(ImportProposal, WhatIsNoTableIsRefused)
+{
+  for (const std::string text : {"",
+                                 "\n\n",
+                                 "once upon a time\nthere was a rig\n",
+                                 "t,x\n1,2\n",
+                                 "\xFF\xFE"
+                                 "a\n"})
+    EXPECT_THROW(proposal_for("a.txt", text), InputError) << text;
+  EXPECT_THROW(proposal_for("a.bin", std::string("1 2\n\0 3\n", 8)),
+               InputError);
+  EXPECT_THROW(propose_import(test_folder() / "nowhere.txt"), InputError);
+}
