@@ -152,3 +152,99 @@ TEST(MeasuredTests, WrongMapsAreRefused)
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(contains(process.read("measured/raw.csv"), "1,1,5,0.1"));
 }
+
+
+
+// Looked at without a map, a record gets one, and nothing is overwritten.
+TEST(MeasuredTests, RecordsWithoutAMapGetOne)
+{
+  const SlipstepProcess process;
+  process.write("raw.csv",
+                "t [s];x [mm];F [N];N [N]\n0;0;0;10\n1;1;1,5;10\n2;2;2;10\n");
+  const auto first = process.run({"import", "raw.csv"});
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(first.out.find("taken  Columns/Tangential load = F [N] in N"),
+            std::string::npos)
+    << first.out;
+  EXPECT_NE(first.out.find("open   Constants/Area"), std::string::npos)
+    << first.out;
+  EXPECT_NE(
+    process.read("output/raw/import/report.html").find("Constants/Area"),
+    std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(process.folder() / "measured"));
+  expect_refusal(process.run({"import", "raw.csv"}),
+                 {"raw_map.prm", "there already"});
+  expect_refusal(process.run({"import", "raw_map.prm"}),
+                 {"Constants/Area", "area is needed"});
+  const auto second = process.run(
+    {"import", "raw_map.prm", "--set", "Constants/Area = 2 mm^2 assumed"});
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_NE(process.read("measured/raw.csv").find("1,1,5,0.15"),
+            std::string::npos);
+  EXPECT_NE(process.read("measured/raw.csv").find("# assumed: Area = 2 mm^2"),
+            std::string::npos);
+
+  process.write("words.txt", "once upon a time\n");
+  expect_refusal(process.run({"import", "words.txt"}),
+                 {"words.txt", "no table of numbers"});
+  expect_refusal(process.run({"import", "no.txt"}), {"no.txt"});
+  expect_refusal(process.run({"import", "raw.csv", "words.txt"}),
+                 {"raw.csv", "is no map"});
+  expect_refusal(process.run({"import", "."}), {"this is a folder"});
+}
+
+
+
+TEST(MeasuredTests, WildcardsConvertManyFiles)
+{
+  const SlipstepProcess process;
+  for (const std::string name : {"dry_5N_a", "dry_5N_b", "wet_7N_a"})
+    process.write(name + ".txt", "t,x,F\n0,0,0\n1,1,0.7\n2,2,0.7\n");
+  const std::string of_names = map.substr(0, map.find("set Constants")) +
+                               "set Columns/Tangential load = F in N\n"
+                               "set Constants/Normal load = {2} N\n"
+                               "set Constants/Area = 1 mm^2\n"
+                               "set Raw file/Name = *_*N_?.txt\n"
+                               "set Test/Condition = {1}, {2} N\n";
+  process.write("map.prm", of_names);
+  const auto result = process.run({"import", "map.prm"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(process.read("measured/wet_7N_a.csv").find("1,1,7,0.1"),
+            std::string::npos);
+  const auto checked = process.run({"check", "measured"});
+  EXPECT_NE(checked.out.find("3 tests: condition 'dry, 5 N': 2, 'wet, 7 N': 1"),
+            std::string::npos)
+    << checked.out;
+  process.write("map.prm", of_names + "set Test/File = {1}\n");
+  expect_refusal(process.run({"import", "map.prm"}),
+                 {"dry_5N_a.txt", "dry_5N_b.txt", "Test/File"});
+  process.write("map.prm", of_names + "set Test/Name = {4}\n");
+  expect_refusal(process.run({"import", "map.prm"}),
+                 {"map.prm:8", "{4}", "known: {1}"});
+  expect_refusal(process.run({"import", "map.prm", "map.prm"}),
+                 {"map.prm", "no name of this pattern"});
+}
+
+
+
+// A load over another area is another pressure.
+TEST(MeasuredTests, AreasOfTestsAndBlockAreCompared)
+{
+  const SlipstepProcess process;
+  process.write("a.csv",
+                "# area: 50 mm^2\n" + header +
+                  "0,0,1,0\n1,1,1,0.1\n2,2,1,0.1\n");
+  const auto with_size = [&](const std::string &size) {
+    process.write("case.prm",
+                  "set Calibration/Tests = a.csv\nset Block/Size = " + size +
+                    "\n");
+    const auto result = process.run({"check", "case.prm"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  const std::string alike = with_size("10 mm, 5 mm, 2 mm");
+  EXPECT_EQ(alike.find("mm^2"), std::string::npos) << alike;
+  const std::string warning = with_size("20 mm, 5 mm, 2 mm");
+  EXPECT_NE(warning.find("over 50 mm^2"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("face of 100 mm^2"), std::string::npos) << warning;
+}
