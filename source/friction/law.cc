@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/friction/law.h>
+#include <slipstep/friction/local_system.h>
 
 #include <slipstep/utilities/exceptions.h>
 
-#include <boost/math/tools/roots.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace SlipStep
 {
@@ -25,51 +22,6 @@ namespace SlipStep
   // @f$f_t + \alpha_t \Delta u@f$ keeps its direction and is shortened by what
   // slips. All else (mu, strength, r_s, flow rule) follows from that one
   // number.
-  //
-  // The local system of one step: what is given, the unknown slip, and
-  // everything that follows from the slip, with derivatives.
-  struct FrictionLaw::LocalSystem
-  {
-    LocalSystem(const StageStart &stage,
-                const double      time_step,
-                const double      normal_traction)
-      : stage(stage)
-      , start(stage.state)
-      , time_step(time_step)
-      , normal_traction(normal_traction)
-      , coefficient(start.coefficient)
-    {}
-
-    const StageStart   &stage;
-    const ContactState &start;
-    const double        time_step;
-    const double        normal_traction;
-
-    Tensor<1, 2> trial;           // f_t + alpha_t * slip increment
-    double       trial_norm = 0.; // T
-    Tensor<1, 2> direction;       // m = trial / T
-
-    // r_s at the point of the elastic path where r was smallest, and how it
-    // depends on the traction increment and the trial strength.
-    double       start_ratio = 0.;
-    Tensor<1, 2> d_start_ratio_d_trial;
-    double       d_start_ratio_d_strength  = 0.;
-    double       d_trial_strength_d_normal = 0.;
-    Tensor<1, 2> d_trial_strength_d_direction;
-
-    double       traction = 0.; // |f_t|, the unknown
-    double       slip     = 0.;
-    double       coefficient;
-    double       d_coefficient = 0.;
-    double       strength      = 0.;
-    Strength     d_strength; // value not used
-    double       ratio = 0.;
-    NormalRatio  normal_ratio;
-    FlowResidual flow;
-    double       d_residual = 1.;
-  };
-
-
 
   namespace
   {
@@ -345,176 +297,6 @@ namespace SlipStep
     evolve_strength(local);
     local.ratio = local.trial_norm / local.strength;
     start_ratio(strength_at_rest(local), local, local);
-  }
-
-
-
-  // @sect3{Which root}
-  //
-  // Where there may be several roots, the one that goes on as before.
-  void FrictionLaw::find_slip(LocalSystem &local) const
-  {
-    stick(local);
-    // Below 1e-12 nothing can be told from zero.
-    const auto must_slip = [](const LocalSystem &local) {
-      return local.ratio > std::max(local.start_ratio, 1e-12);
-    };
-    const bool slid = local.start.slip_rate > 0.;
-    if (slid && (depends_on_rate || !must_slip(local)))
-      {
-        if (slide_on(local))
-          return;
-        stick(local);
-      }
-    if (!must_slip(local))
-      {
-        if (normal_ratio != &neutral)
-          local.normal_ratio.value = local.ratio;
-        return;
-      }
-    if (depends_on_rate && !slid)
-      return leave_sticking(local);
-    // The ratio changes little from step to step; a new contact is on its way
-    // to full slip.
-    double expected = std::max(local.start.loading_ratio, local.start_ratio);
-    if (expected < 1e-3)
-      expected = 1.;
-    solve(0.,
-          local.trial_norm,
-          std::min(expected * local.strength, (1. - 1e-3) * local.trial_norm),
-          local);
-  }
-
-
-
-  // Strength that falls with slip or with speed lets a contact stick or slide
-  // under the same traction. One that slides goes on as long as it can: the
-  // root of its branch, from where it would slip at the rate that it has.
-  // Returns whether there is one. That the strength grows when the slip comes
-  // to rest does not count as unloading then.
-  bool FrictionLaw::slide_on(LocalSystem &local) const
-  {
-    const double largest = local.trial_norm / alpha_t;
-    const double slip =
-      std::min(local.start.slip_rate * local.time_step, (1. - 1e-3) * largest);
-    if (!(slip > 0.))
-      return false;
-    // The strength on the elastic path, with memories as they are.
-    constexpr double moment = 1e-9; // of the time step
-    LocalSystem      at_rate(local.stage,
-                        moment * local.time_step,
-                        local.normal_traction);
-    at_rate.direction = local.direction;
-    at_rate.slip      = moment * local.start.slip_rate * local.time_step;
-    evolve_coefficient(at_rate);
-    evolve_strength(at_rate);
-    start_ratio(local.start.strength, at_rate, local);
-    evaluate(local.trial_norm - alpha_t * slip, local);
-    if (local.flow.value > 0.)
-      return follow_branch(local);
-    const double upper = local.traction;
-    solve(0., upper, std::min(local.ratio * local.strength, upper), local);
-    return true;
-  }
-
-
-
-  // From sticking on, the first root is next to where the contact was before.
-  void FrictionLaw::leave_sticking(LocalSystem &local) const
-  {
-    const double largest = local.trial_norm / alpha_t;
-    double       upper   = local.trial_norm;
-    for (double slip = 1e-12 * largest; slip < largest; slip *= 4.)
-      {
-        const double lower = local.trial_norm - alpha_t * slip;
-        evaluate(lower, local);
-        if (local.flow.value >= 0.)
-          return solve(lower, upper, lower, local);
-        upper = lower;
-      }
-    solve(0., upper, upper / 2., local);
-  }
-
-
-
-  // Newton's method towards less slip, from a residual that is too large; the
-  // branch ends where the residual grows no more with slip, or where slip
-  // cannot be told from none.
-  bool FrictionLaw::follow_branch(LocalSystem &local) const
-  {
-    for (unsigned int iteration = 0; iteration < 100; ++iteration)
-      {
-        const double slip = local.slip, lower = local.traction;
-        if (!(local.d_residual > 0.) || alpha_t * slip <= 1e-15 * lower)
-          return false;
-        const double change = local.flow.value / local.d_residual;
-        if (change <= 1e-13 * slip || alpha_t * change <= 1e-16 * lower)
-          return true;
-        evaluate(local.trial_norm -
-                   alpha_t * std::max(slip - change, slip / 8.),
-                 local);
-        if (local.flow.value <= 0.)
-          {
-            const double upper = local.traction;
-            solve(lower, upper, upper, local);
-            return true;
-          }
-      }
-    return false;
-  }
-
-
-
-  // The slip in the stage is sought by way of the traction that it leaves,
-  // |f_t| = |f_trial| - alpha_t * slip: of the two this one keeps its digits
-  // when a step is far longer than the elastic slip. The residual is positive
-  // at the lower bound and negative at the upper one.
-  void FrictionLaw::solve(const double lower,
-                          const double upper,
-                          const double guess,
-                          LocalSystem &local) const
-  {
-    const auto residual = [&](const double traction) {
-      evaluate(traction, local);
-      return local.flow.value;
-    };
-    const unsigned int most_iterations = 50;
-    try
-      {
-        boost::uintmax_t iterations = most_iterations;
-        const double     traction = boost::math::tools::newton_raphson_iterate(
-          [&](const double traction) {
-            const double value = residual(traction);
-            return std::make_tuple(value, -local.d_residual / alpha_t);
-          },
-          guess,
-          lower,
-          upper,
-          45,
-          iterations);
-        if (iterations < most_iterations)
-          {
-            evaluate(traction, local);
-            const double correction =
-              alpha_t * local.flow.value / local.d_residual;
-            if (local.d_residual > 0. &&
-                std::abs(correction) <= 1e-6 * traction)
-              return;
-          }
-      }
-    catch (const boost::math::evaluation_error &)
-      {}
-
-    if (!(residual(lower) > 0.) || !(residual(upper) < 0.))
-      return;
-    boost::uintmax_t iterations = 200;
-    const auto       bracket    = boost::math::tools::toms748_solve(
-      residual,
-      lower,
-      upper,
-      boost::math::tools::eps_tolerance<double>(50),
-      iterations);
-    evaluate((bracket.first + bracket.second) / 2., local);
   }
 
 
