@@ -88,13 +88,19 @@ namespace SlipStep
               candidate.leave_to_model(which + " is in the model already");
               return candidate;
             }
-          TrialFormula formula = info->search.formula(now);
-          if (!now.has(info->name))
-            formula.effect = info->name;
-          if (formula.why_not.empty())
-            candidate.formulas.push_back(formula);
-          else
-            reasons.push_back(formula.why_not);
+          for (const auto &form :
+               {info->search.formula, info->search.other_form})
+            {
+              if (!form)
+                continue;
+              TrialFormula formula = form(now);
+              if (!now.has(info->name))
+                formula.effect = info->name;
+              if (formula.why_not.empty())
+                candidate.formulas.push_back(formula);
+              else
+                reasons.push_back(formula.why_not);
+            }
         }
       if (candidate.formulas.empty())
         candidate.why_not = list_text(reasons);

@@ -157,9 +157,9 @@ namespace SlipStep
             normal_ratio = created;
           if (info.slot == ExclusiveSlot::anisotropy)
             {
-              is_anisotropic = true;
               cone           = created->cone();
               inverse_cone   = invert(cone);
+              is_anisotropic = cone != neutral.cone();
             }
           if (const auto *effect =
                 dynamic_cast<const StrengthEffect *>(created))

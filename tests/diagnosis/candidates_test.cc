@@ -108,6 +108,23 @@ TEST(Candidates, AreAllOfTheCatalogueUnlessSomeAreAskedFor)
 
 
 
+// Slip normal to the ellipse, and friction opposite to slip.
+TEST(Candidates, AnisotropyHasTwoForms)
+{
+  Parameters start = coulomb_case();
+  start.set("Diagnosis/Candidates", "anisotropy", "test");
+  const Candidate found = make_candidates(start, usual_range()).at(0);
+  ASSERT_EQ(found.formulas.size(), 2u);
+  std::vector<std::string> forms;
+  for (const TrialFormula &formula : found.formulas)
+    forms.push_back(
+      assemble(start, {{found.name, formula}}, formula.shapes[0](30.))
+        .parameters.text("Friction/anisotropy/Form"));
+  EXPECT_EQ(forms, (std::vector<std::string>{"associated", "opposite"}));
+}
+
+
+
 // What has not softened cannot recover, but it can age.
 TEST(Candidates, HealingIsRecoveryOrAgeing)
 {

@@ -32,7 +32,12 @@ namespace
               {"healing/Rate", "1e-3"},
               {"healing/Steepness", "100"}}},
             {"probe", {{"Effects", paper + ", probe"}}},
-            {"perzyna", {{"Effects", "subloading, perzyna, softening"}}}};
+            {"perzyna", {{"Effects", "subloading, perzyna, softening"}}},
+            {"opposite",
+             {{"Effects", paper + ", anisotropy"},
+              {"anisotropy/Form", "opposite"},
+              {"anisotropy/Ratio", "0.6"},
+              {"anisotropy/Angle", "35 deg"}}}};
   }
 
   class EveryLaw

@@ -107,6 +107,9 @@ namespace SlipStep
 
     /// Why it is never looked for: then there is no formula.
     std::string why_not = "";
+
+    /// The same for another form of the effect, if that is looked for, too.
+    std::function<TrialFormula(const Circumstances &)> other_form = {};
   };
 
   /// A change of friction by one per cent, the size of all trial strengths.

@@ -22,22 +22,73 @@ namespace SlipStep
     /// \f$\varrho^2\alpha_t\f$ is chosen: in the metric of the ellipse all is
     /// isotropic then, and f_1, f_2/rho, the slip s_1, rho s_2 do the same
     /// work. lambda and the slip path are measured in it.
-    class Anisotropy : public Effect
+    class AssociatedAnisotropy : public Effect
     {
     public:
-      Anisotropy(const Parameters &parameters, const CoefficientBasis &)
-        : rho(parameters.number("Friction/anisotropy/Ratio"))
-        , angle(parameters.number("Friction/anisotropy/Angle"))
+      explicit AssociatedAnisotropy(const dealii::Tensor<2, 2> &ellipse)
+        : ellipse(ellipse)
       {}
 
       virtual dealii::Tensor<2, 2> cone() const override
       {
+        return ellipse;
+      }
+
+    private:
+      const dealii::Tensor<2, 2> ellipse; ///< P
+    };
+
+
+
+    /// The same ellipse, but friction is opposite to slip, as is chosen for
+    /// most machine parts: not associated. Slip along e meets the traction of
+    /// the ellipse in that direction, a factor of the strength
+    /// \f[ G = \frac1{|P^{-1} e|}. \f]
+    /// Zmitrowicz (1981), Wear 73, 9, has both kinds. The tangential stiffness
+    /// is the same in all directions, and lambda is the true rate. What other
+    /// effects add to f_n mu G is not touched.
+    class OppositeAnisotropy : public StrengthEffect
+    {
+    public:
+      explicit OppositeAnisotropy(const dealii::Tensor<2, 2> &ellipse)
+        : inverse(invert(ellipse))
+      {}
+
+      virtual Strength strength_factor(const SlipStepData &step) const override
+      {
+        const dealii::Tensor<1, 2> scaled = inverse * step.direction;
+        const double               norm   = scaled.norm();
+        if (norm == 0.)
+          return StrengthEffect::strength_factor(step);
+        Strength factor;
+        factor.value       = 1. / norm;
+        factor.d_direction = -1. / (norm * norm * norm) * (inverse * scaled);
+        return factor;
+      }
+
+    private:
+      const dealii::Tensor<2, 2> inverse; ///< of P, symmetric
+    };
+
+
+
+    class Anisotropy
+    {
+    public:
+      static std::unique_ptr<Effect> create(const Parameters &parameters,
+                                            const CoefficientBasis &)
+      {
+        const double rho   = parameters.number("Friction/anisotropy/Ratio");
+        const double angle = parameters.number("Friction/anisotropy/Angle");
         dealii::Tensor<1, 2> first, second;
         first[0] = second[1] = std::cos(angle);
         first[1]             = std::sin(angle);
         second[0]            = -first[1];
-        return outer_product(first, first) +
-               rho * outer_product(second, second);
+        const dealii::Tensor<2, 2> ellipse =
+          outer_product(first, first) + rho * outer_product(second, second);
+        if (parameters.text("Friction/anisotropy/Form") == "opposite")
+          return std::make_unique<OppositeAnisotropy>(ellipse);
+        return std::make_unique<AssociatedAnisotropy>(ellipse);
       }
 
       static EffectInfo info()
@@ -47,11 +98,20 @@ namespace SlipStep
         info.slot  = ExclusiveSlot::anisotropy;
         info.words = "friction that depends on the direction in the plane";
         info.formula =
-          "|f_t| = sqrt(f_1^2 + (f_2 / rho)^2), slip normal to the ellipse";
+          "|f_t| = sqrt(f_1^2 + (f_2 / rho)^2), slip normal to the ellipse or "
+          "along f_t";
         info.latex = "|f_t|^2 = f_1^2 + \\left(\\frac{f_2}{\\varrho}\\right)^2";
-        info.source  = "Michalowski and Mroz (1978), Arch. Mech. 30, 259-276";
+        info.source  = "Michalowski and Mroz (1978), Arch. Mech. 30, 259-276; "
+                       "Zmitrowicz (1981), Wear 73, 9-39";
         info.neutral = "Ratio = 1";
         info.parameters = {
+          {"Form",
+           "",
+           "associated",
+           dealii::Patterns::Selection("associated|opposite"),
+           "'associated': slip is normal to the ellipse; 'opposite': friction "
+           "is as the ellipse says in the direction of slip, and opposite to "
+           "it"},
           {"Ratio",
            "rho",
            "0.8",
@@ -64,9 +124,15 @@ namespace SlipStep
            Quantity(Dimension::angle, -360., 360.),
            "angle from the first axis of the contact plane to the first axis "
            "of the ellipse"}};
-        info.neutral_settings = {{"Ratio", "1"}};
-        info.typical_settings = {{"Ratio", "0.6"}, {"Angle", "35 deg"}};
-        info.search           = {"a ratio in off-axis tests", search};
+        info.neutral_settings  = {{"Ratio", "1"}};
+        info.typical_settings  = {{"Ratio", "0.6"}, {"Angle", "35 deg"}};
+        info.search            = {"a ratio in off-axis tests", search};
+        info.search.other_form = [](const Circumstances &now) {
+          TrialFormula formula = search(now);
+          formula.texts        = {{"Friction/anisotropy/Form", "opposite"}};
+          return formula;
+        };
+        info.create = create;
         return info;
       }
 
@@ -87,12 +153,8 @@ namespace SlipStep
           });
         return formula;
       }
-
-      const double rho;
-      const double angle;
     };
 
-    const RegisterEffect anisotropy_registration =
-      register_effect<Anisotropy>();
+    const RegisterEffect anisotropy_registration(Anisotropy::info());
   } // namespace
 } // namespace SlipStep
