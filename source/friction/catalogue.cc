@@ -21,6 +21,8 @@ namespace SlipStep
             return "only one effect can define the flow rule";
           case ExclusiveSlot::anisotropy:
             return "only one effect can define the cone";
+          case ExclusiveSlot::elastic_core:
+            return "only one effect can define the elastic core";
           case ExclusiveSlot::none:
             break;
         }

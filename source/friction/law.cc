@@ -131,7 +131,7 @@ namespace SlipStep
             local.slip,
             slip_direction(local.direction),
             local.coefficient,
-            local.traction * local.slip};
+            local.heat(has_core())};
   }
 
 
@@ -181,8 +181,10 @@ namespace SlipStep
                sum.d_slip +
                (f_n * mu * factor.d_coefficient + sum.d_coefficient) *
                  local.d_coefficient +
-               d.d_rate / local.time_step +
-               d.d_work * (local.traction - alpha_t * local.slip);
+               d.d_rate / local.time_step;
+    // With a core work depends on the strength, see core_change().
+    if (!has_core())
+      d.d_slip += d.d_work * (local.traction - alpha_t * local.slip);
     if (is_anisotropic)
       d.d_direction = pull_back(d.d_direction, local.direction);
   }
@@ -209,21 +211,31 @@ namespace SlipStep
   void FrictionLaw::evaluate(const double traction, LocalSystem &local) const
   {
     local.traction = traction;
-    local.slip     = (local.trial_norm - traction) / alpha_t;
+    local.slip     = (local.reach - traction) / alpha_t;
     evolve_coefficient(local);
+    if (has_core())
+      return evaluate_with_core(local);
     evolve_strength(local);
     local.ratio = traction / local.strength;
     local.normal_ratio =
       normal_ratio->normal_ratio_after_slip(local.start_ratio, local.slip);
-    local.flow = flow->flow_residual(local.ratio,
-                                     local.normal_ratio.value,
-                                     local.slip / local.time_step);
+    evaluate_flow(local);
 
     const double d_ratio =
       -(alpha_t + local.ratio * local.d_strength.d_slip) / local.strength;
     local.d_residual = local.flow.d_ratio * d_ratio +
                        local.flow.d_normal_ratio * local.normal_ratio.d_slip +
-                       local.flow.d_rate / local.time_step;
+                       local.d_flow_d_slip;
+  }
+
+
+
+  void FrictionLaw::evaluate_flow(LocalSystem &local) const
+  {
+    local.flow          = flow->flow_residual(local.ratio,
+                                     local.normal_ratio.value,
+                                     local.slip / local.time_step);
+    local.d_flow_d_slip = local.flow.d_rate / local.time_step;
   }
 
 
@@ -235,8 +247,11 @@ namespace SlipStep
                                      const Tensor<1, 2> &b,
                                      const double        c,
                                      const double        end_strength,
-                                     double             &s)
+                                     const Tensor<1, 2> &centre,
+                                     double             &s) const
   {
+    if (has_core())
+      return smallest_similarity_ratio(a, b, c, end_strength, centre, s);
     const double d       = end_strength - c;
     const double slope_0 = (a * b) * c - d * (a * a);
     const double slope_1 = slope_0 + (b * b) * c - d * (a * b);
@@ -260,14 +275,15 @@ namespace SlipStep
         local.start_ratio = 1.;
         return;
       }
-    local.start_ratio = local.start.normal_ratio;
+    local.start_ratio =
+      std::max(local.start.normal_ratio, normal_ratio->elastic_range());
     if (local.start.normal_traction <= 0.)
       return;
     const Tensor<1, 2> &a = local.stage.path_start;
     const Tensor<1, 2>  b = local.trial - local.stage.path_base;
     double              s;
     const double        smallest =
-      smallest_ratio(a, b, start_strength, end.strength, s);
+      smallest_ratio(a, b, start_strength, end.strength, local.core.centre, s);
     if (s == 0.)
       return;
     const Tensor<1, 2> traction = a + s * b;
@@ -275,11 +291,21 @@ namespace SlipStep
     const double       strength = (1. - s) * start_strength + s * end.strength;
     if (smallest < local.start_ratio)
       {
-        local.start_ratio = smallest;
+        local.start_ratio = std::max(smallest, normal_ratio->elastic_range());
+        if (smallest < local.start_ratio)
+          return;
         // s is stationary, so only the explicit dependence counts.
-        if (norm > 0.)
+        local.d_start_ratio_d_strength = -s * smallest / strength;
+        if (has_core())
+          {
+            const Tensor<1, 2> &c = local.core.centre;
+            const Tensor<1, 2>  n = similarity(traction, strength, c).normal;
+            const double        scale   = s / ((1. - c * n) * strength);
+            local.d_start_ratio_d_trial = scale * n;
+            local.d_start_ratio_d_strength -= scale * (c * n);
+          }
+        else if (norm > 0.)
           local.d_start_ratio_d_trial = s * traction / (norm * strength);
-        local.d_start_ratio_d_strength     = -s * smallest / strength;
         local.d_trial_strength_d_normal    = end.d_strength.d_normal;
         local.d_trial_strength_d_direction = end.d_strength.d_direction;
       }
@@ -290,12 +316,16 @@ namespace SlipStep
   // No slip in this stage.
   void FrictionLaw::stick(LocalSystem &local) const
   {
-    local.traction    = local.trial_norm;
+    local.traction    = local.reach;
     local.slip        = 0.;
+    local.work        = 0.;
     local.coefficient = local.start.coefficient;
     evolve_coefficient(local);
     evolve_strength(local);
-    local.ratio = local.trial_norm / local.strength;
+    local.ratio =
+      has_core() ?
+        similarity(local.trial, local.strength, local.core.centre).ratio :
+        local.trial_norm / local.strength;
     start_ratio(strength_at_rest(local), local, local);
   }
 
@@ -320,6 +350,8 @@ namespace SlipStep
         response.d_slip   = alpha_t * unity;
         return response;
       }
+    if (has_core())
+      return linearise_with_core(local);
 
     const Tensor<2, 2> transverse =
       (unity - outer_product(m, m)) / local.trial_norm;
@@ -419,7 +451,9 @@ namespace SlipStep
     end.normal_ratio    = normal_ratio->virgin_normal_ratio();
     end.normal_traction = end.strength = 0.;
     end.loading_ratio = end.slip_rate = 0.;
-    end.dissipation += local.start.traction.norm_square() / (2. * alpha_t);
+    end.dissipation += local.start.traction.norm_square() / (2. * alpha_t) +
+                       std::max(local.core.energy, 0.);
+    core->remember_core({{}, std::min(local.core.energy, 0.)}, end);
     for (const StrengthEffect *effect : strength_effects)
       effect->remember(step_data(local), end);
   }
@@ -435,6 +469,7 @@ namespace SlipStep
   {
     const ContactState &start = stage.state;
     LocalSystem         local(stage, time_step, std::max(normal_traction, 0.));
+    local.core = core->core(start);
     if (normal_traction <= 0.)
       {
         evolve_coefficient(local);
@@ -446,6 +481,7 @@ namespace SlipStep
     local.trial_norm = local.trial.norm();
     if (local.trial_norm > 0.)
       local.direction = local.trial / local.trial_norm;
+    local.reach = local.trial_norm;
 
     find_slip(local);
 
@@ -466,8 +502,15 @@ namespace SlipStep
     end.coefficient   = local.coefficient;
     end.slip_path     = start.slip_path + local.slip;
     end.slip_rate     = local.slip / time_step;
-    end.dissipation   = start.dissipation + local.traction * local.slip;
+    end.dissipation   = start.dissipation + local.heat(has_core());
     end.memories      = start.memories;
+    if (has_core())
+      {
+        end.loading_ratio =
+          std::min(response.traction.norm() / local.strength, maximum_ratio());
+        core->remember_core(
+          moved_core(start, local.strength, local.normal, local.slip), end);
+      }
     for (const StrengthEffect *effect : strength_effects)
       effect->remember(step_data(local), end);
     return response;

@@ -13,9 +13,10 @@ namespace SlipStep
   {
     const char *slot_name(const ExclusiveSlot slot)
     {
-      return slot == ExclusiveSlot::overstress ? "overstress" :
-             slot == ExclusiveSlot::anisotropy ? "anisotropy" :
-                                                 "normal ratio";
+      return slot == ExclusiveSlot::overstress   ? "overstress" :
+             slot == ExclusiveSlot::anisotropy   ? "anisotropy" :
+             slot == ExclusiveSlot::elastic_core ? "elastic core" :
+                                                   "normal ratio";
     }
 
     // Names in the list, checked, in the order of the catalogue, so that the
@@ -57,6 +58,12 @@ namespace SlipStep
                                 "' both define the " + slot_name(slot) +
                                 ": keep one");
         }
+      if (owner.count(ExclusiveSlot::elastic_core) == 1 &&
+          owner.count(ExclusiveSlot::normal_ratio) == 0)
+        parameters.reject("Friction/Effects",
+                          "effect '" + owner[ExclusiveSlot::elastic_core] +
+                            "' moves the centre from which 'subloading' "
+                            "measures: add 'subloading'");
       return names;
     }
 
@@ -155,6 +162,8 @@ namespace SlipStep
             flow = created;
           if (info.slot == ExclusiveSlot::normal_ratio)
             normal_ratio = created;
+          if (info.slot == ExclusiveSlot::elastic_core)
+            core = created;
           if (info.slot == ExclusiveSlot::anisotropy)
             {
               cone           = created->cone();
@@ -208,9 +217,9 @@ namespace SlipStep
   {
     std::vector<ContactMemory> used;
     for (const ContactMemory &memory : contact_memories())
-      if (std::any_of(strength_effects.begin(),
-                      strength_effects.end(),
-                      [&memory](const StrengthEffect *effect) {
+      if (std::any_of(active.begin(),
+                      active.end(),
+                      [&memory](const auto &effect) {
                         const auto written = effect->memories();
                         return std::any_of(written.begin(),
                                            written.end(),

@@ -11,9 +11,12 @@ namespace SlipStep
 {
   // @sect3{Which root}
   //
+  //
   // Where there may be several roots, the one that goes on as before.
   void FrictionLaw::find_slip(LocalSystem &local) const
   {
+    if (has_core())
+      extend_reach(local);
     stick(local);
     // Below 1e-12 nothing can be told from zero.
     const auto must_slip = [](const LocalSystem &local) {
@@ -40,8 +43,9 @@ namespace SlipStep
     if (expected < 1e-3)
       expected = 1.;
     solve(0.,
-          local.trial_norm,
-          std::min(expected * local.strength, (1. - 1e-3) * local.trial_norm),
+          local.reach,
+          std::min(expected * local.strength + (local.reach - local.trial_norm),
+                   (1. - 1e-3) * local.reach),
           local);
   }
 
@@ -54,7 +58,7 @@ namespace SlipStep
   // to rest does not count as unloading then.
   bool FrictionLaw::slide_on(LocalSystem &local) const
   {
-    const double largest = local.trial_norm / alpha_t;
+    const double largest = local.reach / alpha_t;
     const double slip =
       std::min(local.start.slip_rate * local.time_step, (1. - 1e-3) * largest);
     if (!(slip > 0.))
@@ -69,7 +73,7 @@ namespace SlipStep
     evolve_coefficient(at_rate);
     evolve_strength(at_rate);
     start_ratio(local.start.strength, at_rate, local);
-    evaluate(local.trial_norm - alpha_t * slip, local);
+    evaluate(local.reach - alpha_t * slip, local);
     if (local.flow.value > 0.)
       return follow_branch(local);
     const double upper = local.traction;
@@ -82,11 +86,11 @@ namespace SlipStep
   // From sticking on, the first root is next to where the contact was before.
   void FrictionLaw::leave_sticking(LocalSystem &local) const
   {
-    const double largest = local.trial_norm / alpha_t;
-    double       upper   = local.trial_norm;
+    const double largest = local.reach / alpha_t;
+    double       upper   = local.reach;
     for (double slip = 1e-12 * largest; slip < largest; slip *= 4.)
       {
-        const double lower = local.trial_norm - alpha_t * slip;
+        const double lower = local.reach - alpha_t * slip;
         evaluate(lower, local);
         if (local.flow.value >= 0.)
           return solve(lower, upper, lower, local);
@@ -110,8 +114,7 @@ namespace SlipStep
         const double change = local.flow.value / local.d_residual;
         if (change <= 1e-13 * slip || alpha_t * change <= 1e-16 * lower)
           return true;
-        evaluate(local.trial_norm -
-                   alpha_t * std::max(slip - change, slip / 8.),
+        evaluate(local.reach - alpha_t * std::max(slip - change, slip / 8.),
                  local);
         if (local.flow.value <= 0.)
           {

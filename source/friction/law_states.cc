@@ -31,8 +31,12 @@ namespace SlipStep
         state.normal_traction = state.strength = 0.;
         state.loading_ratio = state.slip_rate = 0.;
         state.normal_ratio = normal_ratio->virgin_normal_ratio();
+        core->remember_core({{}, std::min(core->core(state).energy, 0.)},
+                            state);
         return;
       }
+    if (has_core())
+      return complete_with_core(state);
     state.loading_ratio =
       (state.strength > 0. ?
          isotropic_traction(state.traction).norm() / state.strength :

@@ -31,13 +31,21 @@ namespace SlipStep
                                       const double        slip,
                                       const double        time_step) const
   {
+    double work = isotropic_traction(end.traction).norm() * slip;
+    if (has_core())
+      {
+        const Tensor<1, 2> normal = slip_normal(end);
+        work = isotropic_traction(end.traction) * normal * slip -
+               (moved_core(start, end.strength, normal, slip).energy -
+                core->core(start).energy);
+      }
     return {start,
             time_step,
             end.normal_traction,
             slip,
             slip_direction(direction_of(end)),
             end.coefficient,
-            isotropic_traction(end.traction).norm() * slip};
+            work};
   }
 
 
@@ -76,6 +84,10 @@ namespace SlipStep
     if (first.end.normal_traction <= 0.)
       return result;
 
+    const Tensor<1, 2> normal = slip_normal(first.end);
+    if (has_core())
+      core->remember_core(
+        moved_core(first.end, first.end.strength, normal, more), state);
     state.slip_path = first.end.slip_path + more;
     state.dissipation =
       TwoStages::carried(start.dissipation, first.end.dissipation);
@@ -84,8 +96,7 @@ namespace SlipStep
     if (slip > 0.)
       state.normal_ratio =
         normal_ratio->normal_ratio_after_slip(state.normal_ratio, more).value;
-    result.path_base =
-      first.end.traction - alpha_t * more * cone * direction_of(first.end);
+    result.path_base = first.end.traction - alpha_t * more * cone * normal;
     return result;
   }
 
@@ -119,6 +130,7 @@ namespace SlipStep
       std::max({error.at_end,
                 error_of_traction(start, first, last) / end.strength,
                 error_of_memories(start, last),
+                error_of_core(start, last),
                 error_of_normal_ratio(start, first, last)});
 
     // A parabola through three points is farthest from its chord in the middle;
@@ -150,7 +162,7 @@ namespace SlipStep
                                         const StageRecord  &last) const
   {
     const auto slip = [&](const ContactState &state) {
-      return inverse_cone * (state.slip_rate * direction_of(state));
+      return inverse_cone * (state.slip_rate * slip_normal(state));
     };
     const Tensor<1, 2> change = slip(last.end) - slip(first.end);
     double             error =
@@ -217,9 +229,11 @@ namespace SlipStep
                                            path,
                                            start.strength,
                                            end.strength,
+                                           core->core(start).centre,
                                            where);
     const NormalRatio one_stage = normal_ratio->normal_ratio_after_slip(
-      std::min(start.normal_ratio, smallest),
+      std::max(std::min(start.normal_ratio, smallest),
+               normal_ratio->elastic_range()),
       end.slip_rate * last.time_step / TwoStages::gamma);
     return 0.5 * std::abs(one_stage.value - end.normal_ratio);
   }

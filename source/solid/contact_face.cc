@@ -555,7 +555,7 @@ namespace SlipStep
           sums[7] +=
             point.JxW * (state.normal_traction * state.normal_traction /
                            (2. * law.normal_stiffness()) +
-                         law.stored_energy(state.traction));
+                         law.stored_energy(state));
           const std::array<double, 3> ratios = {
             {state.loading_ratio, state.normal_ratio, state.coefficient}};
           for (unsigned int i = 0; i < 3; ++i)

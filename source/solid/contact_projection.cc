@@ -54,6 +54,21 @@ namespace SlipStep
 
 
 
+    // In [0, 1], of a condition that small ones fulfil.
+    template <typename Condition>
+    double largest_factor(const Condition &fits)
+    {
+      double lower = 0., upper = 1.;
+      for (unsigned int bisection = 0; bisection < 60; ++bisection)
+        {
+          const double factor            = (lower + upper) / 2.;
+          (fits(factor) ? lower : upper) = factor;
+        }
+      return lower;
+    }
+
+
+
     std::vector<double> points_in_1d(const unsigned int degree)
     {
       const QGauss<1>     gauss(degree + 1);
@@ -206,6 +221,7 @@ namespace SlipStep
                   first_memory + memory.slot,
                   memory.least,
                   memory.greatest);
+    limit_cores(fields);
 
     States states(fields.size());
     for (unsigned int k = 0; k < fields.size(); ++k)
@@ -273,19 +289,43 @@ namespace SlipStep
     };
 
     // Allowed states are a convex set, to which the mean belongs.
-    double lower = 0., upper = 1.;
-    for (unsigned int bisection = 0; bisection < 60; ++bisection)
-      {
-        const double factor = (lower + upper) / 2.;
-        const bool   fits =
-          std::all_of(fields.begin(), fields.end(), [&](const Fields &f) {
-            return is_admissible(scaled_by(factor, f),
-                                 least_share * mean[normal_traction]);
-          });
-        (fits ? lower : upper) = factor;
-      }
+    const double factor = largest_factor([&](const double factor) {
+      return std::all_of(fields.begin(), fields.end(), [&](const Fields &f) {
+        return is_admissible(scaled_by(factor, f),
+                             least_share * mean[normal_traction]);
+      });
+    });
     for (Fields &values : fields)
-      values = scaled_by(lower, values);
+      values = scaled_by(factor, values);
+  }
+
+
+
+  // Of a vector in a disc its components are scaled together.
+  template <int dim>
+  void ContactProjection<dim>::limit_cores(std::vector<Fields> &fields) const
+  {
+    const Fields mean      = mean_of(fields, weights);
+    const auto   scaled_by = [&](const double factor, Fields values) {
+      for (unsigned int i = first_memory; i < n_fields; ++i)
+        values[i] = mean[i] + factor * (values[i] - mean[i]);
+      return values;
+    };
+    const auto fits = [&](const double factor) {
+      return std::all_of(fields.begin(), fields.end(), [&](const Fields &f) {
+        const Fields values = scaled_by(factor, f);
+        ContactState state;
+        std::copy(values.begin() + first_memory,
+                  values.end(),
+                  state.memories.begin());
+        return law.admits_core(state);
+      });
+    };
+    if (fits(1.))
+      return;
+    const double factor = largest_factor(fits);
+    for (Fields &values : fields)
+      values = scaled_by(factor, values);
   }
 
 

@@ -45,6 +45,9 @@ namespace
           for (const auto &value : info.typical_settings)
             result.push_back({info.name + "/" + value.first, value.second});
         }
+      if (is_taken[ExclusiveSlot::elastic_core] &&
+          !is_taken[ExclusiveSlot::normal_ratio])
+        result[0].second += ", subloading";
       if (result[0].second.find("expression") != std::string::npos)
         vary_expression(result);
       return result;
@@ -99,7 +102,10 @@ TEST_P(Combination, random_loading_never_fails)
       ASSERT_GE(state.slip_path, last.slip_path);
       ASSERT_GE(state.dissipation, last.dissipation);
       for (const ContactMemory &memory : contact_memories())
-        ASSERT_TRUE(std::isfinite(state[memory]) && state[memory] >= 0.);
+        ASSERT_TRUE(state[memory] >= memory.least &&
+                    state[memory] <= memory.greatest &&
+                    std::isfinite(state[memory]))
+          << memory.name;
       ASSERT_NEAR(law->isotropic_traction(state.traction).norm(),
                   state.loading_ratio * state.strength,
                   1e-9 * state.strength * state.loading_ratio + 1e-300);

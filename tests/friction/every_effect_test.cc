@@ -99,8 +99,8 @@ namespace
           0.5 * (result.state.traction + end.traction) * (to.slip - from.slip);
         result.state = end;
       }
-    result.balance = work - law.stored_energy(result.state.traction) -
-                     result.state.dissipation;
+    result.balance =
+      work - law.stored_energy(result.state) - result.state.dissipation;
     return result;
   }
 
@@ -325,7 +325,7 @@ TEST_P(EveryEffect, names_what_it_remembers)
   const auto   used = law->memories();
   for (const double slip : {2e-3, 3e-3, -1e-2})
     {
-      point.update(*law, vector(slip), 5.8, 0.1);
+      point.update(*law, vector(slip, slip / 3.), 5.8, 0.1);
       point.commit();
     }
   for (const ContactMemory &memory : contact_memories())
@@ -405,7 +405,8 @@ namespace
       if (name == "softening")
         return ratio * pressure * 0.098;
       if (name == "healing" || name == "overstress" || name == "perzyna" ||
-          name == "subloading" || name == "pressure_memory")
+          name == "subloading" || name == "pressure_memory" ||
+          name == "elastic_core")
         return f;
       return -1.;
     }
@@ -421,11 +422,13 @@ TEST_P(EveryEffect, has_its_closed_form_in_steady_sliding)
     GTEST_SKIP() << "None, or tested on its own.";
   if (info.name == "softening")
     steady.mu = 0.115;
-  Settings settings =
-    settings_of(info.name,
-                info.typical_settings,
-                info.slot == ExclusiveSlot::overstress ? "subloading" :
-                                                         "overstress");
+  Settings settings = settings_of(info.name,
+                                  info.typical_settings,
+                                  info.slot == ExclusiveSlot::overstress ?
+                                    "subloading" :
+                                  info.slot == ExclusiveSlot::elastic_core ?
+                                    "subloading, overstress" :
+                                    "overstress");
   settings.push_back({"Static coefficient", std::to_string(steady.mu)});
   const auto law = make_law(settings);
   steady.ratio   = law->steady_ratio(steady.speed);

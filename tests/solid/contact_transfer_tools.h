@@ -74,7 +74,7 @@ namespace SlipStep::Testing
   /// What a transfer conserves.
   inline auto conserved(const ContactState &state)
   {
-    return std::array<double, 9>{
+    return std::array<double, 12>{
       {state.traction[0],
        state.traction[1],
        state.normal_traction,
@@ -83,7 +83,10 @@ namespace SlipStep::Testing
        state.dissipation,
        state[contact_memory("temperature_rise_degC")],
        state[contact_memory("contact_age_s")],
-       state[contact_memory("hold_time_s")]}};
+       state[contact_memory("hold_time_s")],
+       state[contact_memory("core_1")],
+       state[contact_memory("core_2")],
+       state[contact_memory("core_energy_MPa_mm")]}};
   }
 
   inline void expect_admissible(const FrictionLaw &law, const ContactState &s)
@@ -114,7 +117,11 @@ namespace SlipStep::Testing
     EXPECT_GE(s.slip_rate, 0.);
     EXPECT_GE(s.dissipation, 0.);
     for (const ContactMemory &memory : contact_memories())
-      EXPECT_GE(s[memory], 0.);
+      {
+        EXPECT_GE(s[memory], memory.least);
+        EXPECT_LE(s[memory], memory.greatest);
+      }
+    EXPECT_TRUE(law.admits_core(s));
   }
 
   inline void expect_equal(const ContactState &a,

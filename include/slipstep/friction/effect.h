@@ -75,13 +75,33 @@ namespace SlipStep
     double d_rate         = 0.; ///< d/dlambda [s/mm]
   };
 
+  /// The similarity centre of a contact point.
+  struct ElasticCore
+  {
+    /// c, in shares of the strength and in the metric in which the law is
+    /// isotropic.
+    dealii::Tensor<1, 2> centre;
+    double               energy = 0.; ///< that it holds [MPa mm]
+  };
+
+  /// What slip makes of the similarity centre: c = kept c_0 + gained n, with
+  /// the unit vector n of the slip.
+  struct CoreEvolution
+  {
+    double kept     = 1.;
+    double gained   = 0.;
+    double d_kept   = 0.; ///< d/d slip [1/mm]
+    double d_gained = 0.; ///< d/d slip [1/mm]
+  };
+
   /// Parts of the law that only one effect can provide.
   enum class ExclusiveSlot
   {
     none,
     normal_ratio,
     overstress,
-    anisotropy
+    anisotropy,
+    elastic_core
   };
 
   /// What the coefficients in a case file mean to the law.
@@ -142,6 +162,48 @@ namespace SlipStep
       return 1.;
     }
 
+    /// The ratio below which nothing slips.
+    virtual double elastic_range() const
+    {
+      return 0.;
+    }
+
+    /// Exclusive slot `elastic_core`: what slip [mm] makes of the centre from
+    /// which the ratios are measured. Neutral: it stays at zero.
+    virtual CoreEvolution core_after_slip(const double /*slip*/) const
+    {
+      return {};
+    }
+
+    /// Least upper bound of |c|, less than 1.
+    virtual double core_limit() const
+    {
+      return 0.;
+    }
+
+    /// The energy in the core per strength and |c|^2/2 [mm].
+    virtual double core_length() const
+    {
+      return 0.;
+    }
+
+    /// The core that a state remembers.
+    virtual ElasticCore core(const ContactState & /*state*/) const
+    {
+      return {};
+    }
+
+    /// Write a core into a state, within its limit.
+    virtual void remember_core(const ElasticCore & /*core*/,
+                               ContactState & /*state*/) const
+    {}
+
+    /// The memories that the effect writes, so that they are shown.
+    virtual std::vector<ContactMemory> memories() const
+    {
+      return {};
+    }
+
     /// Exclusive slot `overstress`: the flow rule. Neutral: r = r_s, whatever
     /// the rate.
     virtual FlowResidual flow_residual(const double ratio,
@@ -199,12 +261,6 @@ namespace SlipStep
     virtual double wear_rate() const
     {
       return 0.;
-    }
-
-    /// The memories that remember() writes, so that they are shown.
-    virtual std::vector<ContactMemory> memories() const
-    {
-      return {};
     }
   };
 

@@ -25,6 +25,7 @@ namespace SlipStep
   /// \f$\lambda\f$ follows from the flow rule (Overstress; without it r = r_s),
   /// the normal ratio r_s grows with slip (Subloading; without it r_s = 1) and
   /// falls with r, and mu evolves with slip and time (Softening, Healing).
+  /// ElasticCore changes from where r and r_s are measured.
   ///
   /// update() makes one implicit stage (TwoStages) by backward Euler: the
   /// traction stays along its elastic trial, which leaves one scalar unknown,
@@ -87,7 +88,15 @@ namespace SlipStep
     /// Least upper bound of r.
     double maximum_ratio() const
     {
-      return flow->maximum_ratio();
+      return flow->maximum_ratio() +
+             (flow == &neutral ? 0. : core->core_limit());
+    }
+
+    /// Whether the elastic core that a state remembers is within its limit.
+    bool admits_core(const ContactState &state) const
+    {
+      return core->core(state).centre.norm() <=
+             (1. + 1e-12) * core->core_limit();
     }
 
     /// The smallest and the largest mu that can be reached from the initial
@@ -124,10 +133,12 @@ namespace SlipStep
       return alpha_t * cone * cone;
     }
 
-    /// Energy stored per area in the tangential stiffness [MPa mm].
-    double stored_energy(const dealii::Tensor<1, 2> &traction) const
+    /// Energy stored per area in the tangential stiffness and the elastic core
+    /// [MPa mm].
+    double stored_energy(const ContactState &state) const
     {
-      return isotropic_traction(traction).norm_square() / (2. * alpha_t);
+      return isotropic_traction(state.traction).norm_square() / (2. * alpha_t) +
+             core->core(state).energy;
     }
 
     /// Quasi-static mu of a point at rest since ever.
@@ -187,15 +198,17 @@ namespace SlipStep
     void            start_ratio(const double       start_strength,
                                 const LocalSystem &end,
                                 LocalSystem       &local) const;
-    static double   smallest_ratio(const dealii::Tensor<1, 2> &traction,
+    double          smallest_ratio(const dealii::Tensor<1, 2> &traction,
                                    const dealii::Tensor<1, 2> &increment,
                                    const double                strength,
                                    const double                end_strength,
-                                   double                     &where);
+                                   const dealii::Tensor<1, 2> &centre,
+                                   double                     &where) const;
     Contributions   contributions(const SlipStepData &step) const;
     void            evolve_coefficient(LocalSystem &local) const;
     void            evolve_strength(LocalSystem &local) const;
     void            evaluate(const double traction, LocalSystem &local) const;
+    void            evaluate_flow(LocalSystem &local) const;
     void            find_slip(LocalSystem &local) const;
     bool            slide_on(LocalSystem &local) const;
     bool            follow_branch(LocalSystem &local) const;
@@ -205,6 +218,44 @@ namespace SlipStep
                           const double guess,
                           LocalSystem &local) const;
     ContactResponse linearise(const LocalSystem &local) const;
+
+    // With an elastic core.
+    struct Similarity;
+    struct CoreChange;
+    static Similarity similarity(const dealii::Tensor<1, 2> &traction,
+                                 const double                strength,
+                                 const dealii::Tensor<1, 2> &centre);
+    static double
+               smallest_similarity_ratio(const dealii::Tensor<1, 2> &traction,
+                                         const dealii::Tensor<1, 2> &increment,
+                                         const double                strength,
+                                         const double                end_strength,
+                                         const dealii::Tensor<1, 2> &centre,
+                                         double                     &where);
+    void       extend_reach(LocalSystem &local) const;
+    void       place_core(LocalSystem &local) const;
+    void       evaluate_with_core(LocalSystem &local) const;
+    CoreChange core_change(const LocalSystem          &local,
+                           const double                d_slip,
+                           const dealii::Tensor<1, 2> &d_trial,
+                           const double                d_normal_ratio,
+                           const double                d_strength) const;
+    CoreChange core_change(const LocalSystem          &local,
+                           const double                d_slip,
+                           const dealii::Tensor<1, 2> &d_trial,
+                           const double                d_normal) const;
+    ContactResponse linearise_with_core(const LocalSystem &local) const;
+    ElasticCore     moved_core(const ContactState         &start,
+                               const double                strength,
+                               const dealii::Tensor<1, 2> &normal,
+                               const double                slip) const;
+    void            complete_with_core(ContactState &state) const;
+    double          error_of_core(const ContactState &start,
+                                  const StageRecord  &last) const;
+    bool            has_core() const
+    {
+      return core != &neutral;
+    }
 
     // A step of two stages.
     bool is_rate_dependent() const
@@ -225,6 +276,7 @@ namespace SlipStep
                                  const StageRecord  &last) const;
 
     dealii::Tensor<1, 2> direction_of(const ContactState &state) const;
+    dealii::Tensor<1, 2> slip_normal(const ContactState &state) const;
 
     dealii::Tensor<1, 2>
     slip_direction(const dealii::Tensor<1, 2> &direction) const;
@@ -249,6 +301,7 @@ namespace SlipStep
     /// Owners of the exclusive slots; the neutral effect where there is none.
     const Effect *normal_ratio = &neutral;
     const Effect *flow         = &neutral;
+    const Effect *core         = &neutral;
 
     bool depends_on_rate = false;
 

@@ -28,6 +28,7 @@ namespace SlipStep
     dealii::Tensor<1, 2> trial;           // f_t + alpha_t * slip increment
     double               trial_norm = 0.; // T
     dealii::Tensor<1, 2> direction;       // m = trial / T
+    double reach = 0.; // what slip may take at most: T, or more with a core
 
     // r_s at the point of the elastic path where r was smallest, and how it
     // depends on the traction increment and the trial strength.
@@ -37,8 +38,9 @@ namespace SlipStep
     double               d_trial_strength_d_normal = 0.;
     dealii::Tensor<1, 2> d_trial_strength_d_direction;
 
-    double       traction = 0.; // |f_t|, the unknown
-    double       slip     = 0.;
+    double traction = 0.; // what slip leaves of the reach, the unknown;
+                          // without a core |f_t|
+    double       slip = 0.;
     double       coefficient;
     double       d_coefficient = 0.;
     double       strength      = 0.;
@@ -46,7 +48,51 @@ namespace SlipStep
     double       ratio = 0.;
     NormalRatio  normal_ratio;
     FlowResidual flow;
-    double       d_residual = 1.;
+    double       d_flow_d_slip = 0.; // by way of the rate alone
+    double       d_residual    = 1.;
+
+    // With an elastic core: f_t = centre + along * normal, where the slip is
+    // along the normal and the trial is centre + offset * normal.
+    ElasticCore          core; // at the start
+    CoreEvolution        evolution;
+    dealii::Tensor<1, 2> centre, normal;
+    double               offset = 0.;
+    double               along  = 0.;
+    double               work   = 0.; // that becomes heat
+
+    double heat(const bool has_core) const
+    {
+      return has_core ? work : traction * slip;
+    }
+  };
+
+
+
+  /// The circle with r = r_s through a traction.
+  struct FrictionLaw::Similarity
+  {
+    double               ratio = 0.;
+    dealii::Tensor<1, 2> normal; // zero in the core
+  };
+
+  /// First-order changes of what a local system has.
+  struct FrictionLaw::CoreChange
+  {
+    double               normal_ratio = 0., strength = 0., ratio = 0.;
+    dealii::Tensor<1, 2> centre, normal;
+    double               along = 0., work = 0.;
+
+    dealii::Tensor<1, 2> traction(const LocalSystem &local) const
+    {
+      return centre + along * local.normal + local.along * normal;
+    }
+
+    double residual(const LocalSystem &local, const double d_slip) const
+    {
+      return local.flow.d_ratio * ratio +
+             local.flow.d_normal_ratio * normal_ratio +
+             local.d_flow_d_slip * d_slip;
+    }
   };
 } // namespace SlipStep
 

@@ -68,6 +68,7 @@ namespace SlipStep
     bool is_admissible(const Fields &fields,
                        const double  least_normal_traction) const;
     void limit_tractions(std::vector<Fields> &fields) const;
+    void limit_cores(std::vector<Fields> &fields) const;
     void limit_field(std::vector<Fields> &fields,
                      const unsigned int   field,
                      const double         lower,

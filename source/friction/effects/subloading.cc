@@ -24,12 +24,16 @@ namespace SlipStep
     /// Hashiguchi, Ozaki and Okayasu (2005), Int. J. Solids Struct. 42, 1705.
     /// Both forms are integrated exactly over a step: the first gives
     /// \f$\cos(\pi r_s/2) = \cos(\pi r_{s0}/2)\,e^{-\pi u\lambda/2}\f$, the
-    /// second \f$E_1(-\ln r_s) = E_1(-\ln r_{s0}) + u\lambda\f$.
+    /// second \f$E_1(-\ln r_s) = E_1(-\ln r_{s0}) + u\lambda\f$. With an
+    /// elastic range r_e nothing slips below r_s = r_e, and \f$(r_s -
+    /// r_e)/(1 - r_e)\f$ takes the place of r_s in U: the material constant R_e
+    /// of Hashiguchi, Elastoplasticity Theory (2014).
     class Subloading : public Effect
     {
     public:
       Subloading(const Parameters &parameters, const CoefficientBasis &)
         : u(parameters.number("Friction/subloading/Rate"))
+        , r_e(parameters.number("Friction/subloading/Elastic range"))
         , is_logarithmic(parameters.text("Friction/subloading/Form") == "log")
       {}
 
@@ -38,15 +42,27 @@ namespace SlipStep
         return 0.;
       }
 
+      virtual double elastic_range() const override
+      {
+        return r_e;
+      }
+
       virtual NormalRatio
       normal_ratio_after_slip(const double start,
                               const double slip) const override
       {
-        // At r_s = 0 both forms have an infinite rate.
-        const double r_s0 = std::min(std::max(start, 1e-12), 1.);
-        if (slip <= 0.)
-          return {r_s0, rate(r_s0), 1.};
-        return is_logarithmic ? logarithmic(r_s0, slip) : cotangent(r_s0, slip);
+        // Beyond the elastic range, as a share of what is beyond it; at 0 both
+        // forms have an infinite rate.
+        const double beyond = 1. - r_e;
+        const double r_s0 =
+          std::min(std::max((start - r_e) / beyond, 1e-12), 1.);
+        const double relative_slip = slip / beyond;
+        NormalRatio  result = slip <= 0. ? NormalRatio{r_s0, rate(r_s0), 1.} :
+                              is_logarithmic ? logarithmic(r_s0, relative_slip) :
+                                               cotangent(r_s0, relative_slip);
+        // Its d_slip is that with respect to the relative slip.
+        result.value = r_e + beyond * result.value;
+        return result;
       }
 
       static EffectInfo info()
@@ -56,9 +72,12 @@ namespace SlipStep
         info.slot  = ExclusiveSlot::normal_ratio;
         info.words = "slip that begins little by little before full friction";
         info.formula =
-          "d r_s/d lambda = u cot(pi r_s/2) or -u ln(r_s); r_s <= r";
-        info.latex   = "\\frac{dr_s}{d\\lambda} = u \\cot\\frac{\\pi r_s}{2} "
-                       "\\quad\\text{or}\\quad -u \\ln r_s, \\qquad r_s \\le r";
+          "d r_s/d lambda = u cot(pi R/2) or -u ln(R), R = (r_s - r_e)/(1 - "
+          "r_e); r_s <= r";
+        info.latex =
+          "\\frac{dr_s}{d\\lambda} = u \\cot\\frac{\\pi R}{2} "
+          "\\quad\\text{or}\\quad -u \\ln R, \\qquad R = "
+          "\\left<\\frac{r_s - r_e}{1 - r_e}\\right>, \\qquad r_s \\le r";
         info.source  = "Hashiguchi, Ozaki and Okayasu (2005), Int. J. Solids "
                        "Struct. 42, 1705-1727";
         info.neutral = "Rate -> infinity; switch the effect off instead";
@@ -67,14 +86,19 @@ namespace SlipStep
            "U",
            "cot",
            dealii::Patterns::Selection("cot|log"),
-           "evolution function of the normal ratio: 'cot' is u cot(pi r_s/2), "
-           "'log' is -u ln(r_s)"},
+           "evolution function of the normal ratio: 'cot' is u cot(pi R/2), "
+           "'log' is -u ln(R), with R = r_s without an elastic range"},
           {"Rate",
            "u",
            "200",
            Quantity(Dimension::per_length, 0., 1e30, true),
            "rate at which the normal ratio grows with slip: sliding is fully "
-           "developed after a slip of a few 1/u; infinity is Coulomb's law"}};
+           "developed after a slip of a few 1/u; infinity is Coulomb's law"},
+          {"Elastic range",
+           "r_e",
+           "0",
+           Quantity(Dimension::number, 0., 0.99),
+           "normal ratio below which nothing slips"}};
         info.neutral_settings = {{"Rate", "1e12"}};
         info.search           = {"rounded flanks before every peak", search};
         return info;
@@ -145,6 +169,7 @@ namespace SlipStep
       }
 
       const double u;
+      const double r_e;
       const bool   is_logarithmic;
     };
 
