@@ -232,10 +232,15 @@ namespace SlipStep
 
   void FrictionLaw::evaluate_flow(LocalSystem &local) const
   {
-    local.flow          = flow->flow_residual(local.ratio,
-                                     local.normal_ratio.value,
-                                     local.slip / local.time_step);
-    local.d_flow_d_slip = local.flow.d_rate / local.time_step;
+    const bool remembers = rate_memory != &neutral;
+    const Rate rate =
+      remembers ?
+        rate_memory->flow_rate(local.start, local.slip, local.time_step) :
+        Rate{local.slip / local.time_step, 0.};
+    local.flow =
+      flow->flow_residual(local.ratio, local.normal_ratio.value, rate.value);
+    local.d_flow_d_slip = remembers ? local.flow.d_rate * rate.derivative :
+                                      local.flow.d_rate / local.time_step;
   }
 
 

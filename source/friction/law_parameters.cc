@@ -170,6 +170,8 @@ namespace SlipStep
               inverse_cone   = invert(cone);
               is_anisotropic = cone != neutral.cone();
             }
+          if (created->remembers_rate())
+            rate_memory = created;
           if (const auto *effect =
                 dynamic_cast<const StrengthEffect *>(created))
             {
@@ -199,6 +201,10 @@ namespace SlipStep
         initial_coefficient = coefficient.value(initial) * basis.scale;
       }
     range_of_coefficient = find_coefficient_range();
+    if (rate_memory != &neutral && flow == &neutral)
+      parameters.reject("Friction/memory_length/Form",
+                        "'flow' delays the flow rule: add 'overstress' or "
+                        "'perzyna' to Friction/Effects");
   }
 
 

@@ -11,17 +11,28 @@ namespace SlipStep
 {
   // @sect3{Which root}
   //
-  //
+  // A flow rule that remembers a rate drives none below the ratio of that rate.
+  bool FrictionLaw::must_slip(const LocalSystem &local) const
+  {
+    if (rate_memory != &neutral)
+      return flow
+               ->flow_residual(
+                 local.ratio,
+                 local.start_ratio,
+                 rate_memory->flow_rate(local.start, 0., local.time_step).value)
+               .value < 0.;
+    // Below 1e-12 nothing can be told from zero.
+    return local.ratio > std::max(local.start_ratio, 1e-12);
+  }
+
+
+
   // Where there may be several roots, the one that goes on as before.
   void FrictionLaw::find_slip(LocalSystem &local) const
   {
     if (has_core())
       extend_reach(local);
     stick(local);
-    // Below 1e-12 nothing can be told from zero.
-    const auto must_slip = [](const LocalSystem &local) {
-      return local.ratio > std::max(local.start_ratio, 1e-12);
-    };
     const bool slid = local.start.slip_rate > 0.;
     if (slid && (depends_on_rate || !must_slip(local)))
       {
@@ -32,7 +43,9 @@ namespace SlipStep
     if (!must_slip(local))
       {
         if (normal_ratio != &neutral)
-          local.normal_ratio.value = local.ratio;
+          local.normal_ratio.value = rate_memory == &neutral ?
+                                       local.ratio :
+                                       std::min(local.ratio, local.start_ratio);
         return;
       }
     if (depends_on_rate && !slid)

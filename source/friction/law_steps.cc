@@ -131,6 +131,7 @@ namespace SlipStep
                 error_of_traction(start, first, last) / end.strength,
                 error_of_memories(start, last),
                 error_of_core(start, last),
+                error_of_flow_rate(start, last),
                 error_of_normal_ratio(start, first, last)});
 
     // A parabola through three points is farthest from its chord in the middle;
@@ -207,6 +208,27 @@ namespace SlipStep
     const double strength =
       end.normal_traction * end.coefficient * all.factor.value + all.sum.value;
     return 0.5 * std::abs(strength - end.strength) / end.strength;
+  }
+
+
+
+  // r that goes with the rate which the last slip rate alone would leave.
+  double FrictionLaw::error_of_flow_rate(const ContactState &start,
+                                         const StageRecord  &last) const
+  {
+    const ContactState &end = last.end;
+    if (rate_memory == &neutral || !(end.slip_rate > 0.))
+      return 0.;
+    const double time_step = last.time_step / TwoStages::gamma;
+    const auto   flow_at   = [&](const double rate) {
+      return flow->flow_residual(end.loading_ratio, end.normal_ratio, rate);
+    };
+    const FlowResidual one_stage = flow_at(
+      rate_memory->flow_rate(start, end.slip_rate * time_step, time_step)
+        .value);
+    const double present =
+      flow_at(rate_memory->flow_rate(end, 0., time_step).value).value;
+    return 0.5 * std::abs((one_stage.value - present) / one_stage.d_ratio);
   }
 
 

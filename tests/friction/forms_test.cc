@@ -66,3 +66,58 @@ TEST(Forms, friction_opposite_to_slip)
         EXPECT_GT(across, 1e-3 * f.norm()) << angle;
     }
 }
+
+
+
+// After a step of speed the flow rule feels V_2 + (V_1 - V_2) exp(-s/L), and
+// there is no jump.
+TEST(Forms, a_step_of_speed_spreads_over_the_memory_length)
+{
+  const double V_1 = 0.01, V_2 = 1., L = 0.05;
+  const auto   law = make_law({{"Effects", "overstress, memory_length"},
+                               {"Static coefficient", "0.1"},
+                               {"Tangential stiffness", "1e6"},
+                               {"memory_length/Form", "flow"},
+                               {"memory_length/Slip length", "0.05"}});
+  for (const bool is_faster : {true, false})
+    {
+      const double from = is_faster ? V_1 : V_2, to = is_faster ? V_2 : V_1;
+      ContactPoint point(*law);
+      slide(*law, vector(from), 30. * L / from, 3000, point);
+      EXPECT_NEAR(point.committed().loading_ratio,
+                  law->steady_ratio(from),
+                  1e-6);
+      const double path = point.committed().slip_path;
+      for (unsigned int i = 0; i < 80; ++i)
+        {
+          slide(*law, vector(to), 0.1 * L / to, 50, point);
+          const double s = point.committed().slip_path - path;
+          EXPECT_NEAR(point.committed().loading_ratio,
+                      law->steady_ratio(to + (from - to) * std::exp(-s / L)),
+                      2e-4)
+            << s;
+        }
+      EXPECT_NEAR(point.committed().loading_ratio, law->steady_ratio(to), 2e-3);
+    }
+  // The rule without a memory has jumped after a hundredth of the length.
+  const auto   sudden = make_law({{"Effects", "overstress"},
+                                  {"Static coefficient", "0.1"},
+                                  {"Tangential stiffness", "1e6"}});
+  ContactPoint point(*sudden);
+  slide(*sudden, vector(V_1), 1., 1000, point);
+  slide(*sudden, vector(V_2), 0.01 * L / V_2, 50, point);
+  EXPECT_NEAR(point.committed().loading_ratio, sudden->steady_ratio(V_2), 1e-6);
+}
+
+
+
+TEST(Forms, refuse_what_has_no_meaning)
+{
+  EXPECT_THROW(make_law({{"Effects", "memory_length"},
+                         {"memory_length/Form", "flow"}}),
+               InputError);
+  EXPECT_THROW(make_law({{"Effects", "overstress, memory_length"},
+                         {"memory_length/Form", "flow"},
+                         {"memory_length/Growth", "0.1"}}),
+               InputError);
+}

@@ -44,7 +44,11 @@ namespace
              {{"Effects", paper + ", anisotropy"},
               {"anisotropy/Form", "opposite"},
               {"anisotropy/Ratio", "0.6"},
-              {"anisotropy/Angle", "35 deg"}}}};
+              {"anisotropy/Angle", "35 deg"}}},
+            {"remembered_rate",
+             {{"Effects", paper + ", memory_length"},
+              {"memory_length/Form", "flow"},
+              {"memory_length/Slip length", "0.01"}}}};
   }
 
   class EveryLaw

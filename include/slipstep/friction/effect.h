@@ -213,6 +213,21 @@ namespace SlipStep
       return {normal_ratio - ratio, -1., 1., 0.};
     }
 
+    /// Whether the flow rule feels flow_rate() instead of the slip rate.
+    virtual bool remembers_rate() const
+    {
+      return false;
+    }
+
+    /// The slip rate [mm/s] that the flow rule feels after some slip [mm] in a
+    /// time step [s], and its derivative with respect to that slip [1/s].
+    virtual Rate flow_rate(const ContactState & /*start*/,
+                           const double slip,
+                           const double time_step) const
+    {
+      return {slip / time_step, 1. / time_step};
+    }
+
     /// Least upper bound of r, infinity if there is none. Neutral: 1, as
     /// r = r_s <= 1.
     virtual double maximum_ratio() const

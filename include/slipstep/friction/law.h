@@ -209,6 +209,7 @@ namespace SlipStep
     void            evolve_strength(LocalSystem &local) const;
     void            evaluate(const double traction, LocalSystem &local) const;
     void            evaluate_flow(LocalSystem &local) const;
+    bool            must_slip(const LocalSystem &local) const;
     void            find_slip(LocalSystem &local) const;
     bool            slide_on(LocalSystem &local) const;
     bool            follow_branch(LocalSystem &local) const;
@@ -271,6 +272,8 @@ namespace SlipStep
                                 const StageRecord  &last) const;
     double error_of_memories(const ContactState &start,
                              const StageRecord  &last) const;
+    double error_of_flow_rate(const ContactState &start,
+                              const StageRecord  &last) const;
     double error_of_normal_ratio(const ContactState &start,
                                  const StageRecord  &first,
                                  const StageRecord  &last) const;
@@ -302,6 +305,9 @@ namespace SlipStep
     const Effect *normal_ratio = &neutral;
     const Effect *flow         = &neutral;
     const Effect *core         = &neutral;
+
+    /// What gives the flow rule its rate; the neutral effect gives the present.
+    const Effect *rate_memory = &neutral;
 
     bool depends_on_rate = false;
 

@@ -17,9 +17,12 @@ namespace SlipStep
     ///     \frac{dV_m}{d\lambda} = \frac{\lambda' - V_m}{L} \f]
     /// with the slip rate \f$\lambda'\f$. After a step of speed from V_1 to V_2
     /// there is no jump, and \f$V_m = V_2 + (V_1 - V_2) e^{-\lambda/L}\f$; at
-    /// rest V_m stays. Memory of the slip rate over a slip length is in Ruina
-    /// (1983), J. Geophys. Res. 88, 10359, for the evolution of a state; that
-    /// the direct effect has it, and both forms, are chosen.
+    /// rest V_m stays. Or V_m takes the place of the slip rate in the flow rule
+    /// (overstress, perzyna), whose jump then spreads over the length: r after
+    /// a step of speed is that of steady sliding at V_m. Memory of the slip
+    /// rate over a slip length is in Ruina (1983), J. Geophys. Res. 88, 10359,
+    /// for the evolution of a state; that the direct effect has it, and both
+    /// forms, are chosen.
     class MemoryLength : public StrengthEffect
     {
     public:
@@ -27,11 +30,32 @@ namespace SlipStep
         : a(parameters.number("Friction/memory_length/Growth"))
         , V_0(parameters.number("Friction/memory_length/Speed"))
         , L(parameters.number("Friction/memory_length/Slip length"))
-      {}
+        , is_in_flow_rule(parameters.text("Friction/memory_length/Form") ==
+                          "flow")
+      {
+        if (is_in_flow_rule && a > 0.)
+          parameters.reject("Friction/memory_length/Growth",
+                            "with Form = flow it is the flow rule that says "
+                            "how friction grows: must be 0");
+      }
+
+      virtual bool remembers_rate() const override
+      {
+        return is_in_flow_rule;
+      }
+
+      virtual Rate flow_rate(const ContactState &start,
+                             const double        slip,
+                             const double        time_step) const override
+      {
+        return rate_after(start, slip, time_step);
+      }
 
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
-        const Rate rate = rate_after(step);
+        if (is_in_flow_rule)
+          return StrengthEffect::strength_factor(step);
+        const Rate rate = rate_after(step.start, step.slip, step.time_step);
         Strength   factor;
         factor.value  = 1. + a * std::log1p(rate.value / V_0);
         factor.d_slip = a * rate.derivative / (V_0 + rate.value);
@@ -42,7 +66,9 @@ namespace SlipStep
                             ContactState       &end) const override
       {
         end[adapted_rate] =
-          step.normal_traction > 0. ? rate_after(step).value : 0.;
+          step.normal_traction > 0. ?
+            rate_after(step.start, step.slip, step.time_step).value :
+            0.;
       }
 
       virtual std::vector<ContactMemory> memories() const override
@@ -56,7 +82,7 @@ namespace SlipStep
         info.name    = "memory_length";
         info.words   = "friction that follows the speed over a slip length";
         info.formula = "G = 1 + a ln(1 + V_m/V_0), d V_m/d lambda = (slip rate "
-                       "- V_m)/L";
+                       "- V_m)/L; or V_m in the flow rule";
         info.latex   = "G = 1 + a \\ln\\left(1 + \\frac{V_m}{V_0}\\right), "
                        "\\quad \\frac{dV_m}{d\\lambda} = \\frac{\\dot\\lambda - "
                        "V_m}{L}";
@@ -64,6 +90,12 @@ namespace SlipStep
                        "Res. 88, 10359-10370";
         info.neutral = "Growth = 0";
         info.parameters = {
+          {"Form",
+           "",
+           "factor",
+           dealii::Patterns::Selection("factor|flow"),
+           "'factor' is G; 'flow' has no G, but the flow rule (overstress or "
+           "perzyna) feels V_m instead of the slip rate"},
           {"Growth",
            "a",
            "0",
@@ -92,19 +124,22 @@ namespace SlipStep
     private:
       // V_m at the end, exact for a constant slip rate, and its derivative with
       // respect to slip, the time step being kept.
-      Rate rate_after(const SlipStepData &step) const
+      Rate rate_after(const ContactState &start,
+                      const double        slip,
+                      const double        time_step) const
       {
-        const double decay  = std::exp(-step.slip / L);
-        const double share  = -std::expm1(-step.slip / L);
-        const double before = step.start[adapted_rate];
-        const double now    = step.slip_rate();
+        const double decay  = std::exp(-slip / L);
+        const double share  = -std::expm1(-slip / L);
+        const double before = start[adapted_rate];
+        const double now    = slip / time_step;
         return {before * decay + now * share,
-                share / step.time_step + (now - before) * decay / L};
+                share / time_step + (now - before) * decay / L};
       }
 
       const double a;
       const double V_0;
       const double L;
+      const bool   is_in_flow_rule;
     };
 
     const RegisterEffect memory_length_registration =
