@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Slip per cycle [mm] of the files history.csv given, and what the closed form says:
+# Slip per cycle [mm] of the files history.csv given, and what the closed form says of
+# the initial subloading surface:
 #   awk -F, -f prm/ratchet/cycles.awk output/ratchet/point/*/history.csv
 function cosine(r) { return cos(1.5707963267948966 * r) }
 /^#/ { next }
@@ -20,8 +21,12 @@ $1 > 0.999 {
 }
 function report() {
   slip[++n] = before
-  printf "%-12s %10.4e %10.4e %12.4e\n", name, slip[2] - slip[1], slip[n] - slip[n - 1],
+  printf "%-20s %10.4e %10.4e %10.4e %10.4e %12.4e\n", name, slip[1],
+    slip[2] - slip[1], slip[10] - slip[9], slip[n] - slip[n - 1],
     2 / (3.14159265358979 * 1000) * log(cosine(lowest) / cosine(highest))
 }
-BEGIN { printf "%-12s %10s %10s %12s\n", "r_1 to r_2", "second", "last", "closed form" }
+BEGIN {
+  printf "%-20s %10s %10s %10s %10s %12s\n", "r_1 to r_2", "first", "second", "tenth",
+    "last", "closed form"
+}
 END { report() }

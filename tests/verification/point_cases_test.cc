@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -243,6 +244,28 @@ TEST(Ratchet, slips_per_cycle_as_the_subloading_surface_says)
                              std::cos(pi * high / 2.)),
                   1e-3 * per_cycle);
     }
+}
+
+
+
+// As its README says: the tenth cycle slips less than 1 % of the first.
+TEST(Ratchet, shakes_down_with_an_elastic_core)
+{
+  const Parameters parameters = make_parameters({}, "ratchet/ratchet.prm");
+  unsigned int     n_extended = 0;
+  for (const Variant &variant : parameters.variants())
+    if (variant.label == "0.3 to 0.9 extended")
+      {
+        ++n_extended;
+        std::array<double, 22> slip{}; // at the ends of seconds
+        for (const HistoryRow &row :
+             point_history(parameters.with_variant(variant)))
+          slip[std::lround(std::ceil(row.time - 1e-9))] = row.slip;
+        const double first = slip[2] - slip[1], tenth = slip[11] - slip[10];
+        EXPECT_GT(tenth, 0.);
+        EXPECT_LT(tenth, 0.01 * first);
+      }
+  EXPECT_EQ(n_extended, 1u);
 }
 
 
