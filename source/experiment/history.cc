@@ -76,7 +76,8 @@ namespace SlipStep
         number("step_s", &Row::step_size),
         count("newton_iterations", &Row::newton_iterations),
         count("linear_iterations", &Row::linear_iterations),
-        number("slip_mm", &Row::slip)};
+        number("slip_mm", &Row::slip),
+        number("kinetic_energy_Nmm", &Row::kinetic_energy)};
       return all;
     }
   } // namespace
@@ -169,13 +170,15 @@ namespace SlipStep
 
   std::vector<HistoryRow> read_history(const std::filesystem::path &file)
   {
-    std::vector<std::string> names;
+    // Older files have no kinetic energy.
+    std::vector<std::string> names, others;
     for (const Column &column : columns())
-      names.emplace_back(column.name);
+      (column.name == std::string("kinetic_energy_Nmm") ? others : names)
+        .emplace_back(column.name);
     std::vector<std::string> probes;
     for (std::size_t i = 0; i < most_probes; ++i)
       probes.push_back(probe_name(i));
-    std::vector<std::string> others = probes;
+    others.insert(others.end(), probes.begin(), probes.end());
     for (const ContactMemory &memory : contact_memories())
       others.emplace_back(memory.name);
     const CsvTable table(file, names, others);
@@ -191,6 +194,8 @@ namespace SlipStep
           history[row].memories[memory.slot] = table[memory.name][row];
     for (const Column &column : columns())
       {
+        if (!table.has(column.name))
+          continue;
         const std::vector<double> &values = table[column.name];
         for (std::size_t row = 0; row < values.size(); ++row)
           if (column.number)

@@ -169,6 +169,7 @@ namespace SlipStep
         row.dissipated_energy = state.dissipation + snapped;
         row.stored_energy = stored_normal + law.stored_energy(state) +
                             machine.stored_energy(slider);
+        row.kinetic_energy    = machine.kinetic_energy(slider);
         row.external_work     = work;
         row.step_size         = time_step;
         row.newton_iterations = 1;

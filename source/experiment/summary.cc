@@ -75,6 +75,7 @@ namespace SlipStep
       members.group("energy", [&](JsonMembers energy) {
         energy("work", summary.work);
         energy("stored", summary.stored);
+        energy.optional("kinetic", summary.kinetic);
         energy("dissipated", summary.dissipated);
         energy("balance_error", summary.balance_error);
       });
@@ -370,6 +371,7 @@ namespace SlipStep
       along(last_direction, last.friction, last.friction_y);
     summary.work       = last.external_work;
     summary.stored     = last.stored_energy;
+    summary.kinetic    = last.kinetic_energy;
     summary.dissipated = last.dissipated_energy;
 
     const double scale =

@@ -38,6 +38,7 @@ namespace SlipStep
     , fe(FE_Q<dim>(parameters.degree), dim)
     , dof_handler(triangulation)
     , contact(parameters, law)
+    , inertia(parameters)
     , first_step(control.step_size())
     , control(control)
     , drive(machine, programme, parameters.nominal_contact_area())
@@ -82,8 +83,9 @@ namespace SlipStep
         // On a new mesh the contact finds another equilibrium at once, however
         // short the step; the step's length was fine before.
         double error = contact.step_error(communicator);
-        error =
-          std::max(error, drive.error(drive_resistance, totals.limit_load));
+        error        = std::max({error,
+                                 drive.error(drive_resistance, totals.limit_load),
+                                 error_of_motion()});
         if (mesh_is_new)
           error = std::min(error, control.wanted_error());
         if (control.would_accept(error) && adapt_to_trial(output))
@@ -140,11 +142,12 @@ namespace SlipStep
     const double     begin = control.time(), step_size = control.step_size();
 
     contact.revert();
-    trial_work = 0.;
+    trial_work = trial_damped_energy = 0.;
     n_newton = n_linear = 0;
     stage_solution      = old_solution;
     stage_frame         = old_loading.displacement;
     drive.begin_step(begin, control.is_first_of_segment());
+    inertia.begin_step();
     begin_stage(begin + gamma * step_size, gamma * step_size);
     if (drive.is_unknown())
       begin_modes();
@@ -156,6 +159,7 @@ namespace SlipStep
     stage_solution.sadd(1. - carry, carry, solution);
     stage_solution.update_ghost_values();
     drive.begin_second_stage();
+    inertia.begin_second_stage();
     const Tensor<1, 2> motion = loading.displacement - stage_frame;
     stage_frame += carry * motion;
     begin_stage(control.end_of_step(), gamma * step_size);
@@ -213,6 +217,14 @@ namespace SlipStep
       return false;
     drive.end_stage(loading.displacement, force_on_drive(unbalanced));
     trial_work += weight * work_of_stage();
+    if (inertia.exists())
+      {
+        inertia.end_stage(solution,
+                          stage_solution,
+                          frame_motion_in_stage(),
+                          stage_time);
+        trial_damped_energy += weight * damped_energy_of_stage();
+      }
     return true;
   }
 
@@ -369,11 +381,11 @@ namespace SlipStep
 
 
 
-  // Internal minus external forces. They are summed first for all unknowns,
-  // supported or not, since the sums over supports are their reactions; forces
-  // at hanging nodes belong to the nodes on which they hang. For Newton's
-  // method the entries of all constrained unknowns are then moved to the
-  // unknowns that they depend on.
+  // Internal minus external forces, those of inertia included. They are summed
+  // first for all unknowns, supported or not, since the sums over supports are
+  // their reactions; forces at hanging nodes belong to the nodes on which they
+  // hang. For Newton's method the entries of all constrained unknowns are then
+  // moved to the unknowns that they depend on.
   template <int dim>
   double Block<dim>::compute_residual()
   {
@@ -391,8 +403,13 @@ namespace SlipStep
     if (drive.is_unknown())
       drive_weight = force_scale / std::max(unbalanced.l1_norm(), 1e-300);
 
-    system->add_elastic_forces(solution, unbalanced);
+    system->add_elastic_forces(strained_displacement(), unbalanced);
     unbalanced.compress(VectorOperation::add);
+    inertia.add_forces(solution,
+                       stage_solution,
+                       frame_motion_in_stage(),
+                       stage_time,
+                       unbalanced);
     add_loads(-1., unbalanced);
     move_to_masters(hanging_constraints, unbalanced);
     force_scale = std::max(force_scale, 1e-300);
@@ -422,6 +439,8 @@ namespace SlipStep
   {
     contact.commit();
     external_work += trial_work;
+    damped_energy += trial_damped_energy;
+    inertia.accept();
     check_balance_of_forces();
     drive.accept(totals.normal_load / parameters.nominal_contact_area());
 
@@ -438,9 +457,11 @@ namespace SlipStep
     row.normal_ratio    = totals.normal_ratio;
     row.coefficient     = totals.coefficient;
     row.slip_fraction = totals.area > 0. ? totals.slip_area / totals.area : 0.;
-    row.dissipated_energy = totals.dissipated;
+    row.dissipated_energy = totals.dissipated + damped_energy;
+    const double kinetic  = inertia.kinetic_energy();
+    row.kinetic_energy    = kinetic + drive.kinetic_energy();
     row.stored_energy =
-      totals.stored + elastic_energy() + drive.stored_energy();
+      totals.stored + elastic_energy() + drive.stored_energy() + kinetic;
     row.external_work     = external_work;
     row.newton_iterations = n_newton;
     row.linear_iterations = n_linear;

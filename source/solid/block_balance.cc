@@ -33,11 +33,8 @@ namespace SlipStep
   template <int dim>
   double Block<dim>::work_of_stage()
   {
-    const Tensor<1, 2> motion = loading.displacement - stage_frame;
-    Tensor<1, dim>     frame_motion;
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      frame_motion[parameters.tangential_axis(i)] = motion[i];
-    double work = 0.;
+    const Tensor<1, dim> frame_motion = frame_motion_in_stage();
+    double               work         = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       for (const auto dof : supported_dofs[d])
         work += unbalanced(dof) *
@@ -58,14 +55,17 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::check_balance_of_forces()
   {
-    // Global balance: elastic forces have no resultant, so contact forces are
-    // the loads plus all reactions; `unbalanced` holds nothing but reactions.
+    // Global balance: elastic forces have no resultant, so contact forces and
+    // those of inertia are the loads plus all reactions; `unbalanced` holds
+    // nothing but reactions.
     Vector &forces = right_hand_side;
     forces         = 0.;
     contact_forces.add_to(1., forces);
     const double normal_load =
       std::abs(sum_by_component(forces)[parameters.normal_axis()]);
     add_loads(-1., forces);
+    inertia.add_forces(
+      solution, stage_solution, frame_motion_in_stage(), stage_time, forces);
     for (const auto &line : homogeneous_constraints.get_lines())
       if (line.entries.empty() &&
           dof_handler.locally_owned_dofs().is_element(line.index))
@@ -78,15 +78,24 @@ namespace SlipStep
 
 
 
-  // u . K u / 2, where K u is what the residual says of it. The motion of the
-  // frame stores nothing.
+  // u . K u / 2, where K u is what the residual says of it, unless there is
+  // more in it. The motion of the frame stores nothing.
   template <int dim>
   double Block<dim>::elastic_energy()
   {
     Vector &forces = right_hand_side;
-    forces         = unbalanced;
-    contact_forces.add_to(-1., forces);
-    add_loads(1., forces);
+    if (inertia.exists())
+      {
+        forces = 0.;
+        system->add_elastic_forces(solution, forces);
+        forces.compress(VectorOperation::add);
+      }
+    else
+      {
+        forces = unbalanced;
+        contact_forces.add_to(-1., forces);
+        add_loads(1., forces);
+      }
     return 0.5 * (forces * solution);
   }
 

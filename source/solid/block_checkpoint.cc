@@ -16,8 +16,9 @@ namespace SlipStep
   // @sect3{Checkpoints}
 
   // A checkpoint lies between two steps: there the state is the displacements
-  // of the last two steps, the forces of the last one, the contact points, and
-  // some numbers. Everything else follows from the case and the mesh.
+  // of the last two steps, the velocities of a body with mass, the forces of
+  // the last one, the contact points, and some numbers. Everything else follows
+  // from the case and the mesh.
   //
   // To go on bit for bit, sums have to be made in the same order: so the same
   // cells have to come in the same order, on the same ranks. The triangulation
@@ -85,13 +86,14 @@ namespace SlipStep
       std::vector<CellId>          contact_cells;
       std::vector<SavedPoint<dim>> points;
       // Of the preconditioner.
+      BodyFactors  body;
       unsigned int n_iterations       = 0;
       bool         has_preconditioner = false;
 
       template <class Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &unknowns &values &contact_cells &points &n_iterations
+        archive &unknowns &values &contact_cells &points &body &n_iterations
           &has_preconditioner;
       }
     };
@@ -116,7 +118,10 @@ namespace SlipStep
             data.unknowns.push_back(
               old_solution.get_partitioner()->global_to_local(dof));
         }
-    for (const Vector *vector : {&old_solution, &older_solution})
+    std::vector<const Vector *> vectors = {&old_solution, &older_solution};
+    if (inertia.exists())
+      vectors.push_back(&inertia.state());
+    for (const Vector *vector : vectors)
       {
         Vector ghosted(*vector);
         ghosted.update_ghost_values();
@@ -129,6 +134,7 @@ namespace SlipStep
     const PreconditionerOrigin<dim> origin = system->preconditioner_origin();
     data.has_preconditioner                = origin.exists;
     data.n_iterations                      = origin.n_iterations;
+    data.body                              = origin.body;
     for (unsigned int f = 0; f < contact.cell_faces().size(); ++f)
       {
         const auto &cell_face = contact.cell_faces()[f];
@@ -239,8 +245,8 @@ namespace SlipStep
     for (unsigned int i = 0; i < contact.cell_faces().size(); ++i)
       contact_face_of.emplace(contact.cell_faces()[i].cell->id(), i);
 
-    const unsigned int            n_q     = contact.quadrature().size();
-    const std::array<Vector *, 2> vectors = {{&old_solution, &older_solution}};
+    const unsigned int          n_q     = contact.quadrature().size();
+    const std::vector<Vector *> vectors = fields_of_state();
     for (Vector *vector : vectors)
       *vector = 0.;
     PreconditionerOrigin<dim> origin;
@@ -256,6 +262,7 @@ namespace SlipStep
         read_archive(folder / numbered("cells", file), data);
         origin.exists       = data.has_preconditioner;
         origin.n_iterations = data.n_iterations;
+        origin.body         = data.body;
         for (unsigned int c = 0; c < ids.size(); ++c)
           {
             const auto cell = missing.find(ids[c]);
@@ -282,7 +289,7 @@ namespace SlipStep
               }
           }
       }
-    for (Vector *vector : {&old_solution, &older_solution})
+    for (Vector *vector : vectors)
       vector->update_ghost_values();
     solution = old_solution;
     if (origin.exists)

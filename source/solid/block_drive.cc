@@ -85,8 +85,21 @@ namespace SlipStep
     changes = 0.;
     contact.add_force_changes(displacement, frame, changes);
     changes.compress(VectorOperation::add);
-    system->add_elastic_forces(displacement, changes);
+    const BodyFactors body = inertia.factors(stage_time);
+    if (body.stiffness == 1.)
+      system->add_elastic_forces(displacement, changes);
+    else
+      {
+        Vector scaled(displacement);
+        scaled *= body.stiffness;
+        scaled.update_ghost_values();
+        system->add_elastic_forces(scaled, changes);
+      }
     changes.compress(VectorOperation::add);
+    Tensor<1, dim> motion;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      motion[parameters.tangential_axis(i)] = frame[i];
+    inertia.add_force_changes(displacement, motion, stage_time, changes);
     move_to_masters(hanging_constraints, changes);
   }
 

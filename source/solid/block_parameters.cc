@@ -28,6 +28,11 @@ namespace SlipStep
 
   namespace
   {
+    const char *const density_key = "Block/Density";
+    const char *const damping_key = "Block/Damping time";
+
+
+
     // Reads the conditions of one face, e.g. "pressure programme; drive; flat".
     class FaceReader
     {
@@ -332,6 +337,26 @@ namespace SlipStep
                        Quantity(Dimension::number, -0.99, 0.4999),
                        "Poisson's ratio nu of the block. Between -0.99 and "
                        "0.4999, no unit.");
+    parameters.declare(
+      density_key,
+      "0 kg/m^3",
+      Quantity(Dimension::density, 0., 1., false, true),
+      "Density rho of the block, with its unit. With it the block has inertia "
+      "and carries waves, of speeds sqrt(G/rho) in shear and "
+      "sqrt((lambda + 2 G)/rho) in compression; with 0 it is in equilibrium at "
+      "all times. Time steps resolve what they are short enough for; of "
+      "oscillations far quicker than a step nothing is left after it. 0 to "
+      "1 t/mm^3.");
+    parameters.declare(
+      damping_key,
+      "0",
+      Quantity(Dimension::time, 0., 1e30),
+      "Damping of a block with a density: its stress is that of the strain "
+      "eps + t deps/dt with this time t (Kelvin and Voigt). An oscillation of "
+      "frequency f then fades as with a damping ratio of pi f t: some tenths "
+      "of the time in which a wave crosses a cell smooth what a mesh cannot "
+      "resolve. 0 or more, in s unless a unit is given. Only with "
+      "Block/Density.");
     for (const std::string &name : face_names(3))
       parameters.declare(
         "Block/Faces/" + name,
@@ -398,6 +423,8 @@ namespace SlipStep
     , degree(parameters.integer("Block/Degree"))
     , young_modulus(parameters.number("Block/Young modulus"))
     , poisson_ratio(parameters.number("Block/Poisson ratio"))
+    , density(parameters.number(density_key))
+    , damping_time(parameters.number(damping_key))
     , newton_tolerance(parameters.number("Block/Newton tolerance"))
     , newton_iterations(parameters.integer("Block/Newton iterations"))
     , fields(parameters)
@@ -411,6 +438,10 @@ namespace SlipStep
                           "needs " + std::to_string(dimension) +
                             " numbers because Block/Dimension is " +
                             std::to_string(dimension));
+    if (damping_time > 0. && !is_dynamic())
+      parameters.reject(damping_key,
+                        "damps the motion of a block that has a mass; give " +
+                          std::string(density_key) + ", too");
     size.fill(1.);
     subdivisions.fill(1);
     for (unsigned int d = 0; d < dimension; ++d)

@@ -146,7 +146,8 @@ namespace SlipStep
     };
     change.load_jump        = load_jump(carried);
     change.dissipation_jump = dissipation_jump(carried);
-    if (control.time() > 0. && find_equilibrium_at_start())
+    // A block in motion is in no equilibrium with its loads.
+    if (control.time() > 0. && !inertia.exists() && find_equilibrium_at_start())
       {
         const ContactTotals settled         = contact.totals(communicator);
         change.equilibrium_load_jump        = load_jump(settled);
@@ -165,26 +166,26 @@ namespace SlipStep
 
 
 
-  // Displacements are interpolated, contact histories projected; everything
-  // else follows from the mesh.
+  // Displacements and velocities are interpolated, contact histories projected;
+  // everything else follows from the mesh.
   template <int dim>
   void Block<dim>::transfer_to_new_mesh()
   {
     system.reset();
     parallel::distributed::SolutionTransfer<dim, Vector> displacements(
       dof_handler);
-    ContactTransfer<dim> histories(triangulation,
+    ContactTransfer<dim>  histories(triangulation,
                                    parameters,
                                    contact.friction_law());
-    old_solution.update_ghost_values();
-    older_solution.update_ghost_values();
+    std::vector<Vector *> vectors = fields_of_state();
+    for (Vector *vector : vectors)
+      vector->update_ghost_values();
     displacements.prepare_for_coarsening_and_refinement(
-      std::vector<const Vector *>{&old_solution, &older_solution});
+      std::vector<const Vector *>(vectors.begin(), vectors.end()));
     histories.attach(contact);
     triangulation.execute_coarsening_and_refinement();
 
     setup_system();
-    std::vector<Vector *> vectors = {&old_solution, &older_solution};
     displacements.interpolate(vectors);
     histories.unpack(contact);
     for (Vector *vector : vectors)

@@ -77,6 +77,7 @@ namespace SlipStep
                            &stage_solution,
                            &right_hand_side})
       vector->reinit(solution);
+    inertia.reinit(dof_handler, solution);
   }
 
 

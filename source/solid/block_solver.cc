@@ -50,7 +50,7 @@ namespace SlipStep
         try
           {
             if (!is_linearised)
-              system->linearise(contact.tangent());
+              system->linearise(contact.tangent(), inertia.factors(stage_time));
             is_linearised = true;
             return system->solve(update, right_hand_side, tolerance);
           }

@@ -47,7 +47,8 @@ namespace
                            &row.stored_energy,
                            &row.external_work,
                            &row.step_size,
-                           &row.slip})
+                           &row.slip,
+                           &row.kinetic_energy})
       *member = (value *= -1.7e-3 / 0.9e-3);
     row.newton_iterations = 3;
     row.linear_iterations = 4000000000u;
@@ -69,7 +70,7 @@ TEST(History, TheColumnsAreTheDocumentedOnes)
             "friction_y,normal_load_N,tangential_load_N,r_mean,r_min,r_max,"
             "r_s_mean,r_s_min,r_s_max,mu_mean,mu_min,mu_max,slip_fraction,"
             "dissipated_energy_Nmm,stored_energy_Nmm,external_work_Nmm,step_s,"
-            "newton_iterations,linear_iterations,slip_mm");
+            "newton_iterations,linear_iterations,slip_mm,kinetic_energy_Nmm");
 }
 
 
@@ -88,7 +89,7 @@ TEST(History, OnlyMemoriesThatTheLawUsesAreColumns)
   std::string   header;
   std::getline(in, header);
   const std::string end =
-    ",slip_mm,contact_age_s,temperature_rise_degC,probe_1";
+    ",kinetic_energy_Nmm,contact_age_s,temperature_rise_degC,probe_1";
   ASSERT_GT(header.size(), end.size());
   EXPECT_EQ(header.substr(header.size() - end.size()), end);
 
@@ -137,6 +138,24 @@ TEST(History, RowsReadBackExactly)
   EXPECT_EQ(back.newton_iterations, row.newton_iterations);
   EXPECT_EQ(back.linear_iterations, row.linear_iterations);
   EXPECT_EQ(back.slip, row.slip);
+  EXPECT_EQ(back.kinetic_energy, row.kinetic_energy);
+}
+
+
+
+TEST(History, OfAnOlderProgramHasNoKineticEnergy)
+{
+  HistoryWriter(history_file()).write(sample_row());
+  std::ifstream in(history_file());
+  std::string   text;
+  for (std::string line; std::getline(in, line);)
+    text += line.substr(0, line.rfind(',')) + '\n';
+  in.close();
+  std::ofstream(history_file()) << text;
+  const std::vector<HistoryRow> rows = read_history(history_file());
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].slip, sample_row().slip);
+  EXPECT_EQ(rows[0].kinetic_energy, 0.);
 }
 
 

@@ -93,7 +93,7 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                        "opening",  "probes"});
   has_exactly(object["friction"], {"peak", "at_displacement_mm", "final"});
   has_exactly(object["energy"],
-              {"work", "stored", "dissipated", "balance_error"});
+              {"work", "stored", "kinetic", "dissipated", "balance_error"});
   has_exactly(
     object["mesh_error"],
     {"tolerance", "last", "largest", "at_s", "steps_checked", "steps_missed"});
@@ -173,6 +173,7 @@ TEST(Summary, ItReadsBack)
   summary.final_friction    = std::nan("");
   summary.work              = 3.;
   summary.stored            = 1.;
+  summary.kinetic           = 0.5;
   summary.dissipated        = 2.;
   summary.balance_error     = 1e-9;
   summary.slides     = {{1. / 60., 5.8, pi, 60., 0.12, 0.3, 0.1, 1.3, 0.08}};
@@ -196,6 +197,7 @@ TEST(Summary, ItReadsBack)
   EXPECT_EQ(back.rejected_steps, summary.rejected_steps);
   EXPECT_EQ(back.newton_iterations, summary.newton_iterations);
   EXPECT_EQ(back.linear_iterations, summary.linear_iterations);
+  EXPECT_EQ(back.kinetic, summary.kinetic);
   EXPECT_EQ(back.wall_time, summary.wall_time);
   EXPECT_EQ(back.cpu_time, summary.cpu_time);
   EXPECT_EQ(back.peak_memory, summary.peak_memory);

@@ -118,6 +118,31 @@ TEST_F(Restart, OfAMachineGoesOnBitForBit)
 
 
 
+namespace
+{
+  const std::string in_motion = "set Loading/Machine stiffness = 20 MPa/mm\n"
+                                "set Block/Density = 1e8 kg/m^3\n"
+                                "set Block/Damping time = 1 ms\n" +
+                                pushed +
+                                "0.05 MPa in 1 s; slide 1 mm/s for 0.01 mm\n";
+} // namespace
+
+
+
+TEST_F(Restart, OfABlockInMotionGoesOnBitForBit)
+{
+  kill_and_resume(in_motion);
+}
+
+
+
+TEST_F(Restart, OfABlockInMotionOnAnAdaptiveMeshGoesOnBitForBit)
+{
+  kill_and_resume("set Block/Refinement = adaptive 1\n" + in_motion);
+}
+
+
+
 TEST_F(Restart, OfACurvedFaceWithAWeakPatchGoesOnBitForBit)
 {
   kill_and_resume("set Contact/Gap = (x - 5)^2/(2*200)\n"

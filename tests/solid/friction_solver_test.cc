@@ -171,7 +171,7 @@ TEST(Multigrid, holds_for_all_coefficients_of_friction)
               direct->linearise(tangent);
               direct->solve(expected, b, 1e-8 * b.l2_norm());
               // Four digits more, of what is left.
-              matrix.set_contact(tangent);
+              matrix.set_tangent(tangent);
               const auto correct = [&](auto &solver, Vector &solution) {
                 Vector rest = problem.zero(), correction = problem.zero();
                 matrix.matrix().vmult(rest, solution);

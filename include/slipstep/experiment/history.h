@@ -42,12 +42,14 @@ namespace SlipStep
     Spread coefficient;            ///< mu
     double slip_fraction     = 0.; ///< share of the area in contact that slips
     double dissipated_energy = 0.; ///< [N mm]
-    double stored_energy     = 0.; ///< block and contact stiffness [N mm]
-    double external_work     = 0.; ///< [N mm]
-    double step_size         = 0.; ///< [s]
+    /// In block, contact stiffness and machine, kinetic energy included [N mm].
+    double       stored_energy     = 0.;
+    double       external_work     = 0.; ///< [N mm]
+    double       step_size         = 0.; ///< [s]
     unsigned int newton_iterations = 0;
     unsigned int linear_iterations = 0;
     double       slip              = 0.; ///< mean slip path of the contact [mm]
+    double kinetic_energy = 0.; ///< of the block and the machine's mass [N mm]
     /// Mean of what effects remember, as ContactState::memories.
     std::array<double, ContactState::most_memories> memories{};
     /// Quantities of interest on the contact face, see "Output/Quantities".
@@ -64,9 +66,9 @@ namespace SlipStep
   /// displacement_y_mm, friction_y, normal_load_N, tangential_load_N, r_mean,
   /// r_min, r_max, r_s_mean, r_s_min, r_s_max, mu_mean, mu_min, mu_max,
   /// slip_fraction, dissipated_energy_Nmm, stored_energy_Nmm,
-  /// external_work_Nmm, step_s, newton_iterations, linear_iterations, slip_mm;
-  /// then of contact_memories() those that the effects of the law use
-  /// (contact_age_s, temperature_rise_degC, ...), then probe_1,
+  /// external_work_Nmm, step_s, newton_iterations, linear_iterations, slip_mm,
+  /// kinetic_energy_Nmm; then of contact_memories() those that the effects of
+  /// the law use (contact_age_s, temperature_rise_degC, ...), then probe_1,
   /// probe_2, ..., which summary.json explains. A header and rows, no more, as
   /// every reader of tables wants it; it can be read back as a measured test.
   class HistoryWriter

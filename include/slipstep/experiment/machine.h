@@ -123,7 +123,13 @@ namespace SlipStep
     double stored_energy(const Slider &slider) const
     {
       return compliance / 2. * slider.load.norm_square() +
-             areal_mass / 2. * slider.velocity.norm_square();
+             kinetic_energy(slider);
+    }
+
+    /// Of it the part in motion [MPa mm].
+    double kinetic_energy(const Slider &slider) const
+    {
+      return areal_mass / 2. * slider.velocity.norm_square();
     }
 
   private:

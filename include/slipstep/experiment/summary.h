@@ -106,6 +106,7 @@ namespace SlipStep
     double final_friction = 0.; ///< along the last direction of motion
     double work           = 0.; ///< [N mm]
     double stored         = 0.; ///< [N mm]
+    double kinetic        = 0.; ///< part of what is stored [N mm]
     double dissipated     = 0.; ///< [N mm]
     double balance_error  = 0.; ///< relative to work
     std::vector<SlideSummary>  slides;

@@ -19,6 +19,7 @@
 #include <slipstep/solid/contact_face.h>
 #include <slipstep/solid/drive.h>
 #include <slipstep/solid/face_action.h>
+#include <slipstep/solid/inertia.h>
 #include <slipstep/solid/mesh_change.h>
 #include <slipstep/solid/mesh_marker.h>
 #include <slipstep/solid/mesh_tolerance.h>
@@ -92,7 +93,8 @@ namespace SlipStep
         &largest_imbalance &largest_normal_load &contact_share
           &smallest_contact_share &steps_since_check &most_cells_wanted
             &largest_jump &mesh_changes &mesh_is_new &tolerance &solver_in_use
-              &n_solver_failures &first_solver_failure &time_of_opening &drive;
+              &n_solver_failures &first_solver_failure &time_of_opening &drive
+                &damped_energy;
     }
 
     /// Cells, unknowns and iterations so far.
@@ -221,6 +223,13 @@ namespace SlipStep
     void        accept_step(const ContactTotals &totals, HistoryRow &row);
     std::string reason_of_failure() const;
 
+    // Inertia of the body.
+    const Vector          &strained_displacement();
+    dealii::Tensor<1, dim> frame_motion_in_stage() const;
+    double                 damped_energy_of_stage();
+    double                 error_of_motion();
+    std::vector<Vector *>  fields_of_state();
+
     // The drive, where its displacement is an unknown.
     void move_frame_to(const dealii::Tensor<1, 2> &displacement);
     void find_driven_unknowns();
@@ -280,6 +289,7 @@ namespace SlipStep
 
     // The loading: its parts, how long those that act at once take to do so
     // [s], and how much of each acts at the end of the present stage.
+    Inertia<dim>                       inertia;
     std::array<LoadCase, n_load_parts> load_cases;
     double                             first_step;
     LoadFactors                        load_factors = {};
@@ -297,8 +307,9 @@ namespace SlipStep
     // [s].
     Vector               stage_solution;
     dealii::Tensor<1, 2> stage_frame;
-    double               stage_time = 0.;
-    double               trial_work = 0.; // of the step [N mm]
+    double               stage_time          = 0.;
+    double               trial_work          = 0.; // of the step [N mm]
+    double               trial_damped_energy = 0.; // likewise, by viscosity
 
     // The drive; how the block follows it where that is unknown, the forces
     // that has to balance, and what the driven faces resist [N/mm].
@@ -333,6 +344,7 @@ namespace SlipStep
 
     // Bookkeeping.
     double external_work          = 0.;
+    double damped_energy          = 0.; // by the viscosity of the body
     double largest_imbalance      = 0.;
     double largest_normal_load    = 0.;
     double contact_share          = 1.;

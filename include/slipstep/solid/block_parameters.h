@@ -80,6 +80,8 @@ namespace SlipStep
     unsigned int                degree = 1;    ///< of the elements
     double                      young_modulus; ///< [MPa]
     double                      poisson_ratio;
+    double                      density      = 0.; ///< [t/mm^3], 0: no inertia
+    double                      damping_time = 0.; ///< of viscous stress [s]
     /// In deal.II's order: left, right, front, back, bottom, top in 3-D; left,
     /// right, bottom, top in 2-D.
     std::array<FaceConditions, 6> faces;
@@ -105,6 +107,12 @@ namespace SlipStep
     double shear_modulus() const ///< [MPa]
     {
       return young_modulus / (2. * (1. + poisson_ratio));
+    }
+
+    /// Whether the body has inertia.
+    bool is_dynamic() const
+    {
+      return density > 0.;
     }
 
     /// Axis normal to the contact plane.

@@ -112,6 +112,12 @@ namespace SlipStep
       return area * machine.stored_energy(at_start);
     }
 
+    /// Of it the part in motion [N mm].
+    double kinetic_energy() const
+    {
+      return area * machine.kinetic_energy(at_start);
+    }
+
     /// Why there is no equilibrium.
     std::string reason_of_failure() const;
 

@@ -30,7 +30,8 @@ namespace SlipStep
     angle,           ///< deg in text, rad inside
     force,           ///< N
     area,            ///< mm^2
-    temperature      ///< degC
+    temperature,     ///< degC
+    density          ///< t/mm^3, which is MPa s^2/mm^2
   };
 
   /// From mm/s to mm/min.

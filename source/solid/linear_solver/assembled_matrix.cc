@@ -31,6 +31,8 @@ namespace SlipStep
     compute_cell_matrices();
     make_sparsity(relevant);
     assemble_elastic_matrix();
+    if (parameters.is_dynamic())
+      assemble_mass();
   }
 
 
@@ -106,11 +108,46 @@ namespace SlipStep
 
 
 
+  // Where nodes hang it is not diagonal.
   template <int dim>
-  void AssembledMatrix<dim>::set_contact(const ContactTangent<dim> &tangent)
+  void AssembledMatrix<dim>::assemble_mass()
+  {
+    mass.reinit(elastic);
+    const auto         shares = shares_of_mass(dof_handler.get_fe());
+    const unsigned int n      = shares.size();
+    FullMatrix<double> cell_mass(n, n);
+    std::vector<types::global_dof_index> dofs(n);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          for (unsigned int i = 0; i < n; ++i)
+            cell_mass(i, i) = parameters.density * cell->measure() * shares[i];
+          cell->get_dof_indices(dofs);
+          constraints.distribute_local_to_global(cell_mass, dofs, mass);
+        }
+    mass.compress(VectorOperation::add);
+  }
+
+
+
+  template <int dim>
+  void AssembledMatrix<dim>::set_tangent(const ContactTangent<dim> &tangent,
+                                         const BodyFactors         &body)
   {
     sum.copy_from(elastic);
+    if (body.stiffness != 1.)
+      sum *= body.stiffness;
+    if (body.inertia > 0.)
+      sum.add(body.inertia, mass);
+    add_contact(tangent);
+    sum.compress(VectorOperation::add);
+  }
 
+
+
+  template <int dim>
+  void AssembledMatrix<dim>::add_contact(const ContactTangent<dim> &tangent)
+  {
     const FiniteElement<dim>            &fe = dof_handler.get_fe();
     FEFaceValues<dim>                    fe_values(fe,
                                 face_quadrature,
@@ -139,7 +176,6 @@ namespace SlipStep
         cell->get_dof_indices(dofs);
         constraints.distribute_local_to_global(local, dofs, sum);
       }
-    sum.compress(VectorOperation::add);
   }
 
 

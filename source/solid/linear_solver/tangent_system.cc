@@ -41,10 +41,12 @@ namespace SlipStep
       virtual void add_elastic_forces(const Vector &displacement,
                                       Vector       &forces) const override;
 
-      virtual void linearise(const ContactTangent<dim> &tangent) override
+      virtual void linearise(const ContactTangent<dim> &tangent,
+                             const BodyFactors         &body) override
       {
-        present = tangent;
-        matrix.set_contact(tangent);
+        present      = tangent;
+        present_body = body;
+        matrix.set_tangent(tangent, body);
       }
 
       virtual unsigned int
@@ -58,7 +60,7 @@ namespace SlipStep
       virtual void
       make_preconditioner(const PreconditionerOrigin<dim> &earlier) override
       {
-        matrix.set_contact(earlier.tangent);
+        matrix.set_tangent(earlier.tangent, earlier.body);
         preconditioner->initialize(matrix.matrix());
         origin                   = earlier;
         preconditioner_is_usable = true;
@@ -73,6 +75,7 @@ namespace SlipStep
       bool                            preconditioner_is_usable = false;
       PreconditionerOrigin<dim>       origin;
       ContactTangent<dim>             present; // in the matrix
+      BodyFactors                     present_body;
     };
 
 
@@ -134,7 +137,7 @@ namespace SlipStep
       try
         {
           preconditioner->initialize(matrix.matrix());
-          origin                   = {present, iterate(), true};
+          origin                   = {present, present_body, iterate(), true};
           preconditioner_is_usable = true;
           return origin.n_iterations;
         }

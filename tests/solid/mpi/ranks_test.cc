@@ -165,6 +165,32 @@ TEST(Ranks, agree_on_a_drive_that_gives_way_in_many_steps)
 
 
 
+// Waves that cross the borders of ranks.
+TEST(Ranks, agree_on_a_block_in_motion_in_many_steps)
+{
+  const Settings waves = {{"Block/Density", "1e9 kg/m^3"},
+                          {"Block/Damping time", "0.1 ms"},
+                          {"Block/Newton tolerance", "1e-11"},
+                          {"Loading/Machine stiffness", "20 MPa/mm"},
+                          {"Loading/Programme",
+                           "press 5.8 MPa in 0.1 s; slide 1 mm/s for 0.02 mm"}};
+  for (const std::string solver : {"direct", "multigrid"})
+    {
+      compare<3>(waves + Settings{{"Block/Subdivisions", "4, 2, 2"},
+                                  {"Block/Solver", solver}},
+                 false);
+      compare<2>(waves + Settings{{"Block/Dimension", "2"},
+                                  {"Block/Size", "10 mm, 5 mm"},
+                                  {"Block/Subdivisions", "6, 4"},
+                                  {"Block/Refinement", "adaptive 1"},
+                                  {"Block/Degree", "2"},
+                                  {"Block/Solver", solver}},
+                 false);
+    }
+}
+
+
+
 TEST(Ranks, agree_on_adaptive_meshes_in_many_steps)
 {
   const Settings few_steps =

@@ -12,14 +12,16 @@
 
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/contact_tangent.h>
+#include <slipstep/solid/linear_solver/lumped_mass.h>
 
 #include <map>
 
 namespace SlipStep
 {
-  /// Stiffness of the block plus tangent of the contact face, assembled.
+  /// Stiffness and mass of the block plus tangent of the contact face,
+  /// assembled.
   ///
-  /// The bulk is linear elastic, so its part is assembled once per mesh.
+  /// The bulk is linear elastic, so its parts are assembled once per mesh.
   template <int dim>
   class AssembledMatrix
   {
@@ -33,8 +35,9 @@ namespace SlipStep
                     const dealii::IndexSet                  &relevant,
                     const dealii::Quadrature<dim - 1>       &face_quadrature);
 
-    /// Replace the contact part.
-    void set_contact(const ContactTangent<dim> &tangent);
+    /// Replace the contact part and what multiplies the others.
+    void set_tangent(const ContactTangent<dim> &tangent,
+                     const BodyFactors         &body = BodyFactors());
 
     const dealii::TrilinosWrappers::SparseMatrix &matrix() const
     {
@@ -52,13 +55,15 @@ namespace SlipStep
     void compute_cell_matrices();
     void make_sparsity(const dealii::IndexSet &relevant);
     void assemble_elastic_matrix();
+    void assemble_mass();
+    void add_contact(const ContactTangent<dim> &tangent);
 
     const BlockParameters                     parameters;
     const dealii::DoFHandler<dim>            &dof_handler;
     const dealii::AffineConstraints<double>  &constraints;
     const dealii::Quadrature<dim - 1>         face_quadrature;
     std::map<int, dealii::FullMatrix<double>> cell_matrix_of_level;
-    dealii::TrilinosWrappers::SparseMatrix    elastic, sum;
+    dealii::TrilinosWrappers::SparseMatrix    elastic, mass, sum;
   };
 } // namespace SlipStep
 

@@ -20,12 +20,14 @@
 
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/contact_tangent.h>
+#include <slipstep/solid/linear_solver/lumped_mass.h>
 
 #include <memory>
 
 namespace SlipStep
 {
-  /// Stiffness of the block plus tangent of the contact face, matrix-free.
+  /// Stiffness and mass of the block plus tangent of the contact face,
+  /// matrix-free.
   ///
   /// The contact part is computed together with the cell that owns the face,
   /// from the same nodal values: constraints, hanging nodes and communication
@@ -66,6 +68,13 @@ namespace SlipStep
     void set_contact(const ContactTangent<dim> &tangent,
                      const bool                 for_smoother);
 
+    /// Replace what multiplies stiffness and mass in products, residuals and
+    /// the diagonal.
+    void set_body(const BodyFactors &body)
+    {
+      this->body = body;
+    }
+
     /// The sum, identity for constrained unknowns.
     /// @param src zero where constrained
     void vmult(VectorType &dst, const VectorType &src) const;
@@ -98,8 +107,8 @@ namespace SlipStep
     /// Elastic part without constraints; vectors of index 1.
     void plain_vmult(VectorType &dst, const VectorType &src) const;
 
-    /// Compute the diagonal of the elastic part, once.
-    void compute_elastic_diagonal();
+    /// Compute the diagonals of stiffness and mass, once.
+    void compute_diagonals();
 
     /// Forget what only setting up needed: the library's tables of unknowns,
     /// where those of the nodes serve.
@@ -107,7 +116,7 @@ namespace SlipStep
 
     /// One over the diagonal of the sum; 0 for constrained unknowns.
     /// @param largest_eigenvalue of the elastic part times its inverse
-    ///   diagonal; the contact part brings no larger one
+    ///   diagonal; the other parts bring no larger one
     void get_inverse_diagonal(VectorType  &inverse,
                               const Number largest_eigenvalue) const;
 
@@ -116,7 +125,8 @@ namespace SlipStep
       return matrix_free.memory_consumption() +
              (tangents.size() + definite_tangents.size()) * sizeof(Matrix) +
              nodes.memory_consumption() + plain_nodes.memory_consumption() +
-             elastic_diagonal.memory_consumption();
+             elastic_diagonal.memory_consumption() +
+             mass_diagonal.memory_consumption();
     }
 
   private:
@@ -175,7 +185,11 @@ namespace SlipStep
     void
     read(Evaluator &cell, const VectorType &src, const NodeTable &table) const;
     void add_to(VectorType &dst, Evaluator &cell, const NodeTable &table) const;
-    void add_elastic(Evaluator &cell) const;
+    void add_elastic(Evaluator &cell, const Number factor) const;
+    void multiply_by_mass(const Evaluator &cell,
+                          const Simd      *values,
+                          const Number     factor,
+                          Simd            *products) const;
     void read_face(const Evaluator &cell, FaceField &values) const;
     dealii::Tensor<1, dim, Simd> diagonal_of_contact(const Matrix *tangents,
                                                      const unsigned int i,
@@ -199,7 +213,9 @@ namespace SlipStep
     const BlockParameters                 parameters;
     const dealii::types::global_dof_index n_unknowns;
     const bool                            with_plain_product;
-    Number                                lambda, mu;
+    Number                                lambda, mu, density;
+    BodyFactors                           body;
+    std::vector<Number>                   mass_shares; // of the nodes of a cell
     Data                                  matrix_free;
     NodeTable                             nodes;
     NodeTable plain_nodes; // empty if like the others
@@ -221,7 +237,7 @@ namespace SlipStep
     std::array<std::array<Number, n_1d>, n_1d> shape; // [point][node]
     std::vector<unsigned int> lexicographic; // of points of the face quadrature
 
-    VectorType elastic_diagonal;
+    VectorType elastic_diagonal, mass_diagonal;
   };
 } // namespace SlipStep
 

@@ -17,6 +17,7 @@ namespace SlipStep
     , with_plain_product(with_plain_product)
     , lambda(parameters.lame_lambda())
     , mu(parameters.shear_modulus())
+    , density(parameters.density)
   {
     const auto                   &mesh = dof_handler.get_triangulation();
     typename Data::AdditionalData settings;
@@ -51,6 +52,13 @@ namespace SlipStep
       plain_nodes = NodeTable();
     find_contact_cells();
     find_face_nodes();
+
+    const auto &fe     = dof_handler.get_fe();
+    const auto  shares = shares_of_mass(fe);
+    const auto  hierarchic =
+      dealii::FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
+    for (const unsigned int node : hierarchic)
+      mass_shares.push_back(shares[fe.component_to_system_index(0, node)]);
   }
 
 
@@ -358,8 +366,10 @@ namespace SlipStep
     const Range      &range,
     const Tangents   &contact) const
   {
-    Evaluator cell(matrix_free);
-    FaceField field;
+    constexpr unsigned int     n_values = Evaluator::static_dofs_per_cell;
+    Evaluator                  cell(matrix_free);
+    FaceField                  field;
+    std::array<Simd, n_values> inertia;
     for (unsigned int batch = range.first; batch < range.second; ++batch)
       {
         cell.reinit(batch);
@@ -371,7 +381,15 @@ namespace SlipStep
             read_face(cell, field);
             apply_contact(&contact[slot * n_face], field);
           }
-        add_elastic(cell);
+        if (body.inertia > 0.)
+          multiply_by_mass(cell,
+                           cell.begin_dof_values(),
+                           body.inertia,
+                           inertia.data());
+        add_elastic(cell, body.stiffness);
+        if (body.inertia > 0.)
+          for (unsigned int i = 0; i < n_values; ++i)
+            cell.begin_dof_values()[i] += inertia[i];
         if (touches)
           for (unsigned int d = 0; d < dim; ++d)
             for (unsigned int i = 0; i < n_face; ++i)
@@ -388,8 +406,9 @@ namespace SlipStep
   // done here, that takes less than half of the time that it takes through the
   // tensors of the library, which go by way of memory.
   template <int dim, int degree, typename Number, typename Simd>
-  void
-  ElasticOperator<dim, degree, Number, Simd>::add_elastic(Evaluator &cell) const
+  void ElasticOperator<dim, degree, Number, Simd>::add_elastic(
+    Evaluator   &cell,
+    const Number factor) const
   {
     cell.evaluate(dealii::EvaluationFlags::gradients);
     constexpr unsigned int n         = Evaluator::static_n_q_points;
@@ -401,7 +420,7 @@ namespace SlipStep
                                   const unsigned int d) -> Simd & {
           return gradients[(i * dim + d) * n + q];
         };
-        const Simd weight = mu * cell.JxW(q);
+        const Simd weight = (factor * mu) * cell.JxW(q);
         Simd       trace  = Simd();
         for (unsigned int d = 0; d < dim; ++d)
           trace += gradient(d, d) * jacobian[d][d];
@@ -418,6 +437,27 @@ namespace SlipStep
             }
       }
     cell.integrate(dealii::EvaluationFlags::gradients);
+  }
+
+
+
+  // Of a box the volume is the weight of a point over that in the unit cell.
+  template <int dim, int degree, typename Number, typename Simd>
+  void ElasticOperator<dim, degree, Number, Simd>::multiply_by_mass(
+    const Evaluator &cell,
+    const Simd      *values,
+    const Number     factor,
+    Simd            *products) const
+  {
+    const Number unit_weight =
+      dealii::Utilities::fixed_power<dim>(dealii::QGauss<1>(n_1d).weight(0));
+    const Simd mass = (factor * density / unit_weight) * cell.JxW(0);
+    for (unsigned int d = 0, i = 0; d < dim; ++d)
+      for (const Number share : mass_shares)
+        {
+          products[i] = share * mass * values[i];
+          ++i;
+        }
   }
 
 
@@ -491,25 +531,11 @@ namespace SlipStep
         {
           cell.reinit(batch);
           read(cell, src, nodes_without_constraints());
-          add_elastic(cell);
+          add_elastic(cell, 1.);
           add_to(dst, cell, nodes_without_constraints());
         }
     };
     matrix_free.cell_loop(apply, dst, src, true);
-  }
-
-
-
-  template <int dim, int degree, typename Number, typename Simd>
-  void ElasticOperator<dim, degree, Number, Simd>::compute_elastic_diagonal()
-  {
-    initialize_dof_vector(elastic_diagonal);
-    const std::function<void(Evaluator &)> apply = [this](Evaluator &cell) {
-      add_elastic(cell);
-    };
-    dealii::MatrixFreeTools::compute_diagonal(matrix_free,
-                                              elastic_diagonal,
-                                              apply);
   }
 
 
@@ -573,93 +599,8 @@ namespace SlipStep
     info.dof_indices.swap(kept);
     std::vector<unsigned int>().swap(info.dof_indices_interleaved);
   }
-
-
-
-  // Of node i of a face. The entries C_ii alone would not bound the eigenvalues
-  // of D^-1 C: with one closed point in a face that is open otherwise they grow
-  // to the number of nodes. With rows of sum_j |C_ij| <= lambda D_ii they are
-  // at most lambda, as Gershgorin says, and so are those of D^-1 (K + C) if
-  // lambda bounds those of the elastic part.
-  template <int dim, int degree, typename Number, typename Simd>
-  dealii::Tensor<1, dim, Simd>
-  ElasticOperator<dim, degree, Number, Simd>::diagonal_of_contact(
-    const Matrix      *tangents,
-    const unsigned int i,
-    const Number       lambda) const
-  {
-    dealii::Tensor<1, dim, Simd> diagonal, row;
-    for (unsigned int q = 0; q < n_face; ++q)
-      {
-        Number own = 1., all = 1.; // phi_i and sum_j |phi_j|
-        for (unsigned int d = 0, j = i, p = q; d < dim - 1;
-             ++d, j /= n_1d, p /= n_1d)
-          {
-            own *= shape[p % n_1d][j % n_1d];
-            Number sum = 0.;
-            for (const Number value : shape[p % n_1d])
-              sum += std::abs(value);
-            all *= sum;
-          }
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            diagonal[d] += own * own * tangents[q][d][d];
-            for (unsigned int e = 0; e < dim; ++e)
-              row[d] += std::abs(own) * all * std::abs(tangents[q][d][e]);
-          }
-      }
-    for (unsigned int d = 0; d < dim; ++d)
-      diagonal[d] = std::max(diagonal[d], row[d] / lambda);
-    return diagonal;
-  }
-
-
-
-  // Where nodes hang, the share of the contact part is not exact, which is good
-  // enough for a smoother.
-  template <int dim, int degree, typename Number, typename Simd>
-  void ElasticOperator<dim, degree, Number, Simd>::get_inverse_diagonal(
-    VectorType  &inverse,
-    const Number largest_eigenvalue) const
-  {
-    inverse                         = 0.;
-    const Tangents     &contact     = tangents_of_products();
-    const LoopOverCells add_contact = [&](const Data &,
-                                          VectorType &dst,
-                                          const VectorType &,
-                                          const Range &range) {
-      Evaluator cell(matrix_free);
-      for (unsigned int batch = range.first; batch < range.second; ++batch)
-        {
-          const unsigned int slot = slot_of_batch[batch];
-          if (slot == dealii::numbers::invalid_unsigned_int)
-            continue;
-          cell.reinit(batch);
-          for (unsigned int i = 0; i < Evaluator::static_dofs_per_cell; ++i)
-            cell.begin_dof_values()[i] = Simd();
-          for (unsigned int i = 0; i < n_face; ++i)
-            {
-              const auto entries = diagonal_of_contact(&contact[slot * n_face],
-                                                       i,
-                                                       largest_eigenvalue);
-              for (unsigned int d = 0; d < dim; ++d)
-                cell
-                  .begin_dof_values()[d * Evaluator::static_dofs_per_component +
-                                      face_nodes[i]] = entries[d];
-            }
-          add_to(dst, cell, nodes);
-        }
-    };
-    matrix_free.cell_loop(add_contact, inverse, elastic_diagonal);
-    inverse += elastic_diagonal;
-    for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
-      {
-        Number &entry = inverse.local_element(i);
-        entry         = entry > 0. ? 1. / entry : 1.;
-      }
-    for (const unsigned int i : matrix_free.get_constrained_dofs())
-      inverse.local_element(i) = 0.;
-  }
 } // namespace SlipStep
+
+#include <slipstep/solid/linear_solver/operator_diagonal.templates.h>
 
 #endif

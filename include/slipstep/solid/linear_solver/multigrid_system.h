@@ -70,7 +70,8 @@ namespace SlipStep
     virtual void add_elastic_forces(const Vector &displacement,
                                     Vector       &forces) const override;
 
-    virtual void linearise(const ContactTangent<dim> &tangent) override;
+    virtual void linearise(const ContactTangent<dim> &tangent,
+                           const BodyFactors         &body) override;
 
     virtual unsigned int
     solve(Vector &x, const Vector &b, const double tolerance) override;
@@ -177,7 +178,7 @@ namespace SlipStep
     level.b.reinit(level.x);
     level.residual.reinit(level.x);
     level.correction.reinit(level.x);
-    level.matrix->compute_elastic_diagonal();
+    level.matrix->compute_diagonals();
     level.matrix->release_setup_data();
     level.jacobi = std::make_shared<Jacobi>();
     level.jacobi->get_vector().reinit(level.x);
@@ -230,20 +231,24 @@ namespace SlipStep
 
   template <int dim, int degree, typename Simd>
   void MultigridSystem<dim, degree, Simd>::linearise(
-    const ContactTangent<dim> &tangent)
+    const ContactTangent<dim> &tangent,
+    const BodyFactors         &body)
   {
     n_smoothings = smoothings_for(tangent);
     levels.set_tangent(tangent);
     matrix.set_contact(tangent, false);
+    matrix.set_body(body);
     for (unsigned int l = 1; l < levels.n_levels(); ++l)
       {
         smoothed[l].matrix->set_contact(levels[l].tangent, true);
+        smoothed[l].matrix->set_body(body);
         smoothed[l].matrix->get_inverse_diagonal(
           smoothed[l].jacobi->get_vector(), smoothed[l].largest_eigenvalue);
       }
-    coarse_matrix.set_contact(coarse_is_factorised ?
+    coarse_matrix.set_tangent(coarse_is_factorised ?
                                 levels[0].tangent :
-                                definite_part(levels[0].tangent, normal_axis));
+                                definite_part(levels[0].tangent, normal_axis),
+                              body);
     coarse_solver->initialize(coarse_matrix.matrix());
   }
 

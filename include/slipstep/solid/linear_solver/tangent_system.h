@@ -5,6 +5,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <slipstep/solid/contact_face.h>
+#include <slipstep/solid/linear_solver/lumped_mass.h>
 
 #include <memory>
 
@@ -16,6 +17,7 @@ namespace SlipStep
   struct PreconditionerOrigin
   {
     ContactTangent<dim> tangent;
+    BodyFactors         body;
     /// Iterations that it took with its own tangent.
     unsigned int n_iterations = 0;
     bool         exists       = false;
@@ -24,9 +26,9 @@ namespace SlipStep
   /// The linear algebra of a Newton step: all that the time stepping needs to
   /// know of matrices and preconditioners.
   ///
-  /// The bulk is linear elastic, so its stiffness K never changes on a mesh;
-  /// the tangent of the contact face is added to it anew in every Newton step
-  /// and makes the system unsymmetric.
+  /// The bulk is linear elastic, so its stiffness K never changes on a mesh,
+  /// nor does its mass M; the tangent of the contact face is added anew in
+  /// every Newton step and makes the system unsymmetric.
   template <int dim>
   class TangentSystem
   {
@@ -39,10 +41,12 @@ namespace SlipStep
     virtual void add_elastic_forces(const Vector &displacement,
                                     Vector       &forces) const = 0;
 
-    /// Take over the tangent of the contact face.
-    virtual void linearise(const ContactTangent<dim> &tangent) = 0;
+    /// Take over the tangent of the contact face, and what multiplies K and M.
+    virtual void linearise(const ContactTangent<dim> &tangent,
+                           const BodyFactors         &body = BodyFactors()) = 0;
 
-    /// Solve (K + contact tangent) x = b, with homogeneous constraints, until
+    /// Solve (K + M + contact tangent) x = b, K and M times their factors, with
+    /// homogeneous constraints, until
     /// the residual norm is below @p tolerance.
     /// @return number of iterations
     /// @throws RunError if that is not reached

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/solid/block.h>
+
+#include <slipstep/solid/supports.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace SlipStep
+{
+  using namespace dealii;
+
+  // @sect3{A body with mass}
+
+  // With a density the forces of inertia join the balance (Inertia). They are
+  // those of the motion in space, so the frame that moves with the drive adds
+  // its own.
+
+  template <int dim>
+  Tensor<1, dim> Block<dim>::frame_motion_in_stage() const
+  {
+    const Tensor<1, 2> motion = loading.displacement - stage_frame;
+    Tensor<1, dim>     result;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      result[parameters.tangential_axis(i)] = motion[i];
+    return result;
+  }
+
+
+
+  // The displacement whose elastic stress the body has: u, with damping
+  // u + t_d v.
+  template <int dim>
+  const Vector &Block<dim>::strained_displacement()
+  {
+    const double factor = inertia.factors(stage_time).stiffness;
+    if (factor == 1.)
+      return solution;
+    Vector &strained = right_hand_side;
+    strained.equ(factor, solution);
+    strained.add(1. - factor, stage_solution);
+    strained.update_ghost_values();
+    return strained;
+  }
+
+
+
+  // t_d v . K v over the time of the stage.
+  template <int dim>
+  double Block<dim>::damped_energy_of_stage()
+  {
+    if (parameters.damping_time == 0.)
+      return 0.;
+    Vector motion(solution);
+    motion -= stage_solution;
+    motion.update_ghost_values();
+    Vector &forces = right_hand_side;
+    forces         = 0.;
+    system->add_elastic_forces(motion, forces);
+    forces.compress(VectorOperation::add);
+    return parameters.damping_time / stage_time * (forces * motion);
+  }
+
+
+
+  // As of the machine (Machine::error_of_motion): the stage lets a part of the
+  // difference e of two orders through,
+  // @f$\delta = (\mathbf K + \mathbf C + m)^{-1} m e@f$ with
+  // @f$m = \mathbf M/(\gamma h)^2@f$, little of what is far quicker than it.
+  // The energy of its stress, @f$\delta\cdot m(e - \delta)/2@f$, counts beside
+  // that in the block, and beside that of the loads while the block is still
+  // empty.
+  template <int dim>
+  double Block<dim>::error_of_motion()
+  {
+    if (!inertia.exists())
+      return 0.;
+    Vector difference(right_hand_side);
+    difference = 0.;
+    inertia.difference_of_orders(stage_time, difference);
+    Vector &forces = right_hand_side;
+    forces         = 0.;
+    inertia.add_force_changes(difference, Tensor<1, dim>(), stage_time, forces);
+    move_to_masters(homogeneous_constraints, forces);
+    Vector passed(forces);
+    count_linear_iterations(
+      system->solve(passed, forces, 0.1 * forces.l2_norm()));
+    constrain(passed);
+
+    difference -= passed;
+    forces = 0.;
+    inertia.add_force_changes(difference, Tensor<1, dim>(), stage_time, forces);
+    const double energy = std::abs(forces * passed) / 2.;
+
+    double stress = 0., volume = 1.;
+    for (const Segment &segment : programme.segments())
+      stress = std::max(stress, segment.end.pressure);
+    for (const FaceConditions &face : parameters.faces)
+      for (const LoadPart part : {gradual, at_once})
+        stress = std::max(stress, face.tractions[part].norm());
+    for (unsigned int d = 0; d < dim; ++d)
+      volume *= parameters.size[d];
+    const double of_loads =
+      stress * stress / (2. * parameters.young_modulus) * volume;
+    constexpr double part = 0.3;
+    return part * std::sqrt(energy / std::max(of_loads,
+                                              elastic_energy() +
+                                                inertia.kinetic_energy()));
+  }
+
+
+
+  // Fields that the next step begins with: of the last two steps the
+  // displacements, and the velocity.
+  template <int dim>
+  std::vector<Vector *> Block<dim>::fields_of_state()
+  {
+    std::vector<Vector *> fields = {&old_solution, &older_solution};
+    if (inertia.exists())
+      fields.push_back(&inertia.state());
+    return fields;
+  }
+
+
+
+#ifndef SLIPSTEP_UNITY_BUILD
+  template class Block<2>;
+  template class Block<3>;
+#endif
+} // namespace SlipStep
