@@ -227,6 +227,126 @@ namespace SlipStep
 
 
 
+    namespace
+    {
+      // What an overstress adds at higher speeds, contacts that are younger
+      // there take away again, after some slip: of steady sliding nearly
+      // nothing is left. Their age, or its logarithm, follows that of steady
+      // sliding.
+      Truth rate_and_state(TrueContact &contact,
+                           const double a,
+                           const bool   ages_at_rest,
+                           Random      &random)
+      {
+        Truth        truth  = overstress(contact, a, random);
+        const double b      = uniform(random, 0.6, 1.) / contact.flow.exponent;
+        const double length = log_uniform(random, 0.2, 1.5);
+        const double t_0    = 0.1 * length / Reach::largest_speed;
+        contact.influences.push_back(
+          {[=](const Instant &, const double age) {
+             return 1. + b * std::log1p(std::max(age, 0.) / t_0);
+           },
+           {},
+           [=](const Instant &now, const double age) {
+             const double x = now.slip_rate * age / length;
+             return ages_at_rest ? 1. - x : x > 0. ? -x * std::log(x) : 0.;
+           },
+           [=](double) { return ages_at_rest ? 0. : t_0; }});
+        const std::string section =
+          ages_at_rest ? "Friction/ageing/" : "Friction/slip_law/";
+        truth.push_back({section + "Growth", b, ""});
+        truth.push_back({section + "Time", t_0, "s"});
+        truth.push_back(
+          {section + (ages_at_rest ? "Renewal length" : "Slip length"),
+           length,
+           "mm"});
+        return truth;
+      }
+
+
+
+      Truth
+      overstress_ageing(TrueContact &contact, const double a, Random &random)
+      {
+        return rate_and_state(contact, a, true, random);
+      }
+
+
+
+      Truth
+      overstress_slip_law(TrueContact &contact, const double a, Random &random)
+      {
+        return rate_and_state(contact, a, false, random);
+      }
+
+
+
+      // Low pressures are raised by the one and lowered by the other.
+      Truth
+      adhesion_pressure(TrueContact &contact, const double a, Random &random)
+      {
+        Truth        truth = adhesion(contact, a, random);
+        const double share =
+          a * (1. - Reach::least_pressure / Reach::largest_pressure) *
+          std::log(Reach::largest_pressure / Reach::reference_pressure) /
+          std::log(Reach::largest_pressure / Reach::least_pressure);
+        const Truth second =
+          pressure(contact, -uniform(random, 0.7, 1.1) * share, random);
+        truth.insert(truth.end(), second.begin(), second.end());
+        return truth;
+      }
+
+
+
+      // The drag is there at once, the heat that outweighs it comes later.
+      Truth
+      viscous_heating(TrueContact &contact, const double a, Random &random)
+      {
+        Truth        truth = viscous(contact, a, random);
+        const double t_c   = log_uniform(random, 0.5, 3.);
+        const double beta  = 1e-3;
+        const double h =
+          uniform(random, 0.7, 1.1) * a /
+          (beta * t_c * Reach::reference_pressure *
+           contact.coefficient.kinetic_coefficient * Reach::largest_speed);
+        contact.influences.push_back(
+          {[=](const Instant &, const double temperature) {
+             return 1. / (1. + beta * temperature);
+           },
+           {},
+           [=](const Instant &now, const double temperature) {
+             return h * now.traction * now.slip_rate - temperature / t_c;
+           },
+           {}});
+        truth.push_back({"Friction/heating/Weakening", beta, "1/degC"});
+        truth.push_back({"Friction/heating/Heating", h, "degC mm/N"});
+        truth.push_back({"Friction/heating/Cooling time", t_c, "s"});
+        return truth;
+      }
+    } // namespace
+
+
+
+    std::vector<HiddenEffectKind> joint_effects()
+    {
+      return {{"overstress+ageing",
+               "eq. 3 and G = 1 + b ln(1 + theta/t_0), d theta/dt = 1 - lambda "
+               "theta/L",
+               &overstress_ageing},
+              {"overstress+slip_law",
+               "eq. 3 and G = 1 + b ln(1 + theta/t_0), d theta/dt = -(lambda "
+               "theta/L) ln(lambda theta/L)",
+               &overstress_slip_law},
+              {"adhesion+pressure",
+               "tau_y = ... + c, G = (p / p_0)^-m, m < 0",
+               &adhesion_pressure},
+              {"viscous+heating",
+               "tau_y = ... + c_v lambda, G = 1 / (1 + beta T)",
+               &viscous_heating}};
+    }
+
+
+
     std::vector<HiddenEffectKind> catalogue_effects()
     {
       return {{"overstress",

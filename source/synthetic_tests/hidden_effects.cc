@@ -4,29 +4,41 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 
+#include <map>
+
 namespace SlipStep
 {
   namespace Planting
   {
     std::string to_string(const Formula formula)
     {
-      return formula == Formula::catalogue   ? "catalogue" :
-             formula == Formula::alternative ? "alternative" :
-                                               "outside";
+      switch (formula)
+        {
+          case Formula::catalogue:
+            return "catalogue";
+          case Formula::alternative:
+            return "alternative";
+          case Formula::outside:
+            return "outside";
+          case Formula::third:
+            return "third";
+          case Formula::joint:
+            return "joint";
+        }
+      return "";
     }
 
 
 
     const std::vector<HiddenEffectKind> &hidden_effects(const Formula formula)
     {
-      static const std::vector<HiddenEffectKind> catalogue =
-        catalogue_effects();
-      static const std::vector<HiddenEffectKind> alternative =
-        alternative_effects();
-      static const std::vector<HiddenEffectKind> outside = outside_effects();
-      return formula == Formula::catalogue   ? catalogue :
-             formula == Formula::alternative ? alternative :
-                                               outside;
+      static const std::map<Formula, std::vector<HiddenEffectKind>> effects = {
+        {Formula::catalogue, catalogue_effects()},
+        {Formula::alternative, alternative_effects()},
+        {Formula::outside, outside_effects()},
+        {Formula::third, third_effects()},
+        {Formula::joint, joint_effects()}};
+      return effects.at(formula);
     }
 
 

@@ -9,6 +9,7 @@
 #include <slipstep/utilities/write_file.h>
 
 #include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/split.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +28,9 @@ namespace SlipStep
         {CampaignClass::other_formula, "other_formula"},
         {CampaignClass::outside, "outside"},
         {CampaignClass::ablated, "ablated"},
-        {CampaignClass::narrow, "narrow"}};
+        {CampaignClass::narrow, "narrow"},
+        {CampaignClass::third_formula, "third_formula"},
+        {CampaignClass::joint, "joint"}};
 
       /// What random numbers are for.
       enum class Stream : std::uint32_t
@@ -86,10 +89,19 @@ namespace SlipStep
 
     Formula formula_of(const CampaignClass campaign_class)
     {
-      return campaign_class == CampaignClass::other_formula ?
-               Formula::alternative :
-             campaign_class == CampaignClass::outside ? Formula::outside :
-                                                        Formula::catalogue;
+      switch (campaign_class)
+        {
+          case CampaignClass::other_formula:
+            return Formula::alternative;
+          case CampaignClass::third_formula:
+            return Formula::third;
+          case CampaignClass::joint:
+            return Formula::joint;
+          case CampaignClass::outside:
+            return Formula::outside;
+          default:
+            return Formula::catalogue;
+        }
     }
 
 
@@ -116,8 +128,11 @@ namespace SlipStep
     unsigned int newest_edition()
     {
       unsigned int newest = 1;
-      for (const Formula formula :
-           {Formula::catalogue, Formula::alternative, Formula::outside})
+      for (const Formula formula : {Formula::catalogue,
+                                    Formula::alternative,
+                                    Formula::outside,
+                                    Formula::third,
+                                    Formula::joint})
         for (const auto &kind : hidden_effects(formula))
           newest = std::max(newest, kind.edition);
       return newest;
@@ -235,15 +250,43 @@ namespace SlipStep
 
 
 
+      // "overstress+ageing" are two, each with its own parameters.
+      std::vector<PlantedEffect> one_by_one(const PlantedEffect &both)
+      {
+        std::vector<std::string> names;
+        boost::algorithm::split(names, both.name, [](const char c) {
+          return c == '+';
+        });
+        if (names.size() < 2)
+          return {both};
+        std::vector<PlantedEffect> result;
+        for (const std::string &name : names)
+          {
+            PlantedEffect one = both;
+            one.name          = name;
+            one.parameters.clear();
+            for (const TruthParameter &parameter : both.parameters)
+              if (parameter.name.find("/" + name + "/") != std::string::npos)
+                one.parameters.push_back(parameter);
+            result.push_back(one);
+          }
+        return result;
+      }
+
+
+
       void plant_truth(PlantedCampaign &campaign)
       {
         Random random    = random_numbers(campaign.options, Stream::truth);
         campaign.contact = draw_base(random);
-        std::vector<std::string> names =
-          choose_effects(campaign.options, random);
-        for (const std::string &name : names)
-          campaign.hidden.push_back(
-            hide(name, campaign.options, campaign.contact, random));
+        std::vector<std::string> names;
+        for (const std::string &name : choose_effects(campaign.options, random))
+          for (const PlantedEffect &effect : one_by_one(
+                 hide(name, campaign.options, campaign.contact, random)))
+            {
+              campaign.hidden.push_back(effect);
+              names.push_back(effect.name);
+            }
         campaign.base_parameters = base_parameters(campaign.contact);
         campaign.base_effects    = {"subloading", "overstress", "softening"};
         for (const std::string &name : names)

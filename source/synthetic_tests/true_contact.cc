@@ -55,6 +55,8 @@ namespace SlipStep
         return 0.;
       if (formula == Formula::alternative)
         return base_speed * std::sinh(std::min(exponent * over, 60.));
+      if (formula == Formula::third)
+        return base_speed * growth(exponent * over);
       return growth(exponent * over) /
              (viscosity * std::max(maximum_ratio - ratio, 1e-6));
     }
@@ -65,6 +67,8 @@ namespace SlipStep
     {
       if (formula == Formula::alternative)
         return 1. + std::asinh(speed / base_speed) / exponent;
+      if (formula == Formula::third)
+        return 1. + std::log1p(speed / base_speed) / exponent;
       return root(
         [&](const double r) {
           return viscosity * speed * (maximum_ratio - r) -

@@ -91,8 +91,10 @@ TEST(HiddenEffects, NothingAtAmplitudeZero)
 {
   Random                      random(2);
   const std::vector<Protocol> protocols = draw_protocols(8, random);
-  for (const Formula formula :
-       {Formula::catalogue, Formula::alternative, Formula::outside})
+  for (const Formula formula : {Formula::catalogue,
+                                Formula::alternative,
+                                Formula::third,
+                                Formula::outside})
     for (const HiddenEffectKind &effect : hidden_effects(formula))
       {
         // Without these the base is another one.
@@ -121,8 +123,10 @@ TEST(HiddenEffects, EveryEffectChangesSomething)
 {
   Random                      random(2);
   const std::vector<Protocol> protocols = draw_protocols(14, random);
-  for (const Formula formula :
-       {Formula::catalogue, Formula::alternative, Formula::outside})
+  for (const Formula formula : {Formula::catalogue,
+                                Formula::alternative,
+                                Formula::third,
+                                Formula::outside})
     for (const HiddenEffectKind &effect : hidden_effects(formula))
       {
         TrueContact contact = with_effect(effect.name, formula, 0.05);
@@ -162,6 +166,33 @@ TEST(HiddenEffects, Speed)
       const auto levels = ends(with_effect("overstress", formula, 0.05), steps);
       EXPECT_NEAR(levels[2] / levels[1], 1.05, 0.01);
     }
+}
+
+
+
+// Of steady sliding, little of a direct effect of 5 % is left.
+TEST(HiddenEffects, PairsNearlyHideEachOther)
+{
+  const Protocol steps = slides({middle, slow, fast});
+  for (const char *const state : {"ageing", "slip_law"})
+    {
+      const auto levels = ends(with_effect(std::string("overstress+") + state,
+                                           Formula::joint,
+                                           0.05),
+                               steps);
+      EXPECT_NEAR(levels[2] / levels[1], 1.01, 0.015) << state;
+    }
+  // What the drag adds at the end of a fast slide, heat takes away.
+  const auto heated =
+    changes("viscous+heating", Formula::joint, slides({slow, fast}));
+  EXPECT_NEAR(heated[1], 0., 0.025);
+  const auto low = [&](const double pressure) {
+    return changes("adhesion+pressure",
+                   Formula::joint,
+                   slides({{0.2, 60., pressure}}))[0];
+  };
+  EXPECT_NEAR(low(1.5), low(20.), 0.02);
+  EXPECT_LT(low(5.8), low(1.5));
 }
 
 

@@ -129,7 +129,9 @@ TEST(PlantedCampaign, HidesWhatItsClassSays)
     {CampaignClass::other_formula, 1},
     {CampaignClass::outside, 1},
     {CampaignClass::ablated, 1},
-    {CampaignClass::narrow, 1}};
+    {CampaignClass::narrow, 1},
+    {CampaignClass::third_formula, 1},
+    {CampaignClass::joint, 2}};
   for (const auto &[campaign_class, size] : sizes)
     {
       const auto campaign = plant(campaign_class, 4);
@@ -137,6 +139,15 @@ TEST(PlantedCampaign, HidesWhatItsClassSays)
       for (const PlantedEffect &effect : campaign.hidden)
         EXPECT_EQ(campaign.start_model.find(", " + effect.name),
                   std::string::npos);
+    }
+  // Each of a pair has parameters of its own.
+  for (const PlantedEffect &effect :
+       plant(CampaignClass::joint, 4, {"overstress+ageing"}).hidden)
+    {
+      EXPECT_TRUE(effect.name == "overstress" || effect.name == "ageing");
+      EXPECT_EQ(effect.parameters.size(), 3u);
+      for (const TruthParameter &parameter : effect.parameters)
+        EXPECT_EQ(parameter.name.rfind("Friction/" + effect.name + "/", 0), 0u);
     }
   EXPECT_EQ(plant(CampaignClass::one, 4, {"healing"}).hidden[0].name,
             "healing");

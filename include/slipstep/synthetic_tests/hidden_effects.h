@@ -15,6 +15,8 @@ namespace SlipStep
     std::vector<HiddenEffectKind> catalogue_effects();
     std::vector<HiddenEffectKind> alternative_effects();
     std::vector<HiddenEffectKind> outside_effects();
+    std::vector<HiddenEffectKind> third_effects();
+    std::vector<HiddenEffectKind> joint_effects();
     ///@}
 
     /// What a usual campaign reaches: an amplitude is the change of friction

@@ -55,7 +55,9 @@ namespace SlipStep
     {
       catalogue,   ///< that of the law's catalogue
       alternative, ///< the same physics in another form
-      outside      ///< physics that no effect of the catalogue has
+      outside,     ///< physics that no effect of the catalogue has
+      third,       ///< the physics of the catalogue in yet another form
+      joint        ///< two of the catalogue's that nearly hide each other
     };
 
     std::string to_string(const Formula formula);

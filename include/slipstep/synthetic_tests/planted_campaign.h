@@ -24,7 +24,9 @@ namespace SlipStep
       other_formula, ///< an effect of the catalogue in another formula
       outside,       ///< an effect that the catalogue does not have
       ablated,       ///< the start model lacks overstress or softening
-      narrow         ///< one, but the tests hardly tell effects apart
+      narrow,        ///< one, but the tests hardly tell effects apart
+      third_formula, ///< an effect of the catalogue in a third formula
+      joint          ///< two effects that nearly hide each other
     };
 
     /// "other_formula"

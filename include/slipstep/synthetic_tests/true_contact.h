@@ -19,7 +19,7 @@ namespace SlipStep
       /// Catalogue: \f$\lambda = (e^{n(r-r_s)} - 1) / (\eta (r_m - r))\f$, eq.
       /// 3 of the source paper. Alternative: \f$\lambda = V_0
       /// \sinh((r-r_s)/A)\f$, thermally activated slip; Eyring (1936), J. Chem.
-      /// Phys. 4, 283.
+      /// Phys. 4, 283. Third: \f$\lambda = V_0 (e^{(r-r_s)/A} - 1)\f$.
       Formula formula       = Formula::catalogue;
       double  viscosity     = 500.;  ///< eta [s/mm]
       double  exponent      = 16.52; ///< n; 1/A in the alternative
