@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/diagnosis/basis.h>
 #include <slipstep/diagnosis/candidate_scores.h>
 #include <slipstep/utilities/exceptions.h>
 
@@ -141,8 +140,9 @@ namespace SlipStep
           for (const Direction &direction : found[c])
             if (direction.friction.cwiseAbs().maxCoeff() >
                 least_change * workspace.range.typical_friction)
-              view.directions.push_back(direction);
+              view.set.directions.push_back(direction);
           view.candidates[c].candidate = candidates[c];
+          view.candidates[c].number    = c;
           if (found[c].empty())
             view.candidates[c].failure = failures[c];
         }
@@ -171,17 +171,18 @@ namespace SlipStep
   View score_candidates(const Workspace &workspace, const Model &model)
   {
     View view = find_directions(workspace, model);
-    if (view.directions.empty())
+    if (view.set.directions.empty())
       return view;
-    const ScoreTest scores(workspace.comparison,
-                           model,
-                           workspace.null_draws,
-                           view.directions);
-    for (std::size_t d = 0; d < view.directions.size(); ++d)
-      see(view.directions[d],
+    view.set = DirectionSet(workspace.comparison,
+                            workspace.null_draws,
+                            view.set.directions);
+    const ScoreTest               scores(model, workspace.null_draws, view.set);
+    const std::vector<Direction> &directions = view.set.directions;
+    for (std::size_t d = 0; d < directions.size(); ++d)
+      see(directions[d],
           scores.scores[d],
           workspace.range.typical_friction,
-          view.candidates[view.directions[d].candidate]);
+          view.candidates[directions[d].candidate]);
     const auto is_better = [](const auto &a, const auto &b) {
       return a.score.value > b.score.value;
     };
@@ -192,23 +193,24 @@ namespace SlipStep
           seen.score = seen.ways.front().score;
         seen.p = scores.family_p(seen.score.value);
       }
+    const auto is_beside = [&](const std::size_t i, const std::size_t j) {
+      const Candidate &a = view.candidates[directions[i].candidate].candidate;
+      const Candidate &b = view.candidates[directions[j].candidate].candidate;
+      return a.only_beside == b.name || b.only_beside == a.name;
+    };
+    view.pairs = scores.pairs(directions, is_beside);
     std::stable_sort(view.candidates.begin(), view.candidates.end(), is_better);
     return view;
   }
 
 
 
-  std::vector<Direction> smooth_directions(const Workspace &workspace,
-                                           const View      &view)
+  const CandidateView &View::of(const Direction &direction) const
   {
-    std::vector<Direction> result = view.directions;
-    for (const BasisColumn &column :
-         smooth_basis(workspace.comparison, workspace.covariates))
-      {
-        Direction direction;
-        direction.friction = column.friction;
-        result.push_back(direction);
-      }
-    return result;
+    return *std::find_if(candidates.begin(),
+                         candidates.end(),
+                         [&](const CandidateView &seen) {
+                           return seen.number == direction.candidate;
+                         });
   }
 } // namespace SlipStep

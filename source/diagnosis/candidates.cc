@@ -70,6 +70,18 @@ namespace SlipStep
 
 
 
+    // By this effect or another formula of it.
+    bool has_formula_of(const std::string &candidate, const Circumstances &now)
+    {
+      for (const auto &[name, info] : effect_registry())
+        if ((name == candidate || info.search.candidate == candidate) &&
+            now.has(name))
+          return true;
+      return false;
+    }
+
+
+
     // By its own formula and by others of the same.
     Candidate candidate_of(const EffectInfo &own, const Circumstances &now)
     {
@@ -96,6 +108,7 @@ namespace SlipStep
               TrialFormula formula = form(now);
               if (!now.has(info->name))
                 formula.effect = info->name;
+              formula.along = info->search.along;
               if (formula.why_not.empty())
                 candidate.formulas.push_back(formula);
               else
@@ -104,6 +117,44 @@ namespace SlipStep
         }
       if (candidate.formulas.empty())
         candidate.why_not = list_text(reasons);
+      return candidate;
+    }
+
+
+
+    // Seen from the model with its partner, if the model has not.
+    Candidate candidate_beside(const EffectInfo &own, const Circumstances &now)
+    {
+      const std::string &partner = own.search.beside;
+      Candidate candidate{own.name, own.search.beside_signature, {}, ""};
+      if (now.has(own.name))
+        {
+          candidate.leave_to_model("it is in the model already");
+          return candidate;
+        }
+      Parameters  with_partner = now.parameters;
+      std::string list         = now.parameters.text("Friction/Effects");
+      const bool  has_partner  = has_formula_of(partner, now);
+      if (!has_partner)
+        with_partner.set("Friction/Effects",
+                         list + (list.empty() ? "" : ", ") + partner,
+                         "diagnosis");
+      else if (!own.search.candidate.empty() &&
+               own.search.formula(now).why_not.empty())
+        {
+          candidate.why_not =
+            "it is tried as a formula of " + own.search.candidate;
+          return candidate;
+        }
+      TrialFormula formula =
+        own.search.beside_formula({with_partner, now.range});
+      formula.effect    = own.name;
+      formula.along     = own.search.along;
+      candidate.why_not = formula.why_not;
+      if (formula.why_not.empty())
+        candidate.formulas = {formula};
+      if (!has_partner)
+        candidate.only_beside = partner;
       return candidate;
     }
   } // namespace
@@ -123,9 +174,22 @@ namespace SlipStep
   {
     std::vector<std::string> names;
     for (const auto &entry : effect_registry())
-      if (entry.second.search.formula && entry.second.search.candidate.empty())
+      if (entry.second.search.beside_formula ||
+          (entry.second.search.formula &&
+           entry.second.search.candidate.empty()))
         names.push_back(entry.first);
     names.push_back(compliance_name);
+    return names;
+  }
+
+
+
+  std::vector<std::string> effect_names(const std::vector<Part> &parts)
+  {
+    std::vector<std::string> names;
+    for (const Part &part : parts)
+      if (part.corrects.empty())
+        names.push_back(part.name);
     return names;
   }
 
@@ -153,9 +217,17 @@ namespace SlipStep
     std::vector<Candidate> result;
     for (const std::string &name : candidate_names())
       if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
-        result.push_back(name == compliance_name ?
-                           compliance(now, fitted) :
-                           candidate_of(effect_registry().at(name), now));
+        {
+          if (name == compliance_name)
+            {
+              result.push_back(compliance(now, fitted));
+              continue;
+            }
+          const EffectInfo &info = effect_registry().at(name);
+          result.push_back(info.search.beside.empty() ?
+                             candidate_of(info, now) :
+                             candidate_beside(info, now));
+        }
     return result;
   }
 

@@ -162,6 +162,19 @@ namespace SlipStep
 
 
 
+  void Comparison::weaken_row(const Eigen::Index row, const double factor)
+  {
+    for (ComparedTest &test : tests)
+      if (row >= test.begin && row < test.begin + test.size)
+        {
+          const Eigen::Index n_bins = test.n_bins();
+          test.series[(row - test.begin) / n_bins]
+            .row_noise[(row - test.begin) % n_bins] *= factor;
+        }
+  }
+
+
+
   void Comparison::set_noise(const Noise           &noise,
                              const Eigen::VectorXd &friction)
   {

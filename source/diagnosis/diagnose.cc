@@ -4,6 +4,8 @@
 #include <slipstep/diagnosis/diagnose.h>
 
 #include <slipstep/diagnosis/findings.h>
+#include <slipstep/diagnosis/free_factor.h>
+#include <slipstep/diagnosis/outlying_rows.h>
 #include <slipstep/diagnosis/element_tests.h>
 #include <slipstep/diagnosis/improved_case.h>
 #include <slipstep/diagnosis/intervals.h>
@@ -79,6 +81,8 @@ namespace SlipStep
 
       void show();
 
+      void show_formulas();
+
       const Parameters parameters;
       const Stage      stage;
       Ingested         ingested;
@@ -95,8 +99,6 @@ namespace SlipStep
       result.has_gap         = judgement.gap.p <= ingested.workspace->level;
       result.gap_p           = judgement.gap.p;
       result.p_smooth        = judgement.gap.p_smooth;
-      result.p_waves         = judgement.gap.p_waves;
-      result.p_conditions    = judgement.gap.p_conditions;
       result.p_replicates    = judgement.gap.p_replicates;
       result.p_together      = judgement.gap.p_together;
       result.p_track         = judgement.gap.p_track;
@@ -122,7 +124,13 @@ namespace SlipStep
                            return costs[a] > costs[b];
                          });
       for (const std::size_t part : order)
-        result.effects.push_back(final_model.parts[part].name);
+        if (final_model.parts[part].corrects.empty())
+          result.effects.push_back(final_model.parts[part].name);
+      result.is_incomplete = judgement.is_incomplete;
+      ingested.base        = judgement.base;
+      for (const Outlier &outlier :
+           outlying_rows_words(*ingested.workspace, judgement.outlying))
+        result.outliers.push_back(outlier);
       for (const Rival &rival : judgement.found.rivals)
         {
           result.ambiguous_with.push_back(rival.name);
@@ -171,9 +179,8 @@ namespace SlipStep
         }
       if (without.verdict == Verdict::unnamed)
         return;
-      std::vector<std::string> names;
-      for (const Part &part : without.found.model.parts)
-        names.push_back(part.name);
+      const std::vector<std::string> names =
+        effect_names(without.found.model.parts);
       for (const std::string &test : left_out)
         result.outliers.push_back(
           {test,
@@ -198,6 +205,41 @@ namespace SlipStep
       result.correction_formula   = correction->formula;
       result.correction_share     = correction->share;
       final_model                 = correction->model;
+    }
+
+
+
+    // What the formula of a name alone leaves along its covariate.
+    void Diagnostician::show_formulas()
+    {
+      Workspace &workspace = *ingested.workspace;
+      for (std::size_t i = 0; i < final_model.parts.size(); ++i)
+        {
+          const Part &part = final_model.parts[i];
+          if (part.corrects.empty())
+            continue;
+          const std::optional<Model> bare =
+            refit_without(workspace, final_model, i);
+          if (!bare.has_value())
+            continue;
+          const auto difference = [&](const Model &model) {
+            return workspace.comparison.difference(*model.simulator,
+                                                   model.scaled);
+          };
+          const Eigen::VectorXd left    = difference(*bare);
+          const std::string     section = "Friction/expression/";
+          const std::string     covariate =
+            part.formula.texts.at(section + "Covariate");
+          result.completed.push_back(
+            {part.corrects,
+             covariate,
+             part.formula.texts.at(section + "Formula"),
+             bare->objective - final_model.objective,
+             covariate_panel(workspace,
+                             left,
+                             {{part.name, difference(final_model) - left}},
+                             covariate_of_expression(covariate))});
+        }
     }
 
 
@@ -232,6 +274,7 @@ namespace SlipStep
       const Workspace  &workspace  = *ingested.workspace;
       const Comparison &comparison = workspace.comparison;
       stage("before and after");
+      show_formulas();
       describe_tests(ingested, final_model, result);
       describe_shrink(ingested, final_model, result);
       describe_doubts(workspace, result);
@@ -284,6 +327,13 @@ namespace SlipStep
           stage("where the gap is");
           result.where =
             localise(*ingested.workspace, ingested.base, judgement.gap);
+        }
+      if (result.is_incomplete)
+        {
+          stage("where the rest is");
+          result.remains = localise(*ingested.workspace,
+                                    judgement.found.model,
+                                    judgement.remainder);
         }
       if (result.verdict == Verdict::unnamed && !ingested.workspace->is_late())
         {

@@ -101,49 +101,25 @@ namespace SlipStep
 
 
 
-  GapTest test_gap(const Comparison             &comparison,
-                   const Covariates             &covariates,
-                   const Model                  &model,
-                   const RowMatrix              &null_draws,
-                   const std::vector<Direction> &smooth)
+  void prepare_gap_test(Workspace &workspace)
   {
-    GapTest         result;
-    const ScoreTest scores(comparison, model, null_draws, smooth);
-    double          largest = 0.;
-    for (const Score &score : scores.scores)
-      largest = std::max(largest, score.value);
-    result.p_smooth = scores.family_p(largest);
-
-    std::vector<Direction> all = condition_waves(comparison, covariates, 6);
-    result.p_waves = ScoreTest(comparison, model, null_draws, all).together().p;
-    result.p_conditions = ScoreTest(comparison,
-                                    model,
-                                    null_draws,
-                                    condition_waves(comparison, covariates, 0))
-                            .together()
-                            .p;
-    all.insert(all.end(), smooth.begin(), smooth.end());
-    const ScoreTest::Together saturated =
-      ScoreTest(comparison, model, null_draws, all).together();
-    result.excess     = saturated.excess;
-    result.explained  = saturated.explained;
-    result.p_together = saturated.p;
-    result.p_replicates =
-      chance_of_agreement(comparison, model.residual, null_draws);
-    const TrackWave track =
-      find_track_wave(comparison, covariates, model, null_draws);
-    result.p_track    = track.p;
-    result.wavelength = track.wavelength;
-    // Bonferroni, with most of the chance given to what has a name.
-    constexpr double share = 2. / 3., share_of_others = (1. - share) / 5.;
-    result.p = std::min({1.,
-                         result.p_smooth / share,
-                         result.p_waves / share_of_others,
-                         result.p_conditions / share_of_others,
-                         result.p_together / share_of_others,
-                         result.p_replicates / share_of_others,
-                         result.p_track / share_of_others});
-    return result;
+    const Comparison &comparison = workspace.comparison;
+    const Covariates &covariates = workspace.covariates;
+    const auto        set = [&](const std::vector<Direction> &directions) {
+      return DirectionSet(comparison, workspace.null_draws, directions);
+    };
+    std::vector<Direction> smooth;
+    for (const BasisColumn &column : smooth_basis(comparison, covariates))
+      {
+        Direction direction;
+        direction.friction = column.friction;
+        smooth.push_back(direction);
+      }
+    workspace.smooth      = set(smooth);
+    workspace.waves       = set(condition_waves(comparison, covariates, 6));
+    workspace.wavelengths = track_wavelengths(comparison, covariates);
+    workspace.along_track =
+      set(track_waves(comparison, covariates, workspace.wavelengths));
   }
 
 
@@ -151,10 +127,35 @@ namespace SlipStep
   GapTest
   test_gap(const Workspace &workspace, const Model &model, const View &view)
   {
-    return test_gap(workspace.comparison,
-                    workspace.covariates,
-                    model,
-                    workspace.null_draws,
-                    smooth_directions(workspace, view));
+    const RowMatrix   &null_draws = workspace.null_draws;
+    const DirectionSet smooth     = view.set.with(workspace.smooth);
+    GapTest            result;
+    const ScoreTest    scores(model, null_draws, smooth);
+    double             largest = 0.;
+    for (const Score &score : scores.scores)
+      largest = std::max(largest, score.value);
+    result.p_smooth = scores.family_p(largest);
+
+    const ScoreTest::Together saturated =
+      ScoreTest(model, null_draws, workspace.waves.with(smooth)).together();
+    result.excess     = saturated.excess;
+    result.explained  = saturated.explained;
+    result.p_together = saturated.p;
+    result.p_replicates =
+      chance_of_agreement(workspace.comparison, model.residual, null_draws);
+    const TrackWave track = find_track_wave(workspace.along_track,
+                                            workspace.wavelengths,
+                                            model,
+                                            null_draws);
+    result.p_track        = track.p;
+    result.wavelength     = track.wavelength;
+    // Bonferroni, with most of the chance given to what has a name.
+    constexpr double share = 2. / 3., share_of_others = (1. - share) / 3.;
+    result.p = std::min({1.,
+                         result.p_smooth / share,
+                         result.p_together / share_of_others,
+                         result.p_replicates / share_of_others,
+                         result.p_track / share_of_others});
+    return result;
   }
 } // namespace SlipStep

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/outlier.h>
 #include <slipstep/diagnosis/ingest.h>
 #include <slipstep/measured_data/test_rows.h>
@@ -438,6 +439,7 @@ namespace SlipStep
                                        workspace.noise,
                                        start.integer("Diagnosis/Draws"),
                                        start.integer("Diagnosis/Seed"));
+      prepare_gap_test(workspace);
       RowMatrix whitened =
         comparison.difference(*result.base.simulator,
                               result.base.campaign->scaled_start());

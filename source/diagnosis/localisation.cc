@@ -425,6 +425,17 @@ namespace SlipStep
 
 
 
+  CovariatePanel covariate_panel(
+    const Workspace                                            &workspace,
+    const Eigen::VectorXd                                      &difference,
+    const std::vector<std::pair<std::string, Eigen::VectorXd>> &changes,
+    const std::string                                          &name)
+  {
+    return PanelMaker(workspace, difference, changes, name).make();
+  }
+
+
+
   std::vector<CovariatePanel> covariate_panels(
     const Workspace                                            &workspace,
     const Eigen::VectorXd                                      &difference,
@@ -440,7 +451,7 @@ namespace SlipStep
     for (const std::string &name : names)
       {
         CovariatePanel panel =
-          PanelMaker(workspace, difference, changes, name).make();
+          covariate_panel(workspace, difference, changes, name);
         if (panel.x.size() > 1)
           result.push_back(std::move(panel));
       }

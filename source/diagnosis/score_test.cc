@@ -57,6 +57,16 @@ namespace SlipStep
         return result;
       }
 
+      // What draws of noise have along columns without it: of the products with
+      // the columns as they were.
+      Eigen::MatrixXd products_without(const DirectionSet &set,
+                                       const RowMatrix    &null_draws) const
+      {
+        const Eigen::MatrixXd top = basis.topRows(null_draws.rows());
+        return set.products - (top.transpose() * set.whitened).transpose() *
+                                (top.transpose() * null_draws);
+      }
+
     private:
       const Eigen::MatrixXd basis;
     };
@@ -70,12 +80,10 @@ namespace SlipStep
       double p    = 1.;
     };
 
-    SquareSum compare_squares(const Eigen::MatrixXd &orthonormal,
-                              const RowMatrix       &null_draws,
+    // @param parts of the draws along orthonormal directions
+    SquareSum compare_squares(const Eigen::MatrixXd &parts,
                               const double           observed)
     {
-      const Eigen::MatrixXd parts =
-        orthonormal.topRows(null_draws.rows()).transpose() * null_draws;
       std::vector<double> sums;
       for (Eigen::Index draw = 0; draw < parts.cols(); ++draw)
         sums.push_back(parts.col(draw).squaredNorm());
@@ -88,31 +96,58 @@ namespace SlipStep
 
 
 
-    // Of full rank only.
-    Eigen::MatrixXd orthonormal(const Eigen::MatrixXd &columns)
+    // Mixtures of columns of length one (or none) that are orthonormal, of full
+    // rank only.
+    Eigen::MatrixXd orthonormal_mixtures(const Eigen::MatrixXd &columns)
     {
-      Eigen::MatrixXd scaled = columns;
-      for (Eigen::Index i = 0; i < scaled.cols(); ++i)
-        {
-          const double length = scaled.col(i).norm();
-          if (length > 0.)
-            scaled.col(i) /= length;
-        }
       // By the eigenvectors of the small matrix; cheaper than pivoting.
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        scaled.transpose() * scaled);
+        columns.transpose() * columns);
       Eigen::Index n = 0;
-      while (n < scaled.cols() &&
-             eigen.eigenvalues()(scaled.cols() - 1 - n) > 1e-6)
+      while (n < columns.cols() &&
+             eigen.eigenvalues()(columns.cols() - 1 - n) > 1e-6)
         ++n;
-      return scaled * eigen.eigenvectors().rightCols(n) *
-             eigen.eigenvalues()
-               .tail(n)
-               .cwiseSqrt()
-               .cwiseInverse()
-               .asDiagonal();
+      return eigen.eigenvectors().rightCols(n) * eigen.eigenvalues()
+                                                   .tail(n)
+                                                   .cwiseSqrt()
+                                                   .cwiseInverse()
+                                                   .asDiagonal();
     }
   } // namespace
+
+
+
+  DirectionSet::DirectionSet(const Comparison             &comparison,
+                             const RowMatrix              &null_draws,
+                             const std::vector<Direction> &directions)
+    : directions(directions)
+    , whitened(comparison.n_rows(), directions.size())
+  {
+    if (directions.empty())
+      return;
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      whitened.col(i) = directions[i].friction;
+    comparison.whiten(whitened);
+    products = whitened.transpose() * null_draws;
+  }
+
+
+
+  DirectionSet DirectionSet::with(const DirectionSet &others) const
+  {
+    if (directions.empty() || others.directions.empty())
+      return directions.empty() ? others : *this;
+    DirectionSet both;
+    both.directions = directions;
+    both.directions.insert(both.directions.end(),
+                           others.directions.begin(),
+                           others.directions.end());
+    both.whitened.resize(whitened.rows(), both.directions.size());
+    both.whitened << whitened, others.whitened;
+    both.products.resize(both.directions.size(), products.cols());
+    both.products << products, others.products;
+    return both;
+  }
 
 
 
@@ -120,31 +155,42 @@ namespace SlipStep
                        const Model                  &model,
                        const RowMatrix              &null_draws,
                        const std::vector<Direction> &directions)
+    : ScoreTest(model,
+                null_draws,
+                DirectionSet(comparison, null_draws, directions))
+  {}
+
+
+
+  ScoreTest::ScoreTest(const Model        &model,
+                       const RowMatrix    &null_draws,
+                       const DirectionSet &set)
     : residual(model.residual)
-    , null_draws(null_draws)
   {
-    RowMatrix whitened(comparison.n_rows(), directions.size());
-    for (std::size_t i = 0; i < directions.size(); ++i)
-      whitened.col(i) = directions[i].friction;
-    comparison.whiten(whitened);
-    columns = TangentSpace(model).without(whitened);
+    const std::vector<Direction> &directions = set.directions;
+    const TangentSpace            tangents(model);
+    columns    = tangents.without(set.whitened);
+    null_parts = tangents.products_without(set, null_draws);
     scores.resize(directions.size());
     for (std::size_t i = 0; i < directions.size(); ++i)
       {
-        scores[i].own_length  = whitened.col(i).norm();
+        scores[i].own_length  = set.whitened.col(i).norm();
         scores[i].free_length = columns.col(i).norm();
         if (scores[i].free_length > least_free_share * scores[i].own_length)
-          columns.col(i) /= scores[i].free_length;
+          {
+            columns.col(i) /= scores[i].free_length;
+            null_parts.row(i) /= scores[i].free_length;
+          }
         else
           {
             scores[i].free_length = 0.;
             columns.col(i).setZero();
+            null_parts.row(i).setZero();
           }
       }
 
-    const Eigen::MatrixXd parts =
-      columns.topRows(comparison.n_rows()).transpose() * null_draws;
-    const Eigen::VectorXd deviations =
+    const Eigen::MatrixXd &parts = null_parts;
+    const Eigen::VectorXd  deviations =
       (parts.rowwise().squaredNorm() / parts.cols()).cwiseSqrt().cwiseMax(0.5);
     const Eigen::VectorXd observed = columns.transpose() * residual;
     const auto standard = [&](const std::size_t i, const double part) {
@@ -177,24 +223,99 @@ namespace SlipStep
 
 
 
-  ScoreTest::Together
-  ScoreTest::together(const std::vector<std::size_t> &which) const
+  ScoreTest::Together ScoreTest::together() const
   {
-    Eigen::MatrixXd chosen = columns;
-    if (!which.empty())
-      {
-        chosen.resize(columns.rows(), which.size());
-        for (std::size_t i = 0; i < which.size(); ++i)
-          chosen.col(i) = columns.col(which[i]);
-      }
-    const Eigen::MatrixXd basis = orthonormal(chosen);
+    const Eigen::MatrixXd mixtures = orthonormal_mixtures(columns);
     Together              result;
-    const Eigen::VectorXd parts = basis.transpose() * residual;
-    result.gain                 = parts.squaredNorm();
-    result.explained            = basis * parts;
-    const SquareSum chance = compare_squares(basis, null_draws, result.gain);
-    result.excess          = std::max(0., result.gain - chance.mean);
-    result.p               = chance.p;
+    const Eigen::VectorXd parts =
+      mixtures.transpose() * (columns.transpose() * residual);
+    result.gain      = parts.squaredNorm();
+    result.explained = columns * (mixtures * parts);
+    const SquareSum chance =
+      compare_squares(mixtures.transpose() * null_parts, result.gain);
+    result.excess = std::max(0., result.gain - chance.mean);
+    result.p      = chance.p;
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// Least squares of two directions of length one.
+    struct TwoStrengths
+    {
+      double first = 0., second = 0., gain = 0.;
+
+      // Nothing where physics forbids a sign: then one alone does it.
+      TwoStrengths(const double     a,
+                   const double     b,
+                   const double     cosine,
+                   const Direction &of_a,
+                   const Direction &of_b)
+      {
+        const double free  = 1. - cosine * cosine;
+        const double own_a = (a - cosine * b) / free;
+        const double own_b = (b - cosine * a) / free;
+        if ((of_a.is_one_sided && own_a < 0.) ||
+            (of_b.is_one_sided && own_b < 0.))
+          return;
+        first  = own_a;
+        second = own_b;
+        gain   = a * own_a + b * own_b;
+      }
+    };
+  } // namespace
+
+
+
+  std::vector<ScoreTest::Pair> ScoreTest::pairs(
+    const std::vector<Direction>                        &directions,
+    const std::function<bool(std::size_t, std::size_t)> &is_asked_for) const
+  {
+    constexpr double nearly_opposite = 0.8, the_same = 0.9995;
+
+    const Eigen::MatrixXd cosines  = columns.transpose() * columns;
+    const Eigen::VectorXd observed = columns.transpose() * residual;
+    Eigen::VectorXd       most     = Eigen::VectorXd::Zero(null_parts.cols());
+    std::vector<Pair>     result;
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      for (std::size_t j = i + 1; j < directions.size(); ++j)
+        {
+          const double cosine = cosines(i, j);
+          const bool   is_free =
+            !directions[i].is_one_sided || !directions[j].is_one_sided;
+          if (directions[i].candidate == directions[j].candidate ||
+              scores[i].free_length == 0. || scores[j].free_length == 0. ||
+              std::abs(cosine) > the_same ||
+              !((is_free ? -std::abs(cosine) : cosine) < -nearly_opposite ||
+                is_asked_for(i, j)))
+            continue;
+          const auto of = [&](const double a, const double b) {
+            return TwoStrengths(a, b, cosine, directions[i], directions[j]);
+          };
+          Eigen::VectorXd null(null_parts.cols());
+          for (Eigen::Index draw = 0; draw < null.size(); ++draw)
+            null(draw) = of(null_parts(i, draw), null_parts(j, draw)).gain;
+          const double scale      = std::max(0.5, null.mean());
+          most                    = most.cwiseMax(null / scale);
+          const TwoStrengths here = of(observed(i), observed(j));
+          if (here.gain > 0.)
+            result.push_back({i,
+                              j,
+                              here.first / scores[i].free_length,
+                              here.second / scores[j].free_length,
+                              here.gain,
+                              here.gain / scale,
+                              1.});
+        }
+    std::vector<double> sorted(most.data(), most.data() + most.size());
+    std::sort(sorted.begin(), sorted.end());
+    for (Pair &pair : result)
+      pair.p = share_above(sorted, pair.value);
+    std::sort(result.begin(), result.end(), [](const Pair &a, const Pair &b) {
+      return a.gain > b.gain;
+    });
     return result;
   }
 

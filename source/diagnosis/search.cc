@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/search.h>
 #include <slipstep/utilities/exceptions.h>
@@ -12,166 +13,6 @@
 
 namespace SlipStep
 {
-  namespace
-  {
-    // Precision of the objective in fits that decide.
-    constexpr double precision = 0.1;
-
-
-
-    std::optional<Model> fitted(const Workspace &workspace, Model model)
-    {
-      return workspace.comparison.fit(model, precision) ?
-               std::make_optional(std::move(model)) :
-               std::nullopt;
-    }
-
-
-
-    // With the effect at a strength, less if that cannot be simulated.
-    std::optional<Model> fit_from(const Workspace &workspace,
-                                  const Model     &model,
-                                  const Candidate &candidate,
-                                  const Direction &direction,
-                                  const Values    &values,
-                                  double           strength)
-    {
-      const TrialFormula::Shape &shape =
-        candidate.formulas[direction.formula].shapes[direction.shape];
-      std::optional<Model> result;
-      for (unsigned int attempt = 0; attempt < 2 && !result.has_value();
-           ++attempt, strength *= 0.1)
-        result = if_possible([&]() {
-          return fitted(
-            workspace,
-            make_model(workspace.start,
-                       with_part(model, candidate, direction.formula),
-                       merged(values, shape(strength)),
-                       workspace.tests,
-                       &model));
-        });
-      return result;
-    }
-
-
-
-    // By one formula.
-    std::optional<Model> refit_by(const Workspace          &workspace,
-                                  const Model              &model,
-                                  const Candidate          &candidate,
-                                  const CandidateView::Way &way)
-    {
-      // Above, in units of the noise, a model is so far off that its
-      // parameters have been pulled anywhere: those of the start are as good.
-      constexpr double far = 2.;
-
-      // To first order; less where that is far.
-      double strength = std::clamp(way.score.strength, -50., 100.);
-      if (way.direction.is_one_sided)
-        strength = std::max(strength, 0.1);
-      std::optional<Model> best = fit_from(
-        workspace, model, candidate, way.direction, model.values(), strength);
-      if (model.objective < far * workspace.comparison.n_rows())
-        return best;
-      Values start = model.values();
-      for (const FitParameter &parameter : model.campaign->fitted)
-        start[parameter.path] = parameter.start;
-      for (const double share : {1., 0.2})
-        {
-          const std::optional<Model> other = fit_from(workspace,
-                                                      model,
-                                                      candidate,
-                                                      way.direction,
-                                                      start,
-                                                      share * strength);
-          if (other.has_value() &&
-              (!best.has_value() || other->objective < best->objective))
-            best = other;
-        }
-      return best;
-    }
-
-
-
-    bool ends_at_bound(const CandidateParameter &parameter, const Model &model)
-    {
-      for (std::size_t i = 0; i < model.scaled.size(); ++i)
-        if (model.campaign->fitted[i].path == parameter.path &&
-            ((model.scaled[i] < 1e-6 && !parameter.lower_makes_sense) ||
-             (model.scaled[i] > 1. - 1e-6 && !parameter.upper_makes_sense)))
-          return true;
-      return false;
-    }
-
-
-
-    bool is_at_bound(const Model &model)
-    {
-      for (const Part &part : model.parts)
-        for (const CandidateParameter &parameter : part.formula.parameters)
-          if (ends_at_bound(parameter, model))
-            return true;
-      return false;
-    }
-  } // namespace
-
-
-
-  std::optional<Model> refit_with(Workspace           &workspace,
-                                  const Model         &model,
-                                  const CandidateView &view)
-  {
-    // Below this share of the best score another formula is not tried.
-    constexpr double as_promising = 0.7;
-
-    std::optional<Model> best;
-    const auto           rank = [](const Model &tried) {
-      return std::make_pair(is_at_bound(tried), penalised(tried));
-    };
-    for (const CandidateView::Way &way : view.ways)
-      {
-        if (way.score.value < as_promising * view.score.value)
-          break;
-        ++workspace.n_refits;
-        const std::optional<Model> tried =
-          refit_by(workspace, model, view.candidate, way);
-        if (tried.has_value() &&
-            (!best.has_value() || rank(*tried) < rank(*best)))
-          best = tried;
-      }
-    return best;
-  }
-
-
-
-  void settle(const Workspace &workspace, Model &model)
-  {
-    Model settled     = model;
-    settled.simulator = std::make_shared<Simulator>(*model.simulator);
-    try
-      {
-        settled.simulator->plan(model.scaled, model.simulator.get());
-        settled.simulator->correct(model.scaled, correction_share);
-      }
-    catch (const RunError &)
-      {
-        // It sticks and slips: the steps that it was fitted with have to do.
-        throw_if_stopped();
-        return;
-      }
-    if (workspace.comparison.fit(settled, 0.01))
-      model = settled;
-  }
-
-
-
-  double penalised(const Model &model)
-  {
-    return model.objective + cost_of_parameter * model.scaled.size();
-  }
-
-
-
   double level_of_round(const Workspace &workspace, const std::size_t round)
   {
     // Halves, and in the last round what is left.
@@ -184,55 +25,25 @@ namespace SlipStep
 
   bool is_evident(const CandidateView &seen, const double level)
   {
-    return !seen.ways.empty() && seen.score.value > 0. && seen.p <= level &&
+    return seen.candidate.only_beside.empty() && !seen.ways.empty() &&
+           seen.score.value > 0. && seen.p <= level &&
            seen.minimum_detectable <= largest_hidden_change;
   }
 
 
 
-  double left_out_gain(const Workspace &workspace,
-                       const Model     &less,
-                       const Model     &more)
+  bool
+  is_needed(const double cost, const double left_out_gain, const std::size_t n)
   {
-    const auto sum = [&](const Model &model) {
-      const std::vector<double> squares = left_out_squares(workspace, model);
-      return std::accumulate(squares.begin(), squares.end(), 0.);
-    };
-    return sum(less) - sum(more);
-  }
-
-
-
-  bool is_needed(const double cost, const double left_out_gain)
-  {
-    return std::isnan(left_out_gain) ? cost >= sure_cost :
-                                       cost >= least_cost && left_out_gain > 0.;
+    return std::isnan(left_out_gain) ?
+             cost >= n * sure_cost :
+             cost >= n * least_cost && left_out_gain > 0.;
   }
 
 
 
   namespace
   {
-    // The same without one of its parts, fitted again.
-    std::optional<Model> refit_without(Workspace        &workspace,
-                                       const Model      &model,
-                                       const std::size_t part)
-    {
-      std::vector<Part> parts = model.parts;
-      parts.erase(parts.begin() + part);
-      ++workspace.n_refits;
-      return if_possible([&]() {
-        Model result = make_model(
-          workspace.start, parts, model.values(), workspace.tests, &model);
-        // The model that it is compared with is not weak in what is missing
-        // here.
-        result.simulator->correct(result.scaled, correction_share);
-        return fitted(workspace, std::move(result));
-      });
-    }
-
-
-
     /// The search, step by step.
     class Searcher
     {
@@ -249,6 +60,15 @@ namespace SlipStep
     private:
       bool add();
 
+      std::vector<Model> single_additions(const View &view);
+
+      void add_pairs(const View &view, std::vector<Model> &found);
+
+      std::size_t n_effects() const
+      {
+        return effect_names(result.model.parts).size();
+      }
+
       double level() const;
 
       bool exchange_and_prune();
@@ -259,12 +79,13 @@ namespace SlipStep
 
       void drop_weakest();
 
+      void refit_final();
+
       bool examine(const std::size_t part);
 
       bool is_out_of_time();
 
-      bool
-      try_rivals(const Model &less, const std::string &name, const double cost);
+      bool try_rivals(const Model &less, const Part part, const double cost);
 
       void tell(const std::string &text) const
       {
@@ -282,20 +103,18 @@ namespace SlipStep
     // What is left of the level for the part added last, or its rivals.
     double Searcher::level() const
     {
-      return level_of_round(
-        workspace, std::max<std::size_t>(1, result.model.parts.size()) - 1);
+      return level_of_round(workspace,
+                            std::max<std::size_t>(1, n_effects()) - 1);
     }
 
 
 
-    // The best of those that chance does not explain, and that predict
-    // conditions left out better than without them.
-    bool Searcher::add()
+    // Those that chance does not explain, fitted.
+    std::vector<Model> Searcher::single_additions(const View &view)
     {
       constexpr unsigned int most_tried = 5;
 
-      const double level = level_of_round(workspace, result.model.parts.size());
-      const View   view  = score_candidates(workspace, result.model);
+      const double       level = level_of_round(workspace, n_effects());
       std::vector<Model> found;
       unsigned int       n_tried = 0;
       for (const CandidateView &seen : view.candidates)
@@ -303,7 +122,7 @@ namespace SlipStep
           if (!is_evident(seen, level) || n_tried == most_tried)
             continue;
           if (is_out_of_time())
-            return false;
+            return {};
           ++n_tried;
           const std::optional<Model> tried =
             refit_with(workspace, result.model, seen);
@@ -317,22 +136,101 @@ namespace SlipStep
           if (!is_at_bound(*tried))
             found.push_back(*tried);
         }
+      return found;
+    }
+
+
+
+    // Two effects that nearly cancel each other, where they promise more than
+    // each alone. They have the share of the level of the second of them.
+    void Searcher::add_pairs(const View &view, std::vector<Model> &found)
+    {
+      constexpr unsigned int most_tried = 3;
+
+      if (n_effects() + 2 > workspace.most_effects)
+        return;
+      const double level  = level_of_round(workspace, n_effects() + 1);
+      double       single = 0.;
+      for (const Model &model : found)
+        single = std::max(single, result.model.objective - model.objective);
+      for (const CandidateView &seen : view.candidates)
+        if (seen.candidate.only_beside.empty())
+          single =
+            std::max(single,
+                     std::pow(seen.score.strength * seen.score.free_length, 2));
+      unsigned int                                     n_tried = 0;
+      std::vector<std::pair<std::size_t, std::size_t>> seen;
+      for (const ScoreTest::Pair &pair : view.pairs)
+        {
+          if (pair.p > level || pair.gain < single + 2. * least_cost ||
+              n_tried == most_tried || is_out_of_time())
+            continue;
+          const auto names =
+            std::minmax(view.set.directions[pair.first].candidate,
+                        view.set.directions[pair.second].candidate);
+          if (std::find(seen.begin(),
+                        seen.end(),
+                        std::pair<std::size_t, std::size_t>(names)) !=
+              seen.end())
+            continue;
+          seen.push_back(names);
+          ++n_tried;
+          const std::optional<Model> tried =
+            refit_with_pair(workspace, result.model, view, pair);
+          if (tried.has_value() && !is_at_bound(*tried) &&
+              tried->objective < result.model.objective)
+            found.push_back(*tried);
+        }
+    }
+
+
+
+    // The best of those that predict conditions left out better than without
+    // them. Before another effect has a name, the formulas of those that have
+    // one are completed: what that explains is no second effect.
+    bool Searcher::add()
+    {
+      const View         view = score_candidates(workspace, result.model);
+      std::vector<Model> found;
+      if (n_effects() < workspace.most_effects)
+        {
+          found = single_additions(view);
+          add_pairs(view, found);
+        }
       std::stable_sort(found.begin(),
                        found.end(),
                        [](const Model &a, const Model &b) {
                          return penalised(a) < penalised(b);
                        });
+      if (is_out_of_time())
+        return false;
+      const std::optional<FreeFactor> completed =
+        complete_formula(workspace, result.model);
+      const auto is_good = [&](const Model &more) {
+        return is_needed(result.model.objective - more.objective,
+                         left_out_gain(workspace, result.model, more),
+                         more.parts.size() - result.model.parts.size());
+      };
       for (Model &best : found)
         {
-          if (!is_needed(result.model.objective - best.objective,
-                         left_out_gain(workspace, result.model, best)))
+          if (completed.has_value() &&
+              best.objective > completed->model.objective - rival_distance)
             continue;
-          result.model = best;
+          if (!is_good(best))
+            continue;
+          const std::size_t n = result.model.parts.size();
+          result.model        = best;
           settle(workspace, result.model);
-          tell("added " + result.model.parts.back().name);
+          for (std::size_t part = n; part < result.model.parts.size(); ++part)
+            tell("added " + result.model.parts[part].name);
           return true;
         }
-      return false;
+      if (!completed.has_value() || !is_good(completed->model))
+        return false;
+      result.model = completed->model;
+      settle(workspace, result.model);
+      tell("completed the " + result.model.parts.back().name);
+      return true;
     }
 
 
@@ -367,15 +265,16 @@ namespace SlipStep
         }
       result.costs.push_back(cost);
       result.left_out_gains.push_back(gain);
-      return try_rivals(*less, name, cost);
+      return result.model.parts[part].corrects.empty() &&
+             try_rivals(*less, result.model.parts[part], cost);
     }
 
 
 
-    // In the place of a name. Returns whether one takes it.
-    bool Searcher::try_rivals(const Model       &less,
-                              const std::string &name,
-                              const double       cost)
+    // In the place of a name, or another formula of it. Returns whether one
+    // takes it.
+    bool
+    Searcher::try_rivals(const Model &less, const Part part, const double cost)
     {
       constexpr unsigned int most_rivals = 4;
 
@@ -385,15 +284,18 @@ namespace SlipStep
         {
           const double promised =
             std::pow(seen.score.strength * seen.score.free_length, 2);
-          if (!is_evident(seen, level()) || seen.candidate.name == name ||
+          const bool is_same = seen.candidate.name == part.name;
+          if (!is_evident(seen, level()) ||
               promised < promising_share * cost - promising_slack ||
-              n_tried == most_rivals)
+              n_tried == most_rivals ||
+              (is_same && seen.candidate.formulas.size() < 2))
             continue;
           if (is_out_of_time())
             return false;
           ++n_tried;
           const std::optional<Model> tried = refit_with(workspace, less, seen);
-          if (!tried.has_value() || is_at_bound(*tried))
+          if (!tried.has_value() || is_at_bound(*tried) ||
+              tried->parts.back().formula.effect == part.formula.effect)
             continue;
           const double distance = penalised(*tried) - penalised(result.model);
           if (distance >= rival_distance ||
@@ -406,8 +308,9 @@ namespace SlipStep
               settle(workspace, result.model);
               return true;
             }
-          result.rivals.push_back(
-            {seen.candidate.name, name, distance, *tried});
+          if (!is_same)
+            result.rivals.push_back(
+              {seen.candidate.name, part.name, distance, *tried});
         }
       return false;
     }
@@ -474,20 +377,35 @@ namespace SlipStep
 
 
 
+    // From several starts; costs and rivals are those of the better optimum.
+    void Searcher::refit_final()
+    {
+      if (result.model.parts.empty())
+        return;
+      const double before = result.model.objective;
+      result.model        = refit_from_starts(workspace, result.model);
+      if (result.model.objective < before - sure_gain)
+        prove();
+    }
+
+
+
     SearchResult Searcher::run()
     {
       SearchResult proven = result;
-      for (unsigned int round = 0; round < workspace.most_effects; ++round)
+      // One more, to complete a formula.
+      for (unsigned int round = 0; round <= workspace.most_effects; ++round)
         {
+          const std::size_t n = result.model.parts.size();
           if (!add())
             break;
           prove();
           if (is_out_of_time())
             break;
           // What was added and taken away again would come back.
-          if (result.model.parts.size() <= round)
+          if (result.model.parts.size() <= n)
             break;
-          if (is_soaking_up(workspace.most_effects - round - 1))
+          if (is_soaking_up(workspace.most_effects - n_effects()))
             break;
           proven = result;
         }
@@ -501,7 +419,10 @@ namespace SlipStep
           is_out_of_time();
         }
       if (!result.is_cut_short)
-        return result;
+        {
+          refit_final();
+          return result;
+        }
       proven.gains        = result.gains;
       proven.is_cut_short = true;
       return proven;
@@ -513,87 +434,5 @@ namespace SlipStep
   SearchResult search(Workspace &workspace, const Model &base)
   {
     return Searcher(workspace, base).run();
-  }
-
-
-
-  namespace
-  {
-    // A model as fitted to all conditions but one: by one step of Gauss and
-    // Newton from the optimum of all, by a fit of its own where that goes far.
-    Model fit_without(const Comparison &comparison,
-                      const Model      &model,
-                      const std::size_t condition)
-    {
-      Eigen::MatrixXd   derivatives = model.derivatives;
-      Eigen::VectorXd   residual    = model.residual;
-      std::vector<bool> left_out;
-      for (const ComparedTest &test : comparison.tests)
-        {
-          left_out.push_back(test.condition == condition);
-          if (!left_out.back())
-            continue;
-          derivatives.middleRows(test.begin, test.size).setZero();
-          residual.segment(test.begin, test.size).setZero();
-        }
-      Model result     = model;
-      result.simulator = std::make_shared<Simulator>(*model.simulator);
-      const Eigen::MatrixXd curvature = derivatives.transpose() * derivatives;
-      const Eigen::VectorXd step =
-        curvature.completeOrthogonalDecomposition().solve(
-          derivatives.transpose() * residual);
-      bool is_near = true;
-      for (std::size_t i = 0; i < result.scaled.size(); ++i)
-        {
-          const double slope =
-            natural_slope(model.campaign->fitted[i], model.scaled[i]);
-          is_near          = is_near && std::abs(step(i)) * slope < 0.5;
-          result.scaled[i] = std::clamp(result.scaled[i] + step(i), 0., 1.);
-        }
-      if (!is_near)
-        {
-          result.scaled = model.scaled;
-          comparison.fit(result, 1., left_out);
-        }
-      return result;
-    }
-  } // namespace
-
-
-
-  std::vector<double> left_out_squares(const Workspace &workspace,
-                                       const Model     &model,
-                                       Eigen::VectorXd *differences)
-  {
-    const Comparison   &comparison = workspace.comparison;
-    std::vector<double> squares(comparison.tests.size(), 0.);
-    // Of a single condition nothing is left to fit.
-    constexpr double none   = std::numeric_limits<double>::quiet_NaN();
-    const bool       is_one = comparison.conditions.size() < 2;
-    if (differences != nullptr)
-      *differences =
-        Eigen::VectorXd::Constant(comparison.n_rows(), is_one ? none : 0.);
-    if (is_one)
-      return std::vector<double>(comparison.tests.size(), none);
-    side_by_side(comparison.conditions.size(), [&](const std::size_t c) {
-      const Model           other = fit_without(comparison, model, c);
-      const Eigen::VectorXd difference =
-        comparison.difference(*other.simulator, other.scaled);
-      if (difference.size() == 0)
-        return;
-      RowMatrix whitened = difference;
-      comparison.whiten(whitened);
-      for (std::size_t t = 0; t < comparison.tests.size(); ++t)
-        {
-          const ComparedTest &test = comparison.tests[t];
-          if (test.condition != c)
-            continue;
-          squares[t] = whitened.middleRows(test.begin, test.size).squaredNorm();
-          if (differences != nullptr)
-            differences->segment(test.begin, test.size) =
-              difference.segment(test.begin, test.size);
-        }
-    });
-    return squares;
   }
 } // namespace SlipStep

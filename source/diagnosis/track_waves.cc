@@ -123,19 +123,14 @@ namespace SlipStep
 
 
 
-  TrackWave find_track_wave(const Comparison &comparison,
-                            const Covariates &covariates,
-                            const Model      &model,
-                            const RowMatrix  &null_draws)
+  TrackWave find_track_wave(const DirectionSet        &waves,
+                            const std::vector<double> &wavelengths,
+                            const Model               &model,
+                            const RowMatrix           &null_draws)
   {
-    const std::vector<double> wavelengths =
-      track_wavelengths(comparison, covariates);
     if (wavelengths.empty())
       return {};
-    const ScoreTest test(comparison,
-                         model,
-                         null_draws,
-                         track_waves(comparison, covariates, wavelengths));
+    const ScoreTest test(model, null_draws, waves);
     const auto      clearest = std::max_element(test.scores.begin(),
                                            test.scores.end(),
                                            [](const Score &a, const Score &b) {

@@ -1,25 +1,222 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/outlying_rows.h>
 #include <slipstep/diagnosis/verdict.h>
 #include <slipstep/diagnosis/ingest.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace SlipStep
 {
   namespace
   {
     // Names that leave most of what could be explained are no explanation.
-    void withdraw(Judgement &judgement, const Model &base)
+    void withdraw(Judgement &judgement)
     {
-      for (const Part &part : judgement.found.model.parts)
-        judgement.withdrawn.push_back(part.name);
-      judgement.found.model = base;
+      judgement.withdrawn   = effect_names(judgement.found.model.parts);
+      judgement.found.model = judgement.base;
       judgement.found.rivals.clear();
       judgement.found.costs.clear();
       judgement.found.left_out_gains.clear();
       judgement.remainder       = judgement.gap;
       judgement.explained_share = 0.;
       judgement.verdict         = Verdict::unnamed;
+      judgement.is_incomplete   = false;
+    }
+
+
+
+    bool is_too_much(const GapTest &remainder, const GapTest &gap)
+    {
+      return remainder.excess > (1. - least_share) * gap.excess + sure_excess;
+    }
+
+
+
+    /// Squares of what could be explained, by groups of rows.
+    struct Groups
+    {
+      std::vector<double> gap, remainder, n_rows;
+
+      void add(const std::size_t group,
+               const double      of_gap,
+               const double      of_remainder)
+      {
+        if (group >= gap.size())
+          for (auto *values : {&gap, &remainder, &n_rows})
+            values->resize(group + 1, 0.);
+        gap[group] += of_gap * of_gap;
+        remainder[group] += of_remainder * of_remainder;
+        n_rows[group] += 1.;
+      }
+    };
+
+
+
+    double sum_of(const std::vector<double> &values)
+    {
+      return std::accumulate(values.begin(), values.end(), 0.);
+    }
+
+
+
+    // Whether most of what remains is in few of the rows, and nearly all that
+    // was there is explained in the others.
+    bool is_local(const Groups &groups, const Judgement &judgement)
+    {
+      constexpr double most = 0.7, few = 0.3;
+
+      std::vector<std::size_t> order(groups.gap.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(),
+                order.end(),
+                [&](const std::size_t a, const std::size_t b) {
+                  return groups.remainder[a] > groups.remainder[b];
+                });
+      const double n_all         = sum_of(groups.n_rows);
+      const double chance_of_gap = sum_of(groups.gap) - judgement.gap.excess;
+      const double chance_of_remainder =
+        sum_of(groups.remainder) - judgement.remainder.excess;
+      double in_few = 0., n = 0., gap = judgement.gap.excess;
+      double left = judgement.remainder.excess;
+      for (const std::size_t group : order)
+        {
+          if (in_few > most * sum_of(groups.remainder))
+            break;
+          const double share = groups.n_rows[group] / n_all;
+          in_few += groups.remainder[group];
+          n += share;
+          gap -= groups.gap[group] - share * chance_of_gap;
+          left -= groups.remainder[group] - share * chance_of_remainder;
+        }
+      return n < few && gap > sure_excess &&
+             left < (1. - sufficient_share) * gap;
+    }
+
+
+
+    bool remains_in_few_rows(const Workspace &workspace,
+                             const Judgement &judgement)
+    {
+      if (judgement.gap.explained.size() == 0 ||
+          judgement.remainder.explained.size() == 0)
+        return false;
+      Groups conditions, phases;
+      for (const ComparedTest &test : workspace.comparison.tests)
+        for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
+          {
+            const double gap       = judgement.gap.explained(i);
+            const double remainder = judgement.remainder.explained(i);
+            conditions.add(test.condition, gap, remainder);
+            phases.add(static_cast<std::size_t>(workspace.covariates.phase[i]),
+                       gap,
+                       remainder);
+          }
+      return is_local(conditions, judgement) || is_local(phases, judgement);
+    }
+
+
+
+    // Without what completes their formulas, names have to explain most by
+    // themselves: a free function along a covariate explains anything there.
+    bool explains_by_itself(Workspace &workspace, const Judgement &judgement)
+    {
+      const Model &model = judgement.found.model;
+      for (std::size_t part = 0; part < model.parts.size(); ++part)
+        {
+          if (model.parts[part].corrects.empty())
+            continue;
+          const std::optional<Model> bare =
+            refit_without(workspace, model, part);
+          if (!bare.has_value() ||
+              is_too_much(
+                test_gap(workspace, *bare, score_candidates(workspace, *bare)),
+                judgement.gap))
+            return false;
+        }
+      return true;
+    }
+
+
+
+    // Whether names explain enough to be told.
+    bool are_sufficient(Workspace &workspace, Judgement &judgement)
+    {
+      const Model &model = judgement.found.model;
+      const Model &base  = judgement.base;
+      const auto   rms   = [&](const Model &one) {
+        return relative_rms(workspace.comparison,
+                            workspace.comparison.difference(*one.simulator,
+                                                            one.scaled));
+      };
+      if (rms(model) > rms(base) ||
+          left_out_gain(workspace, base, model) <= 0. ||
+          !explains_by_itself(workspace, judgement))
+        return false;
+      judgement.is_incomplete = judgement.remainder.p <= workspace.level;
+      const bool is_enough    = !(judgement.is_incomplete &&
+                               judgement.explained_share < sufficient_share) &&
+                             !is_too_much(judgement.remainder, judgement.gap);
+      return is_enough || remains_in_few_rows(workspace, judgement);
+    }
+
+
+
+    void look_for_gap(Workspace &workspace, Judgement &judgement)
+    {
+      judgement.view      = score_candidates(workspace, judgement.base);
+      judgement.gap       = test_gap(workspace, judgement.base, judgement.view);
+      judgement.remainder = judgement.gap;
+      judgement.found.model = judgement.base;
+    }
+
+
+
+    void look_for_names(Workspace &workspace, Judgement &judgement)
+    {
+      judgement.found = search(workspace, judgement.base);
+      if (judgement.found.model.parts.empty())
+        {
+          judgement.verdict = Verdict::unnamed;
+          return;
+        }
+      judgement.remainder =
+        test_gap(workspace,
+                 judgement.found.model,
+                 score_candidates(workspace, judgement.found.model));
+      judgement.explained_share =
+        judgement.gap.excess > 0. ?
+          std::clamp(1. - judgement.remainder.excess / judgement.gap.excess,
+                     0.,
+                     1.) :
+          1.;
+      judgement.verdict =
+        judgement.found.rivals.empty() ? Verdict::named : Verdict::ambiguous;
+    }
+
+
+
+    // A few bad rows shall not withdraw a right name: once more with those that
+    // it does not explain counting for less.
+    bool judge_without_outliers(Workspace &workspace, Judgement &judgement)
+    {
+      const std::vector<Eigen::Index> rows =
+        outlying_rows(workspace, judgement.found.model);
+      if (rows.empty() || workspace.is_late())
+        return false;
+      weaken_rows(workspace, judgement.found.model, rows);
+      Judgement again;
+      again.base = judgement.base;
+      again.base.simulator =
+        std::make_shared<Simulator>(*judgement.base.simulator);
+      again.outlying = rows;
+      if (!workspace.comparison.fit(again.base, 0.01))
+        return false;
+      look_for_gap(workspace, again);
+      if (again.gap.p <= workspace.level)
+        look_for_names(workspace, again);
+      judgement = again;
+      return true;
     }
   } // namespace
 
@@ -32,11 +229,9 @@ namespace SlipStep
         workspace.progress(text);
     };
     Judgement result;
+    result.base = base;
     tell("looking for a gap");
-    result.view        = score_candidates(workspace, base);
-    result.gap         = test_gap(workspace, base, result.view);
-    result.remainder   = result.gap;
-    result.found.model = base;
+    look_for_gap(workspace, result);
     if (result.gap.p > workspace.level)
       {
         const bool is_blind = std::none_of(result.view.candidates.begin(),
@@ -50,34 +245,15 @@ namespace SlipStep
       }
 
     tell("looking for its name");
-    result.found = search(workspace, base);
-    if (result.found.model.parts.empty())
+    look_for_names(workspace, result);
+    if (!result.found.model.parts.empty() &&
+        result.remainder.p <= workspace.level)
       {
-        result.verdict = Verdict::unnamed;
-        return result;
+        tell("looking for rows that nothing explains");
+        judge_without_outliers(workspace, result);
       }
-    result.remainder =
-      test_gap(workspace,
-               result.found.model,
-               score_candidates(workspace, result.found.model));
-    result.explained_share =
-      result.gap.excess > 0. ?
-        std::clamp(1. - result.remainder.excess / result.gap.excess, 0., 1.) :
-        1.;
-    result.verdict =
-      result.found.rivals.empty() ? Verdict::named : Verdict::ambiguous;
-    const auto rms = [&](const Model &model) {
-      return relative_rms(workspace.comparison,
-                          workspace.comparison.difference(*model.simulator,
-                                                          model.scaled));
-    };
-    const bool is_significant = result.remainder.p <= workspace.level;
-    if ((is_significant && result.explained_share < sufficient_share) ||
-        result.remainder.excess >
-          (1. - least_share) * result.gap.excess + sure_excess ||
-        rms(result.found.model) > rms(base) ||
-        left_out_gain(workspace, base, result.found.model) <= 0.)
-      withdraw(result, base);
+    if (!result.found.model.parts.empty() && !are_sufficient(workspace, result))
+      withdraw(result);
     return result;
   }
 } // namespace SlipStep

@@ -23,6 +23,36 @@ namespace SlipStep
 
 
 
+  TrialFormula TrialFormula::state_of_contacts(const std::string &growth,
+                                               const std::string &time,
+                                               const std::string &length,
+                                               const TestedRange &range)
+  {
+    const double path    = range.longest_path;
+    const double fastest = range.fastest, slowest = range.slowest;
+    if (!(fastest > 1.5 * slowest) || !(path > 0.))
+      return none("the speed hardly varies");
+    const double ages = std::log(fastest / slowest);
+    TrialFormula formula;
+    formula.is_one_sided = true;
+    formula.parameters   = {
+        {growth, 0., 1., false},
+        {time, 1e-6 * path / fastest, path / slowest, true, true, true},
+        {length, 1e-5 * path, 0.3 * path, true}};
+    // Younger than contacts are at the fastest: its share of the age is felt
+    // everywhere.
+    for (const double L : ladder(3e-3 * path, 0.1 * path, 4))
+      formula.shapes.push_back([=](const double strength) {
+        return Values{{growth,
+                       std::clamp(just_noticed * strength / ages, 1e-6, 0.9)},
+                      {time, 0.1 * L / fastest},
+                      {length, L}};
+      });
+    return formula;
+  }
+
+
+
   void TrialFormula::set_proportional(const std::string &path,
                                       const double       unit,
                                       const double       lower,

@@ -24,12 +24,14 @@ namespace SlipStep
     }
 
     /// The same effect has the same line in all pictures.
-    std::vector<LegendLine> signature_lines(const Diagnosis &diagnosis)
+    std::vector<LegendLine>
+    signature_lines(const Diagnosis                   &diagnosis,
+                    const std::vector<CovariatePanel> &panels)
     {
       static const std::array<const char *, most_signatures> colours = {
         {Colour::after, "#E69F00", "#009E73", "#CC79A7"}};
       std::vector<LegendLine> lines;
-      for (const CovariatePanel &panel : diagnosis.panels)
+      for (const CovariatePanel &panel : panels)
         for (const auto &[name, values] : panel.signatures)
           {
             const bool is_known = std::any_of(lines.begin(),
@@ -106,6 +108,30 @@ namespace SlipStep
                    y,
                    is_logarithmic);
     }
+
+
+
+    // Into a gallery with a title and a caption.
+    void draw_panels(const std::filesystem::path       &folder,
+                     const std::string                 &name,
+                     const std::vector<CovariatePanel> &panels,
+                     const std::vector<LegendLine>     &lines,
+                     Gallery                           &gallery,
+                     std::vector<std::string>          &warnings)
+    {
+      gallery.legend.insert(gallery.legend.end(), lines.begin(), lines.end());
+      for (std::size_t i = 0; i < panels.size(); ++i)
+        {
+          const CovariatePanel &panel = panels[i];
+          if (panel.x.empty() || panel.residual.size() != panel.x.size())
+            continue;
+          SmallPicture picture(folder,
+                               name + "_" + std::to_string(i + 1),
+                               "Against " + panel.covariate);
+          draw_panel(picture, panel, lines);
+          picture.finish(gallery, warnings);
+        }
+    }
   } // namespace
 
 
@@ -114,13 +140,14 @@ namespace SlipStep
                           const Diagnosis             &diagnosis,
                           std::vector<std::string>    &warnings)
   {
-    const std::vector<LegendLine> lines = signature_lines(diagnosis);
-    Gallery                       gallery{
+    const std::vector<LegendLine> lines =
+      signature_lines(diagnosis, diagnosis.panels);
+    Gallery gallery{
       "What is left over, and what would explain it",
       "Measured minus simulated friction before anything was added, as means "
-                            "of bins with two standard deviations; lines: what each effect would "
-                            "change there. An effect explains a difference if its line goes through "
-                            "the points everywhere.",
+      "of bins with two standard deviations; lines: what each effect would "
+      "change there. An effect explains a difference if its line goes through "
+      "the points everywhere.",
       {{"left over before", "#222222", LegendLine::points}},
       {}};
     if (lines.empty())
@@ -130,18 +157,38 @@ namespace SlipStep
                           "with two standard deviations.";
         gallery.legend[0].text = "left over";
       }
-    gallery.legend.insert(gallery.legend.end(), lines.begin(), lines.end());
-    for (std::size_t i = 0; i < diagnosis.panels.size(); ++i)
+    draw_panels(
+      folder, "covariate", diagnosis.panels, lines, gallery, warnings);
+    return gallery;
+  }
+
+
+
+  Gallery draw_completed_formulas(const std::filesystem::path &folder,
+                                  const Diagnosis             &diagnosis,
+                                  std::vector<std::string>    &warnings)
+  {
+    std::vector<CovariatePanel> panels;
+    std::string                 effects;
+    for (const CompletedFormula &one : diagnosis.completed)
       {
-        const CovariatePanel &panel = diagnosis.panels[i];
-        if (panel.x.empty() || panel.residual.size() != panel.x.size())
-          continue;
-        SmallPicture picture(folder,
-                             "covariate_" + std::to_string(i + 1),
-                             "Against " + panel.covariate);
-        draw_panel(picture, panel, lines);
-        picture.finish(gallery, warnings);
+        panels.push_back(one.panel);
+        effects += (effects.empty() ? "" : ", ") + one.effect;
       }
+    Gallery gallery{
+      "The formula of " + effects + " is not quite right",
+      "Measured minus simulated friction with the formula of the effect alone, "
+      "as means of bins with two standard deviations; line: a free factor along "
+      "what the formula is a function of, which stands beside it in the improved "
+      "case. Its shape tells what the formula lacks.",
+      {{"left over by the formula", "#222222", LegendLine::points}},
+      {}};
+    draw_panels(folder,
+                "formula",
+                panels,
+                signature_lines(diagnosis, panels),
+                gallery,
+                warnings);
     return gallery;
   }
 

@@ -101,6 +101,8 @@ namespace SlipStep
 
     json to_json(const CandidateResult &candidate);
 
+    json to_json(const CompletedFormula &one);
+
     template <typename Element>
     json list(const std::vector<Element> &elements)
     {
@@ -145,14 +147,21 @@ namespace SlipStep
       return {{"status", diagnosis.has_gap ? "gap" : "no_gap"},
               {"p", diagnosis.gap_p},
               {"p_smooth", diagnosis.p_smooth},
-              {"p_waves", diagnosis.p_waves},
-              {"p_conditions", diagnosis.p_conditions},
               {"p_replicates", diagnosis.p_replicates},
               {"p_together", diagnosis.p_together},
               {"p_track", diagnosis.p_track},
               {"excess", diagnosis.excess},
               {"rms_percent", percent(diagnosis.shrink.fitted_before)},
               {"noise_floor_percent", percent(diagnosis.shrink.noise_floor)}};
+    }
+
+    json to_json(const CompletedFormula &one)
+    {
+      return {{"effect", one.effect},
+              {"words", "the formula is not quite right"},
+              {"covariate", one.covariate},
+              {"factor", one.formula},
+              {"gain", one.gain}};
     }
 
     json verdict_block(const Diagnosis &diagnosis)
@@ -163,6 +172,9 @@ namespace SlipStep
               {"ambiguous_with", diagnosis.ambiguous_with},
               {"rival_of", diagnosis.rival_of},
               {"withdrawn", diagnosis.withdrawn},
+              {"incomplete", diagnosis.is_incomplete},
+              {"remainder_where", list(diagnosis.remains)},
+              {"formulas_not_quite_right", list(diagnosis.completed)},
               {"explained_share", diagnosis.explained_share},
               {"remainder_p", diagnosis.remainder_p},
               {"would_overturn", diagnosis.would_overturn}};

@@ -307,8 +307,6 @@ namespace SlipStep
         {"chance of a false alarm accepted", percent_text(diagnosis.level)},
         {"chance of this gap by noise alone", chance(diagnosis.gap_p)},
         {"… as a smooth difference", chance(diagnosis.p_smooth)},
-        {"… as waves within tests", chance(diagnosis.p_waves)},
-        {"… between conditions", chance(diagnosis.p_conditions)},
         {"… as what replicates share", chance(diagnosis.p_replicates)},
         {"… as smooth difference and waves at once",
          chance(diagnosis.p_together)},
@@ -356,6 +354,8 @@ namespace SlipStep
     std::vector<std::string> warnings;
     const Gallery            tests = draw_tests(pictures, diagnosis, warnings);
     const Gallery covariates = draw_covariates(pictures, diagnosis, warnings);
+    const Gallery formulas =
+      draw_completed_formulas(pictures, diagnosis, warnings);
     const Gallery profiles = draw_named_profiles(pictures, diagnosis, warnings);
     const Gallery blocks   = draw_element_checks(pictures, diagnosis, warnings);
 
@@ -365,7 +365,9 @@ namespace SlipStep
       content += problem_box(warning);
     content += gallery_section(tests) + heat_map_section(diagnosis) +
                tests_section(diagnosis) + places_section(diagnosis) +
-               gallery_section(covariates) + candidates_section(diagnosis) +
+               gallery_section(covariates) +
+               (diagnosis.completed.empty() ? "" : gallery_section(formulas)) +
+               remains_section(diagnosis) + candidates_section(diagnosis) +
                steps_section(diagnosis) + gallery_section(profiles) +
                parameters_section(diagnosis) +
                elements_section(diagnosis, blocks) +

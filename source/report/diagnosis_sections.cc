@@ -188,20 +188,30 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    std::string places_table(const std::vector<Localisation> &places)
+    {
+      std::vector<TableLine> lines = {
+        {"along", "measured friction is", "explains alone", "phases", "tests"}};
+      for (const Localisation &where : places)
+        lines.push_back({range_text(where),
+                         sign_text(where),
+                         fixed_text(100. * where.share, 0) + " %",
+                         list_text(where.phases),
+                         list_text(where.tests)});
+      return html_table(lines, "places");
+    }
+  } // namespace
+
+
+
   std::string places_section(const Diagnosis &diagnosis)
   {
     if (diagnosis.where.empty())
       return "";
-    std::vector<TableLine> lines = {
-      {"along", "measured friction is", "explains alone", "phases", "tests"}};
-    for (const Localisation &where : diagnosis.where)
-      lines.push_back({range_text(where),
-                       sign_text(where),
-                       fixed_text(100. * where.share, 0) + " %",
-                       list_text(where.phases),
-                       list_text(where.tests)});
     return heading("Where simulation and measurement disagree") +
-           html_table(lines, "places") +
+           places_table(diagnosis.where) +
            note(
              std::string(
                "Explains alone: how much of the difference beyond the noise a "
@@ -209,6 +219,25 @@ namespace SlipStep
                "shares overlap. The range, if there is one, is where it is felt "
                "most.") +
              history_words(diagnosis));
+  }
+
+
+
+  std::string remains_section(const Diagnosis &diagnosis)
+  {
+    if (!diagnosis.is_incomplete)
+      return "";
+    const std::string names = list_text(diagnosis.effects);
+    return heading("What " + names + " " +
+                   (diagnosis.effects.size() > 1 ? "do" : "does") +
+                   " not explain") +
+           (diagnosis.remains.empty() ?
+              paragraph("More than noise is left, but along no quantity that "
+                        "is known of the tests.") :
+              places_table(diagnosis.remains) +
+                note("The same as above for what is left with the effects "
+                     "added: a formula that is not quite right, or something "
+                     "weaker that is missing, too."));
   }
 
 

@@ -45,6 +45,7 @@ namespace SlipStep
           "");
       const std::string under = reservation(diagnosis);
       return "  verdict: " + name_of(diagnosis.verdict) +
+             (diagnosis.is_incomplete ? ", incomplete" : "") +
              (diagnosis.effects.empty() ? "" : " – " + names_text(diagnosis)) +
              (under.empty() ? "" : ", " + under) +
              "\n  chance of this gap by noise alone: " +
@@ -52,17 +53,33 @@ namespace SlipStep
              text_table(lines, terminal_width);
     }
 
-    std::string places(const Diagnosis &diagnosis)
+    std::string places(const std::string               &title,
+                       const std::vector<Localisation> &all)
     {
       std::vector<TableLine> lines = {
-        {"where", "measured is", "explains", "most in"}};
-      for (const Localisation &where : diagnosis.where)
+        {title, "measured is", "explains", "most in"}};
+      for (const Localisation &where : all)
         if (lines.size() <= n_places)
           lines.push_back({range_text(where),
                            sign_text(where),
                            fixed_text(100. * where.share, 0) + " %",
                            where.phases.empty() ? "" : where.phases[0]});
       return lines.size() > 1 ? "\n" + text_table(lines, terminal_width) : "";
+    }
+
+    std::string completed(const Diagnosis &diagnosis)
+    {
+      std::string text;
+      for (const CompletedFormula &one : diagnosis.completed)
+        text +=
+          "\n" +
+          wrapped_text("the formula of " + one.effect +
+                         " lacks a factor (x is " + one.covariate +
+                         "), which gains " + fixed_text(one.gain, 1) + ":",
+                       2,
+                       terminal_width) +
+          wrapped_text(one.formula, 4, terminal_width);
+      return text;
     }
 
     std::string candidates(const Diagnosis &diagnosis)
@@ -150,7 +167,9 @@ namespace SlipStep
   std::string diagnosis_table(const Diagnosis &diagnosis)
   {
     return wrapped_text(headline(diagnosis), 2, terminal_width) + "\n" +
-           summary(diagnosis) + places(diagnosis) + candidates(diagnosis) +
+           summary(diagnosis) + places("where", diagnosis.where) +
+           places("where the rest is", diagnosis.remains) +
+           completed(diagnosis) + candidates(diagnosis) +
            parameters(diagnosis) + blocks(diagnosis) + next_test(diagnosis);
   }
 } // namespace SlipStep

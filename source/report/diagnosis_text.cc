@@ -151,6 +151,36 @@ namespace SlipStep
       return "";
     }
 
+    /// "; the formula of pressure is not quite right"
+    std::string completed_words(const Diagnosis &diagnosis)
+    {
+      std::vector<std::string> effects;
+      for (const CompletedFormula &one : diagnosis.completed)
+        effects.push_back(one.effect);
+      return effects.empty() ?
+               "" :
+               "; the formula of " + list_text(effects) +
+                 (effects.size() > 1 ? " are" : " is") +
+                 " not quite right: a factor of " +
+                 diagnosis.completed[0].covariate + " completes it";
+    }
+
+    /// "; not all of it is explained, most of the rest is ..."
+    std::string remainder_words(const Diagnosis &diagnosis)
+    {
+      if (!has_after(diagnosis) || diagnosis.effects.empty() ||
+          is_all_explained(diagnosis))
+        return "";
+      std::string text = "; not all of it is explained";
+      if (diagnosis.remains.empty())
+        return text;
+      const Localisation &where = diagnosis.remains[0];
+      text += ": the rest is felt most " + place_words(where);
+      if (!where.tests.empty())
+        text += " in " + list_text(where.tests);
+      return text;
+    }
+
     std::string outlier_words(const std::vector<Outlier> &outliers)
     {
       if (outliers.empty())
@@ -200,10 +230,7 @@ namespace SlipStep
               "If the stated noise is right (there are no replicates), " +
                 words :
               capitalised(words)) +
-           (has_after(diagnosis) && !diagnosis.effects.empty() &&
-                !is_all_explained(diagnosis) ?
-              "; not all of it is explained" :
-              "") +
+           completed_words(diagnosis) + remainder_words(diagnosis) +
            outlier_words(diagnosis.outliers) + "." +
            (diagnosis.is_cut_short ? " The search was cut short: not all was "
                                      "tried (Diagnosis/Most time)." :
@@ -225,7 +252,7 @@ namespace SlipStep
       {
         case Verdict::named:
           return is_all_explained(diagnosis) ? "missing effect named" :
-                                               "part of what is missing named";
+                                               "named, incomplete";
         case Verdict::ambiguous:
           return "several explanations";
         case Verdict::unnamed:

@@ -3,11 +3,12 @@
 // How often a diagnosis is right: many planted campaigns of a class.
 //
 //   diagnosis_benchmark CLASS FIRST_SEED LAST_SEED [NOISE [FACTOR [TESTS
-//   [REPLICATES [EVIDENCE]]]]]
+//   [REPLICATES [EVIDENCE [EFFECT AMPLITUDE]]]]]]
 //
 // prints a line for each campaign; rates.awk makes the table of them. Without
 // EVIDENCE (0) intervals, left-out conditions and the next test are not looked
-// at, which takes a third of the time.
+// at, which takes a third of the time. EFFECT is hidden with that AMPLITUDE
+// instead of drawn ones.
 
 #include <tests/diagnosis/hidden/trial.h>
 
@@ -35,7 +36,7 @@ int main(int argc, char **argv)
     {
       std::cerr << "usage: " << argv[0]
                 << " CLASS FIRST_SEED LAST_SEED [NOISE [FACTOR [TESTS "
-                   "[REPLICATES [EVIDENCE]]]]]"
+                   "[REPLICATES [EVIDENCE [EFFECT AMPLITUDE]]]]]]"
                 << std::endl;
       return 2;
     }
@@ -49,6 +50,11 @@ int main(int argc, char **argv)
     options.n_tests = std::atoi(argv[6]);
   if (argc > 7)
     options.with_replicates = std::atoi(argv[7]) != 0;
+  if (argc > 10)
+    {
+      options.effects   = {argv[9]};
+      options.amplitude = std::atof(argv[10]);
+    }
   const bool with_evidence = argc <= 8 || std::atoi(argv[8]) != 0;
   for (int seed = std::atoi(argv[2]); seed <= std::atoi(argv[3]); ++seed)
     {
@@ -72,7 +78,8 @@ int main(int argc, char **argv)
                           std::to_string(trial.left_out_ratio) :
                           "-")
                     << ' ' << trial.has_next_test << ' ' << trial.is_resolved
-                    << ' ' << trial.is_misled << std::endl;
+                    << ' ' << trial.is_misled << ' ' << joined(trial.completed)
+                    << ' ' << trial.is_incomplete << std::endl;
         }
       catch (const std::exception &error)
         {

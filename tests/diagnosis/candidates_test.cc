@@ -81,7 +81,14 @@ TEST(Candidates, EveryEffectIsOneOrSaysWhyNot)
         << name;
       const std::string candidate =
         info.search.candidate.empty() ? name : info.search.candidate;
-      EXPECT_EQ(tried.count(candidate), info.search.formula ? 1u : 0u) << name;
+      EXPECT_EQ(tried.count(candidate),
+                info.search.formula || info.search.beside_formula ? 1u : 0u)
+        << name;
+      EXPECT_EQ(bool(info.search.beside_formula), !info.search.beside.empty())
+        << name;
+      EXPECT_EQ(bool(info.search.beside_formula),
+                !info.search.beside_signature.empty())
+        << name;
       EXPECT_EQ(info.search.signature.empty(),
                 candidate != name || !info.search.formula)
         << name;
@@ -125,6 +132,45 @@ TEST(Candidates, AnisotropyHasTwoForms)
 
 
 
+// Contacts that age or that slip renews are looked for beside a direct effect
+// of speed: with it where the model has none, alone where it has.
+TEST(Candidates, StatesAreTriedBesideADirectEffect)
+{
+  Parameters start = coulomb_case();
+  start.set("Diagnosis/Candidates", "ageing, slip_law", "test");
+  TestedRange range = usual_range();
+  range.slowest     = 0.01;
+  range.fastest     = 1.;
+  const auto found  = [&](const std::string &effects, const double rest) {
+    range.longest_rest = rest;
+    start.set("Friction/Effects", effects, "test");
+    std::string text;
+    for (const Candidate &candidate : make_candidates(start, range))
+      text +=
+        candidate.name + "(" +
+        (candidate.formulas.empty() ? "-" : candidate.formulas[0].effect) +
+        (candidate.only_beside.empty() ? "" :
+                                          " beside " + candidate.only_beside) +
+        ")";
+    return text;
+  };
+  EXPECT_EQ(found("", 0.),
+            "ageing(ageing beside overstress)slip_law(slip_law beside "
+            "overstress)");
+  EXPECT_EQ(found("", 100.),
+            "ageing(ageing beside overstress)slip_law(slip_law beside "
+            "overstress)");
+  EXPECT_EQ(found("overstress", 0.), "ageing(ageing)slip_law(slip_law)");
+  EXPECT_EQ(found("perzyna", 0.), "ageing(ageing)slip_law(slip_law)");
+  // Where something rested, ageing is a formula of healing.
+  EXPECT_EQ(found("overstress", 100.), "ageing(-)slip_law(slip_law)");
+  EXPECT_EQ(found("overstress, ageing", 0.), "ageing(-)slip_law(slip_law)");
+  range.fastest = range.slowest;
+  EXPECT_EQ(found("overstress", 0.), "ageing(-)slip_law(-)");
+}
+
+
+
 // What has not softened cannot recover, but it can age.
 TEST(Candidates, HealingIsRecoveryOrAgeing)
 {
@@ -161,8 +207,10 @@ TEST(Candidates, LeaveOutWhatTheModelHas)
   start.set("Friction/Effects", "overstress, pressure", "test");
   for (const Candidate &candidate : make_candidates(start, usual_range()))
     {
-      const bool is_out =
-        candidate.name == "overstress" || candidate.name == "pressure";
+      // Where something rests, ageing is a formula of healing.
+      const bool is_out = candidate.name == "overstress" ||
+                          candidate.name == "pressure" ||
+                          candidate.name == "ageing";
       EXPECT_EQ(candidate.formulas.empty(), is_out) << candidate.name;
       EXPECT_EQ(candidate.why_not.empty(), !is_out) << candidate.name;
     }

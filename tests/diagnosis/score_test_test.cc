@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -155,7 +156,15 @@ namespace
       model.residual =
         wave.col(0) + draw_null(comparison, known(comparison), 1, seed).col(0);
       model.derivatives = wave.col(1);
-      return find_track_wave(comparison, covariates, model, null);
+      const std::vector<double> wavelengths =
+        track_wavelengths(comparison, covariates);
+      return find_track_wave(
+        DirectionSet(comparison,
+                     null,
+                     track_waves(comparison, covariates, wavelengths)),
+        wavelengths,
+        model,
+        null);
     }
   };
 } // namespace
@@ -240,4 +249,109 @@ TEST(TrackWaves, WithoutMotionThereAreNone)
   track.covariates.position.setConstant(1.);
   EXPECT_TRUE(track_wavelengths(track.comparison, track.covariates).empty());
   EXPECT_EQ(track.find(3, 0.01, 0.3).p, 1.);
+}
+
+
+
+namespace
+{
+  // Two effects that act at once, of which the second one takes away nearly all
+  // that the first one adds; the model knows neither.
+  struct Opposites
+  {
+    Comparison comparison = two_and_one();
+    RowMatrix  null       = draw_null(comparison, known(comparison), 499, 1);
+    std::vector<Direction> directions{2};
+
+    Opposites()
+    {
+      const Eigen::Index n = comparison.n_rows();
+      for (std::size_t d = 0; d < 2; ++d)
+        {
+          directions[d].friction.resize(n);
+          directions[d].is_one_sided = true;
+          directions[d].candidate    = d;
+        }
+      for (Eigen::Index i = 0; i < n; ++i)
+        {
+          const double x            = 0.02 * (i % n_rows);
+          directions[0].friction(i) = 0.001 * std::sin(x);
+          directions[1].friction(i) = -0.001 * std::sin(x - 0.3);
+        }
+    }
+
+    // @param strengths of the two in what the model leaves
+    ScoreTest test(const std::array<double, 2> &strengths,
+                   const std::uint64_t          seed) const
+    {
+      RowMatrix columns(comparison.n_rows(), 2);
+      columns.col(0) = strengths[0] * directions[0].friction +
+                       strengths[1] * directions[1].friction;
+      columns.col(1).setConstant(0.1);
+      comparison.whiten(columns);
+      Model model;
+      model.residual = columns.col(0) +
+                       draw_null(comparison, known(comparison), 1, seed).col(0);
+      model.derivatives = columns.col(1);
+      return ScoreTest(comparison, model, null, directions);
+    }
+  };
+
+  bool nobody_asks(std::size_t, std::size_t)
+  {
+    return false;
+  }
+} // namespace
+
+
+
+TEST(Pairs, ThatNearlyCancelAreSeenTogether)
+{
+  const Opposites opposites;
+  const ScoreTest test  = opposites.test({12., 12.}, 3);
+  const auto      pairs = test.pairs(opposites.directions, nobody_asks);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_LE(pairs[0].p, 0.01);
+  EXPECT_NEAR(pairs[0].first_strength, 12., 4.);
+  EXPECT_NEAR(pairs[0].second_strength, 12., 4.);
+  // Each alone promises less than both at once.
+  for (const Score &score : test.scores)
+    EXPECT_LT(std::pow(score.strength * score.free_length, 2),
+              pairs[0].gain - 15.);
+}
+
+
+
+TEST(Pairs, OfNoiseHaveTheirChance)
+{
+  const Opposites opposites;
+  unsigned int    n_alarms = 0;
+  for (unsigned int seed = 10; seed < 110; ++seed)
+    for (const ScoreTest::Pair &pair :
+         opposites.test({0., 0.}, seed)
+           .pairs(opposites.directions, nobody_asks))
+      n_alarms += pair.p <= 0.1;
+  EXPECT_LE(n_alarms, 22u);
+  EXPECT_GE(n_alarms, 1u);
+}
+
+
+
+// The same sign twice is no pair, nor are two shapes of one candidate; those
+// that are asked for are.
+TEST(Pairs, AreOfDifferentCandidatesThatOppose)
+{
+  Opposites opposites;
+  opposites.directions[1].friction *= -1.;
+  const auto n_pairs = [&](const bool is_asked_for) {
+    return opposites.test({12., -9.}, 3)
+      .pairs(opposites.directions,
+             [=](std::size_t, std::size_t) { return is_asked_for; })
+      .size();
+  };
+  EXPECT_EQ(n_pairs(false), 0u);
+  opposites.directions[1].is_one_sided = false;
+  EXPECT_EQ(n_pairs(false), 1u);
+  opposites.directions[1].candidate = 0;
+  EXPECT_EQ(n_pairs(true), 0u);
 }

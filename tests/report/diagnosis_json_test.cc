@@ -74,8 +74,6 @@ TEST(DiagnosisJson, TheBlocksAreTheDocumentedOnes)
               {"status",
                "p",
                "p_smooth",
-               "p_waves",
-               "p_conditions",
                "p_replicates",
                "p_together",
                "p_track",
@@ -104,6 +102,19 @@ TEST(DiagnosisJson, TheBlocksAreTheDocumentedOnes)
 
 
 
+TEST(DiagnosisJson, WhatAFormulaLacksHasItsKeys)
+{
+  const auto object = written(SyntheticDiagnosis::incomplete());
+  const auto lacks  = object["verdict"]["formulas_not_quite_right"];
+  ASSERT_EQ(lacks.size(), 1u);
+  has_exactly(lacks[0], {"effect", "words", "covariate", "factor", "gain"});
+  EXPECT_EQ(lacks[0]["effect"], "overstress");
+  EXPECT_TRUE(object["verdict"]["incomplete"]);
+  EXPECT_EQ(object["verdict"]["remainder_where"][0]["covariate"], "pressure");
+}
+
+
+
 TEST(DiagnosisJson, TheKeysOfTheResultAreTheDocumentedOnes)
 {
   const auto object = written(SyntheticDiagnosis::named());
@@ -114,6 +125,9 @@ TEST(DiagnosisJson, TheKeysOfTheResultAreTheDocumentedOnes)
                "ambiguous_with",
                "rival_of",
                "withdrawn",
+               "incomplete",
+               "remainder_where",
+               "formulas_not_quite_right",
                "explained_share",
                "remainder_p",
                "would_overturn"});

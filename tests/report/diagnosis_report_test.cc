@@ -70,6 +70,29 @@ TEST(DiagnosisHeadline, ItNamesWhatIsMissingWithTheNumbers)
 
 
 
+TEST(DiagnosisHeadline, AFormulaAndARestAreTold)
+{
+  const Diagnosis diagnosis = SyntheticDiagnosis::incomplete();
+  EXPECT_TRUE(contains(headline(diagnosis),
+                       "; the formula of overstress is not quite right: a "
+                       "factor of log10 speed completes it; not all of it is "
+                       "explained: the rest is felt most under pressures of 12 "
+                       "… 20 MPa in high pressure."))
+    << headline(diagnosis);
+  EXPECT_EQ(short_verdict(diagnosis), "named, incomplete");
+  EXPECT_TRUE(contains(diagnosis_table(diagnosis),
+                       "verdict: named, incomplete – overstress"));
+  EXPECT_TRUE(
+    contains(diagnosis_table(diagnosis), "0.99 + (0.02) * max(0, x - (-2))"));
+  const std::string page = page_of(diagnosis);
+  EXPECT_TRUE(contains(page, "The formula of overstress is not quite right"));
+  EXPECT_TRUE(contains(page, "What overstress does not explain"));
+  EXPECT_FALSE(
+    contains(page_of(SyntheticDiagnosis::named()), "not quite right"));
+}
+
+
+
 TEST(DiagnosisHeadline, WithoutReplicatesItIsToned)
 {
   for (Diagnosis diagnosis : {SyntheticDiagnosis::named(),

@@ -209,8 +209,6 @@ namespace SyntheticDiagnosis
               test("high pressure", "20 MPa", "slide", nothing)};
     result.gap_p          = 0.41;
     result.p_smooth       = 0.41;
-    result.p_waves        = 0.6;
-    result.p_conditions   = 0.37;
     result.p_replicates   = 0.52;
     result.p_track        = 0.83;
     const double infinity = std::numeric_limits<double>::infinity();
@@ -262,7 +260,6 @@ namespace SyntheticDiagnosis
     Diagnosis result = base();
     result.has_gap   = true;
     result.gap_p = result.p_smooth = 0.001;
-    result.p_conditions            = 0.004;
     result.p_replicates            = 0.001;
     result.excess                  = 2210.;
     result.where                   = {
@@ -320,6 +317,25 @@ namespace SyntheticDiagnosis
                              "press 5.8 MPa in 1 s; slide 0.01 mm/min for 2 mm",
                              {"overstress", "stribeck"},
                              7.4};
+    return result;
+  }
+
+  /// A formula that is not quite right, and a rest.
+  inline Diagnosis incomplete()
+  {
+    Diagnosis result     = named();
+    result.is_incomplete = true;
+    result.remainder_p   = 0.001;
+    result.remains       = {
+            {"pressure", "MPa", 0.61, 12., 20., -1, {"peak"}, {"high pressure"}}};
+    CovariatePanel lacking = panel("speed", "mm/s", true, 0.01);
+    lacking.signatures     = {
+          {"formula of overstress", lacking.signatures[0].second}};
+    result.completed = {{"overstress",
+                         "log10 speed",
+                         "0.99 + (0.02) * max(0, x - (-2))",
+                         71.5,
+                         lacking}};
     return result;
   }
 

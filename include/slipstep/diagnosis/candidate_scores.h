@@ -21,7 +21,8 @@ namespace SlipStep
       Score     score;
     };
 
-    Candidate candidate;
+    Candidate   candidate;
+    std::size_t number = 0; ///< as directions have it
     /// Best first; none if it was not tried, could not be simulated, or
     /// changes nothing.
     std::vector<Way> ways;
@@ -37,15 +38,15 @@ namespace SlipStep
   /// The catalogue as seen from a model, best score first.
   struct View
   {
-    std::vector<CandidateView> candidates;
-    std::vector<Direction>     directions;
+    std::vector<CandidateView>   candidates;
+    DirectionSet                 set;   ///< all their directions
+    std::vector<ScoreTest::Pair> pairs; ///< of the directions, best first
+
+    /// The candidate of a direction.
+    const CandidateView &of(const Direction &direction) const;
   };
 
   View score_candidates(const Workspace &workspace, const Model &model);
-
-  /// Directions of the covariates, and of the candidates seen from a model.
-  std::vector<Direction> smooth_directions(const Workspace &workspace,
-                                           const View      &view);
 
   /// The parts of a model and one more.
   std::vector<Part> with_part(const Model      &model,

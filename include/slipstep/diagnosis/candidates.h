@@ -20,6 +20,9 @@ namespace SlipStep
     /// Why it cannot be tried; then there are no formulas.
     std::string why_not;
     bool        is_in_model = false; ///< that is why
+    /// The candidate without which it would not be told from others, so that it
+    /// is tried together with it only; "" if it is tried alone.
+    std::string only_beside = "";
 
     /// It cannot be tried, since the model has it or the like.
     void leave_to_model(const std::string &why);
@@ -41,12 +44,17 @@ namespace SlipStep
   /// the catalogue.
   std::string plain_words(const std::string &candidate);
 
-  /// An effect that was added to the starting model.
+  /// An effect that was added to the starting model, or what its formula lacks.
   struct Part
   {
     std::string  name; ///< of the candidate
     TrialFormula formula;
+    /// The part whose formula this corrects, "" if it is an effect by itself.
+    std::string corrects = "";
   };
+
+  /// The names of the effects among them.
+  std::vector<std::string> effect_names(const std::vector<Part> &parts);
 
   /// A case and all of its parameters that are to be fitted; it lists those of
   /// the starting model only.

@@ -82,6 +82,10 @@ namespace SlipStep
     /// Take this for the noise of the rows of a test.
     void set_row_noise(const std::size_t test, const RowNoise &noise);
 
+    /// Multiply the noise of one of the numbers compared.
+    /// It is felt after set_noise().
+    void weaken_row(const Eigen::Index row, const double factor);
+
     /// Weigh by this noise from now on; a gain multiplies @p friction.
     void set_noise(const Noise &noise, const Eigen::VectorXd &friction);
 

@@ -163,6 +163,18 @@ namespace SlipStep
     std::vector<std::pair<std::string, std::vector<double>>> signatures;
   };
 
+  /// A named effect the formula of which is not quite right: a free factor
+  /// along its own covariate makes up for that.
+  struct CompletedFormula
+  {
+    std::string effect;
+    std::string covariate; ///< of effect expression
+    std::string formula;   ///< the factor
+    double      gain = 0.; ///< of the objective
+    /// What the formula alone leaves, and what the factor changes.
+    CovariatePanel panel;
+  };
+
   struct NextTest
   {
     std::string words;     ///< "sliding at 0.01 mm/min"; empty for none
@@ -206,10 +218,9 @@ namespace SlipStep
     // ---- gap
     bool   has_gap  = false;
     double gap_p    = 1.;
-    double p_smooth = 1., p_waves = 1., p_conditions = 1., p_replicates = 1.,
-           p_together = 1., p_track = 1.;
-    double                    excess = 0.; ///< of the objective
-    std::vector<Localisation> where;       ///< most first
+    double p_smooth = 1., p_replicates = 1., p_together = 1., p_track = 1.;
+    double excess = 0.;              ///< of the objective
+    std::vector<Localisation> where; ///< most first
 
     // ---- verdict
     Verdict                  verdict = Verdict::no_gap;
@@ -220,8 +231,13 @@ namespace SlipStep
     double                   explained_share = 0.;
     double                   remainder_p     = 1.;
     /// Names that explained too little and were taken back.
-    std::vector<std::string>     withdrawn;
-    std::vector<CandidateResult> candidates; ///< best first
+    std::vector<std::string> withdrawn;
+    /// Whether names explain what is there but for a remainder, and where it
+    /// is.
+    bool                          is_incomplete = false;
+    std::vector<Localisation>     remains;
+    std::vector<CompletedFormula> completed;
+    std::vector<CandidateResult>  candidates; ///< best first
     /// Covariate of the correction of unknown cause; "" if there is none.
     std::string correction_covariate;
     std::string correction_formula;

@@ -11,10 +11,8 @@ namespace SlipStep
   /// Whether anything is missing.
   struct GapTest
   {
-    double p            = 1.; ///< of all six, Bonferroni
+    double p            = 1.; ///< of all four, Bonferroni
     double p_smooth     = 1.; ///< largest score of covariates and candidates
-    double p_waves      = 1.; ///< slow waves within tests
-    double p_conditions = 1.; ///< between conditions
     double p_together   = 1.; ///< smooth and waves at once
     double p_replicates = 1.; ///< what replicates have in common
     double p_track      = 1.; ///< waves along the track
@@ -33,12 +31,9 @@ namespace SlipStep
                              const Eigen::VectorXd &residual,
                              const RowMatrix       &null_draws);
 
-  /// @param smooth directions of covariates and candidates
-  GapTest test_gap(const Comparison             &comparison,
-                   const Covariates             &covariates,
-                   const Model                  &model,
-                   const RowMatrix              &null_draws,
-                   const std::vector<Direction> &smooth);
+  /// Find the directions along which gaps are looked for, whatever the model;
+  /// again when draws of noise or weights have changed.
+  void prepare_gap_test(Workspace &workspace);
 
   /// Whether a model leaves more than noise, with what is seen from it.
   GapTest

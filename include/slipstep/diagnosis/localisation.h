@@ -11,10 +11,10 @@
 
 namespace SlipStep
 {
-  /// Where the calibrated starting model disagrees: every covariate that
-  /// explains a part of the excess, most first.
+  /// Where a model disagrees: every covariate that explains a part of the
+  /// excess, most first.
   std::vector<Localisation>
-  localise(const Workspace &workspace, const Model &base, const GapTest &gap);
+  localise(const Workspace &workspace, const Model &model, const GapTest &gap);
 
   /// What is left over along the covariates, with what models would change.
   /// @param changes names with changes of the simulated friction
@@ -23,6 +23,13 @@ namespace SlipStep
     const Eigen::VectorXd                                      &difference,
     const std::vector<std::pair<std::string, Eigen::VectorXd>> &changes,
     const std::vector<Localisation>                            &where);
+
+  /// Along one of them; empty if it hardly varies.
+  CovariatePanel covariate_panel(
+    const Workspace                                            &workspace,
+    const Eigen::VectorXd                                      &difference,
+    const std::vector<std::pair<std::string, Eigen::VectorXd>> &changes,
+    const std::string                                          &name);
 } // namespace SlipStep
 
 #endif

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,24 @@ namespace SlipStep
     std::size_t candidate = 0;
     std::size_t formula   = 0;
     std::size_t shape     = 0;
+  };
+
+  /// Directions with what does not depend on a model: they are whitened, and
+  /// multiplied by the draws of noise.
+  struct DirectionSet
+  {
+    std::vector<Direction> directions;
+    RowMatrix              whitened; ///< columns
+    Eigen::MatrixXd        products; ///< by direction and draw
+
+    DirectionSet() = default;
+
+    DirectionSet(const Comparison             &comparison,
+                 const RowMatrix              &null_draws,
+                 const std::vector<Direction> &directions);
+
+    /// These and others behind them.
+    DirectionSet with(const DirectionSet &others) const;
   };
 
   /// How well one direction fits the residual.
@@ -58,6 +77,10 @@ namespace SlipStep
               const RowMatrix              &null_draws,
               const std::vector<Direction> &directions);
 
+    ScoreTest(const Model        &model,
+              const RowMatrix    &null_draws,
+              const DirectionSet &set);
+
     std::vector<Score> scores;
 
     /// Chance of a largest score among all directions as large as this value.
@@ -73,8 +96,23 @@ namespace SlipStep
       Eigen::VectorXd explained; ///< part of the residual, whitened
     };
 
-    /// @param which directions; all if empty
-    Together together(const std::vector<std::size_t> &which = {}) const;
+    Together together() const;
+
+    /// Two directions that nearly cancel each other, seen at once.
+    struct Pair
+    {
+      std::size_t first = 0, second = 0;
+      double      first_strength = 0., second_strength = 0.;
+      double      gain  = 0.; ///< what both take off the objective
+      double      value = 0.; ///< in standard deviations of the null
+      double      p     = 1.; ///< chance of such a value among all pairs
+    };
+
+    /// Pairs of different candidates, best first: those that nearly cancel, and
+    /// those asked for.
+    std::vector<Pair> pairs(
+      const std::vector<Direction>                        &directions,
+      const std::function<bool(std::size_t, std::size_t)> &is_asked_for) const;
 
     /// How strong each direction is in the mixture that explains most.
     /// @param smoothness of neighbours, 0 for none: a share of the mean square
@@ -84,8 +122,8 @@ namespace SlipStep
   private:
     Eigen::MatrixXd     columns; ///< whitened, free of the model's, length 1
     Eigen::VectorXd     residual;
-    const RowMatrix    &null_draws;
-    std::vector<double> largest; ///< of every draw, sorted
+    Eigen::MatrixXd     null_parts; ///< of the draws along the columns
+    std::vector<double> largest;    ///< of every draw, sorted
   };
 
   /// Chance of a value as large, by draws in ascending order.

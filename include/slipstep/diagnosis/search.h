@@ -43,6 +43,23 @@ namespace SlipStep
                                   const Model         &model,
                                   const CandidateView &view);
 
+  /// A model with both effects of a pair, fitted.
+  std::optional<Model> refit_with_pair(Workspace             &workspace,
+                                       const Model           &model,
+                                       const View            &view,
+                                       const ScoreTest::Pair &pair);
+
+  /// The same without one of its parts, and what corrects that, fitted again.
+  std::optional<Model> refit_without(Workspace        &workspace,
+                                     const Model      &model,
+                                     const std::size_t part);
+
+  /// The better of a model and itself fitted again from other starts.
+  Model refit_from_starts(Workspace &workspace, const Model &model);
+
+  /// Whether a parameter of what was added ends at a bound that makes no sense.
+  bool is_at_bound(const Model &model);
+
   /// Fit a model once more with time steps of its own, the error of which is
   /// taken out.
   void settle(const Workspace &workspace, Model &model);
@@ -65,7 +82,10 @@ namespace SlipStep
                        const Model     &more);
 
   /// Whether an addition lowers the fitted and the left-out differences enough.
-  bool is_needed(const double cost, const double left_out_gain);
+  /// @param n effects that are added
+  bool is_needed(const double      cost,
+                 const double      left_out_gain,
+                 const std::size_t n = 1);
 
   /// A rival of a named effect: with it in the place of the name the tests are
   /// explained as well.

@@ -29,10 +29,11 @@ namespace SlipStep
                                      const Covariates          &covariates,
                                      const std::vector<double> &wavelengths);
 
-  TrackWave find_track_wave(const Comparison &comparison,
-                            const Covariates &covariates,
-                            const Model      &model,
-                            const RowMatrix  &null_draws);
+  /// @param waves of these wavelengths
+  TrackWave find_track_wave(const DirectionSet        &waves,
+                            const std::vector<double> &wavelengths,
+                            const Model               &model,
+                            const RowMatrix           &null_draws);
 } // namespace SlipStep
 
 #endif

@@ -20,6 +20,12 @@ namespace SlipStep
     double explained_share = 0.;
     /// Taken back, since they explain too little.
     std::vector<std::string> withdrawn;
+    /// Whether the names explain what is there, but for a remainder.
+    bool is_incomplete = false;
+    /// Rows that no model explains and that count for less, and the starting
+    /// model fitted so; none if all count.
+    std::vector<Eigen::Index> outlying;
+    Model                     base;
   };
 
   Judgement judge(Workspace &workspace, const Model &base);

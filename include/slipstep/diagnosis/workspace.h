@@ -4,6 +4,7 @@
 
 #include <slipstep/diagnosis/comparison.h>
 #include <slipstep/diagnosis/covariates.h>
+#include <slipstep/diagnosis/score_test.h>
 
 #include <chrono>
 #include <functional>
@@ -30,6 +31,14 @@ namespace SlipStep
       std::chrono::steady_clock::time_point::max();
     /// Told what is being done.
     std::function<void(const std::string &)> progress;
+
+    /// @name Directions that are the same for every model, see
+    /// prepare_gap_test(): smooth functions of covariates, waves of conditions,
+    /// waves along the track.
+    ///@{
+    DirectionSet        smooth = {}, waves = {}, along_track = {};
+    std::vector<double> wavelengths = {}; ///< of the last
+    ///@}
 
     bool is_late() const
     {

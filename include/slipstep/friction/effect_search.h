@@ -77,10 +77,21 @@ namespace SlipStep
     std::map<std::string, std::string> texts;    ///< that stay
     std::vector<Shape>                 shapes;
     bool                               is_one_sided = false;
+    /// As EffectSearch::along, of the effect.
+    std::string along;
+    /// How many parameters were fitted that stand in the texts.
+    unsigned int n_in_texts = 0;
     /// Why it cannot be tried; "" if it can.
     std::string why_not;
 
     static TrialFormula none(const std::string &why_not);
+
+    /// Strength that grows with the logarithm of an age, which in steady
+    /// sliding is a length over the speed: theta = L / V.
+    static TrialFormula state_of_contacts(const std::string &growth,
+                                          const std::string &time,
+                                          const std::string &length,
+                                          const TestedRange &range);
 
     /// Let one parameter be in proportion to the strength, @p unit of it
     /// changing friction by its own size.
@@ -110,6 +121,19 @@ namespace SlipStep
 
     /// The same for another form of the effect, if that is looked for, too.
     std::function<TrialFormula(const Circumstances &)> other_form = {};
+
+    /// What its formula is a function of, as effect expression calls it; "" if
+    /// of nothing that it knows. Along it, a formula may be not quite right.
+    std::string along = "";
+
+    /// The effect beside which it is a candidate of its own, as contacts that
+    /// age are beside a direct effect of speed: each may hide the other, so
+    /// that both are tried at once. "" if there is none.
+    std::string beside = "";
+
+    /// How it shows, and how it is looked for, where the model has that effect.
+    std::string                                        beside_signature = "";
+    std::function<TrialFormula(const Circumstances &)> beside_formula   = {};
   };
 
   /// A change of friction by one per cent, the size of all trial strengths.

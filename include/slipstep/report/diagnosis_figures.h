@@ -24,6 +24,11 @@ namespace SlipStep
                           const Diagnosis             &diagnosis,
                           std::vector<std::string>    &warnings);
 
+  /// What the formulas of named effects lack along their covariates.
+  Gallery draw_completed_formulas(const std::filesystem::path &folder,
+                                  const Diagnosis             &diagnosis,
+                                  std::vector<std::string>    &warnings);
+
   /// Increase of the objective along each parameter that was named.
   Gallery draw_named_profiles(const std::filesystem::path &folder,
                               const Diagnosis             &diagnosis,

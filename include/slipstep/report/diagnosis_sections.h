@@ -25,6 +25,9 @@ namespace SlipStep
   /// Where the difference is, in numbers.
   std::string places_section(const Diagnosis &diagnosis);
 
+  /// Where what remains is, if the names leave something.
+  std::string remains_section(const Diagnosis &diagnosis);
+
   /// All effects that were tried and those that could not be.
   std::string candidates_section(const Diagnosis &diagnosis);
 

@@ -42,6 +42,7 @@ namespace SlipStep
         info.neutral_settings = {{"Strength", "0"}};
         info.typical_settings = {{"Strength", "0.3"}};
         info.search           = {"only low pressures rise, as 1/p", search};
+        info.search.along     = "pressure";
         return info;
       }
 

@@ -94,6 +94,13 @@ namespace SlipStep
                                  {"Time", "0.05 s"},
                                  {"Renewal length", "0.02 mm"}};
         info.search           = {"", search, "healing", "Growth"};
+        info.search.along     = "hold time";
+        info.search.beside    = "overstress";
+        info.search.beside_signature =
+          "friction that falls over some slip after "
+          "a step up in speed, and rises after "
+          "one down";
+        info.search.beside_formula = search_beside_overstress;
         return info;
       }
 
@@ -127,6 +134,14 @@ namespace SlipStep
                             {length, L}};
             });
         return formula;
+      }
+
+      static TrialFormula search_beside_overstress(const Circumstances &now)
+      {
+        return TrialFormula::state_of_contacts("Friction/ageing/Growth",
+                                               "Friction/ageing/Time",
+                                               "Friction/ageing/Renewal length",
+                                               now.range);
       }
 
       const double b_age;

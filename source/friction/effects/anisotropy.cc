@@ -132,7 +132,8 @@ namespace SlipStep
           formula.texts        = {{"Friction/anisotropy/Form", "opposite"}};
           return formula;
         };
-        info.create = create;
+        info.search.along = "angle";
+        info.create       = create;
         return info;
       }
 

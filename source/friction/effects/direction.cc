@@ -82,6 +82,7 @@ namespace SlipStep
         info.typical_settings = {{"Change", "0.5"},
                                  {"Forward angle", "20 deg"}};
         info.search           = {"an offset on reverse strokes", search};
+        info.search.along     = "angle";
         return info;
       }
 

@@ -61,6 +61,7 @@ namespace SlipStep
                                  search,
                                  "",
                                  "Rate"};
+        info.search.along     = "hold time";
         return info;
       }
 

@@ -82,6 +82,7 @@ namespace SlipStep
                                  {"Cooling time", "2 s"}};
         info.search = {"falls inside a fast run, recovers in a pause, repeats",
                        search};
+        info.search.along = "temperature";
         return info;
       }
 

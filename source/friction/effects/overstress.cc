@@ -96,6 +96,7 @@ namespace SlipStep
         info.search           = {
                     "the same step in every phase, linear in ln V, the same both ways",
                     search};
+        info.search.along = "log10 speed";
         return info;
       }
 

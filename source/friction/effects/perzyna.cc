@@ -66,6 +66,7 @@ namespace SlipStep
                                   "exponent of the power-law overstress"}};
         info.neutral_settings = {{"Viscosity", "1e-40"}};
         info.search           = {"", search, "overstress"};
+        info.search.along     = "log10 speed";
         return info;
       }
 

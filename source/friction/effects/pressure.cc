@@ -54,6 +54,7 @@ namespace SlipStep
         info.typical_settings = {{"Exponent", "0.3"},
                                  {"Reference pressure", "3"}};
         info.search           = {"straight in ln p only", search};
+        info.search.along     = "pressure";
         return info;
       }
 

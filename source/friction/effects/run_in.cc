@@ -54,7 +54,8 @@ namespace SlipStep
            "slip path after which 63 % of the change are made"}};
         info.neutral_settings = {{"Change", "0"}};
         info.typical_settings = {{"Change", "-0.4"}, {"Length", "0.02 mm"}};
-        info.search = {"slow drift with the path, no recovery", search};
+        info.search       = {"slow drift with the path, no recovery", search};
+        info.search.along = "path";
         return info;
       }
 

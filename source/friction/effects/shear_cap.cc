@@ -58,6 +58,7 @@ namespace SlipStep
         info.neutral_settings = {{"Shear limit", "1e12"}};
         info.typical_settings = {{"Shear limit", "0.7"}};
         info.search           = {"only high pressures bend", search};
+        info.search.along     = "pressure";
         return info;
       }
 

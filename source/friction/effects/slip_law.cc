@@ -91,12 +91,25 @@ namespace SlipStep
                                  {"Time", "0.05 s"},
                                  {"Slip length", "0.02 mm"}};
         info.search.why_not =
-          "in steps of speed it looks like effect ageing, which is tried; only "
-          "rests of several lengths tell them apart";
+          "by itself it looks like ageing; it is tried beside overstress";
+        info.search.beside = "overstress";
+        info.search.beside_signature =
+          "friction that falls over some slip after "
+          "a step up in speed and rises as fast "
+          "after one down; rests change nothing";
+        info.search.beside_formula = search_beside_overstress;
         return info;
       }
 
     private:
+      static TrialFormula search_beside_overstress(const Circumstances &now)
+      {
+        return TrialFormula::state_of_contacts("Friction/slip_law/Growth",
+                                               "Friction/slip_law/Time",
+                                               "Friction/slip_law/Slip length",
+                                               now.range);
+      }
+
       // theta at the end, and its derivative with respect to slip, the time
       // step being kept.
       Rate state_after(const SlipStepData &step) const

@@ -70,7 +70,8 @@ namespace SlipStep
            "'Speed of the coefficients'; at most the static coefficient"}};
         info.neutral_settings = {{"Rate", "0"}};
         info.typical_settings = {{"Rate", "5"}, {"Steepness", "3"}};
-        info.search = {"exponential in slip, never comes back", search};
+        info.search       = {"exponential in slip, never comes back", search};
+        info.search.along = "path";
         return info;
       }
 

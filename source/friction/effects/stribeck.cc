@@ -75,7 +75,8 @@ namespace SlipStep
         info.typical_settings = {{"Rise", "0.1"},
                                  {"Speed", "2 mm/s"},
                                  {"Exponent", "1.5"}};
-        info.search = {"slow speeds high, no memory of holds", search};
+        info.search       = {"slow speeds high, no memory of holds", search};
+        info.search.along = "log10 speed";
         return info;
       }
 

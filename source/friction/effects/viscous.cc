@@ -48,6 +48,7 @@ namespace SlipStep
         info.neutral_settings = {{"Drag", "0"}};
         info.typical_settings = {{"Drag", "0.2"}};
         info.search = {"linear in V, its share shrinks with pressure", search};
+        info.search.along = "log10 speed";
         return info;
       }
 

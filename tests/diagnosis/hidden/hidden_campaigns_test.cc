@@ -101,6 +101,9 @@ INSTANTIATE_TEST_SUITE_P(
     // the catalogue's may take it up.
     Expected{CampaignClass::other_formula, 50, Verdict::named, {"compliance"}},
     Expected{CampaignClass::other_formula, 42, Verdict::named, {"healing"}},
+    Expected{CampaignClass::third_formula, 3, Verdict::named, {"overstress"}},
+    // Heat takes away what the drag adds, a second later.
+    Expected{CampaignClass::joint, 5, Verdict::named, {"heating", "viscous"}},
     // Squeezed oil and flattened asperities, which leave little trace.
     Expected{CampaignClass::outside, 14, Verdict::unnamed, {}},
     Expected{CampaignClass::outside, 34, Verdict::unnamed, {}},
@@ -182,6 +185,28 @@ namespace
           out << line.substr(0, comma + 1)
               << factor * std::stod(line.substr(comma + 1)) << '\n';
       }
+    return out.str();
+  }
+
+  // Half of the friction in three rows of the middle; a test with one axis.
+  std::string with_bad_rows(const std::string &text)
+  {
+    std::istringstream       in(text);
+    std::ostringstream       out;
+    std::vector<std::string> lines;
+    std::string              line;
+    while (std::getline(in, line))
+      lines.push_back(line);
+    out.precision(10);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      if (i >= lines.size() / 2 && i < lines.size() / 2 + 3)
+        {
+          const std::size_t comma = lines[i].rfind(',');
+          out << lines[i].substr(0, comma + 1)
+              << 0.5 * std::stod(lines[i].substr(comma + 1)) << '\n';
+        }
+      else
+        out << lines[i] << '\n';
     return out.str();
   }
 
@@ -311,11 +336,9 @@ TEST_F(CampaignFolder, WaveAlongTheTrackIsTold)
   EXPECT_LE(judgement.gap.p_track, 0.002);
   const double level = ingested.workspace->level;
   EXPECT_GT(judgement.gap.p_smooth, 5. * judgement.gap.p_track);
-  for (const double other : {judgement.gap.p_waves,
-                             judgement.gap.p_conditions,
-                             judgement.gap.p_together,
-                             judgement.gap.p_replicates})
-    EXPECT_GT(15. * other, level);
+  for (const double other :
+       {judgement.gap.p_together, judgement.gap.p_replicates})
+    EXPECT_GT(9. * other, level);
   const std::vector<Localisation> where =
     localise(*ingested.workspace, ingested.base, judgement.gap);
   ASSERT_FALSE(where.empty());
@@ -340,6 +363,34 @@ TEST_F(CampaignFolder, StatesTheNoiseWithoutReplicates)
   EXPECT_NEAR(ingested.workspace->noise.noise.gain,
               parameters.number("Diagnosis/Gain"),
               1e-12);
+}
+
+
+
+// Three rows in a test or two that nothing explains: the name stays, and the
+// rows are told.
+TEST_F(CampaignFolder, KeepsItsNameBesideAFewBadRows)
+{
+  plant(CampaignClass::one, 7);
+  const Judgement before = judged();
+  ASSERT_EQ(before.verdict, Verdict::named);
+  EXPECT_TRUE(before.outlying.empty());
+  unsigned int n_spoilt = 0;
+  rewrite(
+    [](const unsigned int i) {
+      return "test_" + std::to_string(100 + i) + ".csv";
+    },
+    [&](const std::string &text) {
+      return text.find("friction_y") == std::string::npos && n_spoilt++ < 2 ?
+               with_bad_rows(text) :
+               text;
+    });
+  const Judgement after = judged();
+  EXPECT_EQ(name_of(after.verdict), name_of(Verdict::named));
+  EXPECT_EQ(effect_names(after.found.model.parts),
+            effect_names(before.found.model.parts));
+  EXPECT_GE(after.outlying.size(), 4u);
+  EXPECT_LE(after.outlying.size(), 12u);
 }
 
 

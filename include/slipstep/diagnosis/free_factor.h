@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef slipstep_diagnosis_free_factor_h
+#define slipstep_diagnosis_free_factor_h
+
+#include <slipstep/diagnosis/workspace.h>
+
+#include <optional>
+#include <string>
+
+namespace SlipStep
+{
+  /// A free factor of friction along one covariate of effect `expression`,
+  /// piecewise linear between a few knots, added to a model and fitted.
+  struct FreeFactor
+  {
+    std::string covariate, formula; ///< as effect expression has them
+    /// Chance that noise asks for as much.
+    double p = 1.;
+    Model  model; ///< with the factor
+  };
+
+  /// @param covariate of effect expression
+  /// @param corrects the effect of the model whose formula it completes; "" if
+  ///   its cause is unknown
+  /// @return none if the tests do not vary the covariate, chance explains what
+  ///   it would change, or nothing is gained
+  std::optional<FreeFactor> add_free_factor(const Workspace   &workspace,
+                                            const Model       &model,
+                                            const std::string &covariate,
+                                            const std::string &corrects = "");
+
+  /// For the part of a model whose formula leaves most along its own covariate;
+  /// none if no formula does.
+  std::optional<FreeFactor> complete_formula(const Workspace &workspace,
+                                             const Model     &model);
+
+  /// What a reader calls a covariate of effect expression, as values_of() does.
+  std::string covariate_of_expression(const std::string &covariate);
+} // namespace SlipStep
+
+#endif

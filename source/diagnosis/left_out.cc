@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/search.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // A model as fitted to all conditions but one: by one step of Gauss and
+    // Newton from the optimum of all, by a fit of its own where that goes far.
+    Model fit_without(const Comparison &comparison,
+                      const Model      &model,
+                      const std::size_t condition)
+    {
+      Eigen::MatrixXd   derivatives = model.derivatives;
+      Eigen::VectorXd   residual    = model.residual;
+      std::vector<bool> left_out;
+      for (const ComparedTest &test : comparison.tests)
+        {
+          left_out.push_back(test.condition == condition);
+          if (!left_out.back())
+            continue;
+          derivatives.middleRows(test.begin, test.size).setZero();
+          residual.segment(test.begin, test.size).setZero();
+        }
+      Model result     = model;
+      result.simulator = std::make_shared<Simulator>(*model.simulator);
+      const Eigen::MatrixXd curvature = derivatives.transpose() * derivatives;
+      const Eigen::VectorXd step =
+        curvature.completeOrthogonalDecomposition().solve(
+          derivatives.transpose() * residual);
+      bool is_near = true;
+      for (std::size_t i = 0; i < result.scaled.size(); ++i)
+        {
+          const double slope =
+            natural_slope(model.campaign->fitted[i], model.scaled[i]);
+          is_near          = is_near && std::abs(step(i)) * slope < 0.5;
+          result.scaled[i] = std::clamp(result.scaled[i] + step(i), 0., 1.);
+        }
+      if (!is_near)
+        {
+          result.scaled = model.scaled;
+          comparison.fit(result, 1., left_out);
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  std::vector<double> left_out_squares(const Workspace &workspace,
+                                       const Model     &model,
+                                       Eigen::VectorXd *differences)
+  {
+    const Comparison   &comparison = workspace.comparison;
+    std::vector<double> squares(comparison.tests.size(), 0.);
+    // Of a single condition nothing is left to fit.
+    constexpr double none   = std::numeric_limits<double>::quiet_NaN();
+    const bool       is_one = comparison.conditions.size() < 2;
+    if (differences != nullptr)
+      *differences =
+        Eigen::VectorXd::Constant(comparison.n_rows(), is_one ? none : 0.);
+    if (is_one)
+      return std::vector<double>(comparison.tests.size(), none);
+    side_by_side(comparison.conditions.size(), [&](const std::size_t c) {
+      const Model           other = fit_without(comparison, model, c);
+      const Eigen::VectorXd difference =
+        comparison.difference(*other.simulator, other.scaled);
+      if (difference.size() == 0)
+        return;
+      RowMatrix whitened = difference;
+      comparison.whiten(whitened);
+      for (std::size_t t = 0; t < comparison.tests.size(); ++t)
+        {
+          const ComparedTest &test = comparison.tests[t];
+          if (test.condition != c)
+            continue;
+          squares[t] = whitened.middleRows(test.begin, test.size).squaredNorm();
+          if (differences != nullptr)
+            differences->segment(test.begin, test.size) =
+              difference.segment(test.begin, test.size);
+        }
+    });
+    return squares;
+  }
+
+
+
+  double left_out_gain(const Workspace &workspace,
+                       const Model     &less,
+                       const Model     &more)
+  {
+    const auto sum = [&](const Model &model) {
+      const std::vector<double> squares = left_out_squares(workspace, model);
+      return std::accumulate(squares.begin(), squares.end(), 0.);
+    };
+    return sum(less) - sum(more);
+  }
+} // namespace SlipStep

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/search.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // Precision of the objective in fits that decide.
+    constexpr double precision = 0.1;
+
+
+
+    std::optional<Model> fitted(const Workspace &workspace, Model model)
+    {
+      return workspace.comparison.fit(model, precision) ?
+               std::make_optional(std::move(model)) :
+               std::nullopt;
+    }
+
+
+
+    // With the effect at a strength, less if that cannot be simulated.
+    std::optional<Model> fit_from(const Workspace &workspace,
+                                  const Model     &model,
+                                  const Candidate &candidate,
+                                  const Direction &direction,
+                                  const Values    &values,
+                                  double           strength)
+    {
+      const TrialFormula::Shape &shape =
+        candidate.formulas[direction.formula].shapes[direction.shape];
+      std::optional<Model> result;
+      for (unsigned int attempt = 0; attempt < 2 && !result.has_value();
+           ++attempt, strength *= 0.1)
+        result = if_possible([&]() {
+          return fitted(
+            workspace,
+            make_model(workspace.start,
+                       with_part(model, candidate, direction.formula),
+                       merged(values, shape(strength)),
+                       workspace.tests,
+                       &model));
+        });
+      return result;
+    }
+
+
+
+    // By one formula.
+    std::optional<Model> refit_by(const Workspace          &workspace,
+                                  const Model              &model,
+                                  const Candidate          &candidate,
+                                  const CandidateView::Way &way)
+    {
+      // Above, in units of the noise, a model is so far off that its
+      // parameters have been pulled anywhere: those of the start are as good.
+      constexpr double far = 2.;
+
+      // To first order; less where that is far.
+      double strength = std::clamp(way.score.strength, -50., 100.);
+      if (way.direction.is_one_sided)
+        strength = std::max(strength, 0.1);
+      std::optional<Model> best = fit_from(
+        workspace, model, candidate, way.direction, model.values(), strength);
+      if (model.objective < far * workspace.comparison.n_rows())
+        return best;
+      Values start = model.values();
+      for (const FitParameter &parameter : model.campaign->fitted)
+        start[parameter.path] = parameter.start;
+      for (const double share : {1., 0.2})
+        {
+          const std::optional<Model> other = fit_from(workspace,
+                                                      model,
+                                                      candidate,
+                                                      way.direction,
+                                                      start,
+                                                      share * strength);
+          if (other.has_value() &&
+              (!best.has_value() || other->objective < best->objective))
+            best = other;
+        }
+      return best;
+    }
+
+
+
+    bool ends_at_bound(const CandidateParameter &parameter, const Model &model)
+    {
+      for (std::size_t i = 0; i < model.scaled.size(); ++i)
+        if (model.campaign->fitted[i].path == parameter.path &&
+            ((model.scaled[i] < 1e-6 && !parameter.lower_makes_sense) ||
+             (model.scaled[i] > 1. - 1e-6 && !parameter.upper_makes_sense)))
+          return true;
+      return false;
+    }
+
+
+
+  } // namespace
+
+
+
+  bool is_at_bound(const Model &model)
+  {
+    for (const Part &part : model.parts)
+      for (const CandidateParameter &parameter : part.formula.parameters)
+        if (ends_at_bound(parameter, model))
+          return true;
+    return false;
+  }
+
+
+
+  std::optional<Model> refit_with(Workspace           &workspace,
+                                  const Model         &model,
+                                  const CandidateView &view)
+  {
+    // Below this share of the best score another formula is not tried.
+    constexpr double as_promising = 0.7;
+
+    std::optional<Model> best;
+    const auto           rank = [](const Model &tried) {
+      return std::make_pair(is_at_bound(tried), penalised(tried));
+    };
+    for (const CandidateView::Way &way : view.ways)
+      {
+        if (way.score.value < as_promising * view.score.value)
+          break;
+        ++workspace.n_refits;
+        const std::optional<Model> tried =
+          refit_by(workspace, model, view.candidate, way);
+        if (tried.has_value() &&
+            (!best.has_value() || rank(*tried) < rank(*best)))
+          best = tried;
+      }
+    return best;
+  }
+
+
+
+  std::optional<Model> refit_with_pair(Workspace             &workspace,
+                                       const Model           &model,
+                                       const View            &view,
+                                       const ScoreTest::Pair &pair)
+  {
+    std::vector<Part> parts  = model.parts;
+    Values            values = model.values();
+    const auto add = [&](const std::size_t number, const double strength) {
+      const Direction    &direction = view.set.directions[number];
+      const Candidate    &candidate = view.of(direction).candidate;
+      const TrialFormula &formula   = candidate.formulas[direction.formula];
+      parts.push_back({candidate.name, formula});
+      values = merged(values,
+                      formula.shapes[direction.shape](std::clamp(
+                        strength, formula.is_one_sided ? 0.1 : -50., 100.)));
+    };
+    add(pair.first, pair.first_strength);
+    add(pair.second, pair.second_strength);
+    ++workspace.n_refits;
+    return if_possible([&]() {
+      return fitted(
+        workspace,
+        make_model(workspace.start, parts, values, workspace.tests, &model));
+    });
+  }
+
+
+
+  Model refit_from_starts(Workspace &workspace, const Model &model)
+  {
+    // Strengths of an effect that begins anew.
+    constexpr double strength = 2.;
+
+    Model best = model;
+    for (const Part &part : model.parts)
+      for (const std::size_t shape :
+           {std::size_t(0), part.formula.shapes.size() - 1})
+        {
+          if (part.formula.shapes.empty() || workspace.is_late())
+            continue;
+          ++workspace.n_refits;
+          const std::optional<Model> tried = if_possible([&]() {
+            return fitted(workspace,
+                          make_model(workspace.start,
+                                     model.parts,
+                                     merged(model.values(),
+                                            part.formula.shapes[shape](
+                                              strength)),
+                                     workspace.tests,
+                                     &model));
+          });
+          if (tried.has_value() && !is_at_bound(*tried) &&
+              tried->objective < best.objective - sure_gain)
+            best = *tried;
+        }
+    if (best.objective < model.objective)
+      settle(workspace, best);
+    return best;
+  }
+
+
+
+  void settle(const Workspace &workspace, Model &model)
+  {
+    Model settled     = model;
+    settled.simulator = std::make_shared<Simulator>(*model.simulator);
+    try
+      {
+        settled.simulator->plan(model.scaled, model.simulator.get());
+        settled.simulator->correct(model.scaled, correction_share);
+      }
+    catch (const RunError &)
+      {
+        // It sticks and slips: the steps that it was fitted with have to do.
+        throw_if_stopped();
+        return;
+      }
+    if (workspace.comparison.fit(settled, 0.01))
+      model = settled;
+  }
+
+
+
+  double penalised(const Model &model)
+  {
+    std::size_t n = model.scaled.size();
+    for (const Part &part : model.parts)
+      n += part.formula.n_in_texts;
+    return model.objective + cost_of_parameter * n;
+  }
+
+
+
+  std::optional<Model> refit_without(Workspace        &workspace,
+                                     const Model      &model,
+                                     const std::size_t part)
+  {
+    std::vector<Part> parts;
+    for (std::size_t i = 0; i < model.parts.size(); ++i)
+      if (i != part && (!model.parts[part].corrects.empty() ||
+                        model.parts[i].corrects != model.parts[part].name))
+        parts.push_back(model.parts[i]);
+    ++workspace.n_refits;
+    return if_possible([&]() {
+      Model result = make_model(
+        workspace.start, parts, model.values(), workspace.tests, &model);
+      // The model that it is compared with is not weak in what is missing
+      // here.
+      result.simulator->correct(result.scaled, correction_share);
+      return fitted(workspace, std::move(result));
+    });
+  }
+} // namespace SlipStep
