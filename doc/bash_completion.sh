@@ -43,7 +43,7 @@ _slipstep() {
   else
     compopt -o filenames 2> /dev/null
     case $command in
-      run | point | refine | calibrate | diagnose | check | import | export)
+      run | point | refine | calibrate | diagnose | check | export)
         COMPREPLY=($(compgen -f -X '!*.prm' -- "$word") $(compgen -d -- "$word")) ;;
       *) COMPREPLY=($(compgen -f -- "$word")) ;;
     esac

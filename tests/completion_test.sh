@@ -44,4 +44,5 @@ expect 'calibrate|' slipstep help ca
 expect 'my case.prm|' slipstep run m
 expect '|' slipstep run t
 expect 'table.csv|' slipstep compare t
+expect 'table.csv|' slipstep import t
 exit $failed
