@@ -167,7 +167,7 @@ namespace SlipStep
         row.coefficient     = single(state.coefficient);
         row.slip_fraction   = step.contact.slips ? 1. : 0.;
         row.dissipated_energy = state.dissipation + snapped;
-        row.stored_energy = stored_normal + law.stored_energy(state) +
+        row.stored_energy     = stored_normal + law.stored_energy(state) +
                             machine.stored_energy(slider);
         row.kinetic_energy    = machine.kinetic_energy(slider);
         row.external_work     = work;
