@@ -511,6 +511,8 @@ namespace SlipStep
     end.memories      = start.memories;
     if (has_core())
       {
+        // After a step of 1e16 elastic slips r has no digits.
+        end.normal_ratio = std::max(end.normal_ratio, 0.);
         end.loading_ratio =
           std::min(response.traction.norm() / local.strength, maximum_ratio());
         core->remember_core(

@@ -35,9 +35,13 @@ namespace SlipStep
     if (has_core())
       {
         const Tensor<1, 2> normal = slip_normal(end);
-        work = isotropic_traction(end.traction) * normal * slip -
-               (moved_core(start, end.strength, normal, slip).energy -
-                core->core(start).energy);
+        const double       taken =
+          moved_core(start, end.strength, normal, slip).energy -
+          core->core(start).energy;
+        // Of a rate that is carried on; heat is positive.
+        work =
+          std::max(isotropic_traction(end.traction) * normal * slip - taken,
+                   0.);
       }
     return {start,
             time_step,

@@ -63,7 +63,9 @@ TEST(Forms, friction_opposite_to_slip)
       const Tensor<1, 2> f      = other.committed().traction;
       const double       across = std::abs(f[0] * e[1] - f[1] * e[0]);
       if (std::abs(std::sin(2. * (phi - turn))) > 0.1)
-        EXPECT_GT(across, 1e-3 * f.norm()) << angle;
+        {
+          EXPECT_GT(across, 1e-3 * f.norm()) << angle;
+        }
     }
 }
 

@@ -4,6 +4,8 @@
 
 #include <slipstep/friction/law.h>
 
+#include <algorithm>
+
 namespace SlipStep
 {
   /// The local system of one stage: what is given, the unknown slip, and
@@ -62,7 +64,8 @@ namespace SlipStep
 
     double heat(const bool has_core) const
     {
-      return has_core ? work : traction * slip;
+      // Not negative but by round-off.
+      return has_core ? std::max(work, 0.) : traction * slip;
     }
   };
 
