@@ -208,6 +208,25 @@ namespace SlipStep
 
 
 
+  void FrictionLaw::evaluate_flow(LocalSystem &local) const
+  {
+    const auto residual = [&](const double rate) {
+      return flow->flow_residual(local.ratio, local.normal_ratio.value, rate);
+    };
+    if (rate_memory == &neutral)
+      {
+        local.flow          = residual(local.slip / local.time_step);
+        local.d_flow_d_slip = local.flow.d_rate / local.time_step;
+        return;
+      }
+    const Rate rate =
+      rate_memory->flow_rate(local.start, local.slip, local.time_step);
+    local.flow          = residual(rate.value);
+    local.d_flow_d_slip = local.flow.d_rate * rate.derivative;
+  }
+
+
+
   void FrictionLaw::evaluate(const double traction, LocalSystem &local) const
   {
     local.traction = traction;
@@ -226,21 +245,6 @@ namespace SlipStep
     local.d_residual = local.flow.d_ratio * d_ratio +
                        local.flow.d_normal_ratio * local.normal_ratio.d_slip +
                        local.d_flow_d_slip;
-  }
-
-
-
-  void FrictionLaw::evaluate_flow(LocalSystem &local) const
-  {
-    const bool remembers = rate_memory != &neutral;
-    const Rate rate =
-      remembers ?
-        rate_memory->flow_rate(local.start, local.slip, local.time_step) :
-        Rate{local.slip / local.time_step, 0.};
-    local.flow =
-      flow->flow_residual(local.ratio, local.normal_ratio.value, rate.value);
-    local.d_flow_d_slip = remembers ? local.flow.d_rate * rate.derivative :
-                                      local.flow.d_rate / local.time_step;
   }
 
 
@@ -474,7 +478,8 @@ namespace SlipStep
   {
     const ContactState &start = stage.state;
     LocalSystem         local(stage, time_step, std::max(normal_traction, 0.));
-    local.core = core->core(start);
+    if (has_core())
+      local.core = core->core(start);
     if (normal_traction <= 0.)
       {
         evolve_coefficient(local);
