@@ -271,6 +271,16 @@ namespace SlipStep
 
 
 
+    // An effect may have several forms, which its settings and texts tell
+    // apart.
+    bool is_same_formula(const TrialFormula &a, const TrialFormula &b)
+    {
+      return a.effect == b.effect && a.settings == b.settings &&
+             a.texts == b.texts && a.parameters.size() == b.parameters.size();
+    }
+
+
+
     // In the place of a name, or another formula of it. Returns whether one
     // takes it.
     bool
@@ -295,7 +305,7 @@ namespace SlipStep
           ++n_tried;
           const std::optional<Model> tried = refit_with(workspace, less, seen);
           if (!tried.has_value() || is_at_bound(*tried) ||
-              tried->parts.back().formula.effect == part.formula.effect)
+              is_same_formula(tried->parts.back().formula, part.formula))
             continue;
           const double distance = penalised(*tried) - penalised(result.model);
           if (distance >= rival_distance ||

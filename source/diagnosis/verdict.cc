@@ -246,8 +246,7 @@ namespace SlipStep
 
     tell("looking for its name");
     look_for_names(workspace, result);
-    if (!result.found.model.parts.empty() &&
-        result.remainder.p <= workspace.level)
+    if (!result.found.model.parts.empty())
       {
         tell("looking for rows that nothing explains");
         judge_without_outliers(workspace, result);
