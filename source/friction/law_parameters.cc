@@ -205,6 +205,11 @@ namespace SlipStep
       parameters.reject("Friction/memory_length/Form",
                         "'flow' delays the flow rule: add 'overstress' or "
                         "'perzyna' to Friction/Effects");
+    if (rate_memory != &neutral && core != &neutral)
+      parameters.reject("Friction/memory_length/Form",
+                        "'flow' and the effect 'elastic_core' do not go "
+                        "together: take the form 'factor', or leave "
+                        "'elastic_core' out");
   }
 
 

@@ -162,6 +162,7 @@ namespace SlipStep
 
       ImportProposal                   proposal;
       std::vector<std::vector<double>> values; ///< of each column
+      std::vector<std::vector<double>> finite; ///< the same without gaps
     };
 
 
@@ -249,16 +250,17 @@ namespace SlipStep
         }
       table.read(positions);
       values.resize(proposal.columns.size());
+      finite.resize(proposal.columns.size());
       for (const auto &[name, i] : positions)
         {
           values[i] = table[name];
-          std::vector<double> known;
           for (const double value : values[i])
             if (!std::isnan(value))
-              known.push_back(value);
-          if (known.empty())
+              finite[i].push_back(value);
+          if (finite[i].empty())
             continue;
-          const auto range = std::minmax_element(known.begin(), known.end());
+          const auto range =
+            std::minmax_element(finite[i].begin(), finite[i].end());
           proposal.columns[i].least = *range.first;
           proposal.columns[i].most  = *range.second;
         }
@@ -300,14 +302,14 @@ namespace SlipStep
         points += 2;
       if (words.key == "Time")
         {
-          const std::vector<double> &time = values[column];
+          const std::vector<double> &time = finite[column];
           if (!varies || !std::is_sorted(time.begin(), time.end()))
             return 0;
         }
       if (words.key == "Displacement" && !varies)
         return 0;
-      if (words.key == "Friction" &&
-          median(values[column]) > 3.) // a percentage, or a force
+      if (words.key == "Friction" && !finite[column].empty() &&
+          median(finite[column]) > 3.) // a percentage, or a force
         return 0;
       return points;
     }
@@ -365,7 +367,8 @@ namespace SlipStep
                                  "N/mm^2" :
                                  "u" + seen.unit.substr(seen.unit.size() - 1);
       const bool is_negative = (key == "Normal load" || key == "Pressure") &&
-                               median(values[column]) < 0.;
+                               !finite[column].empty() &&
+                               median(finite[column]) < 0.;
       const std::string in =
         name + " in " + (is_known ? unit : base_unit(dimension));
       guess("Columns/" + key,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace SlipStep
 {
@@ -83,14 +84,24 @@ namespace SlipStep
     inertia.add_force_changes(difference, Tensor<1, dim>(), stage_time, forces);
     move_to_masters(homogeneous_constraints, forces);
     Vector passed(forces);
-    count_linear_iterations(
-      system->solve(passed, forces, 0.1 * forces.l2_norm()));
+    try
+      {
+        count_linear_iterations(
+          system->solve(passed, forces, 0.1 * forces.l2_norm()));
+      }
+    catch (const RunError &)
+      {
+        // Not known: a shorter step will tell.
+        return std::numeric_limits<double>::infinity();
+      }
     constrain(passed);
 
     difference -= passed;
     forces = 0.;
     inertia.add_force_changes(difference, Tensor<1, dim>(), stage_time, forces);
     const double energy = std::abs(forces * passed) / 2.;
+    if (energy == 0.)
+      return 0.;
 
     double stress = 0., volume = 1.;
     for (const Segment &segment : programme.segments())

@@ -286,51 +286,6 @@ TEST(BlockInertia, of_a_stiff_block_is_a_mass_at_the_point)
 
 
 
-TEST(BlockInertia, of_a_stiff_block_makes_the_stick_slip_of_the_point)
-{
-  const Settings programme  = {{"Loading/Speed", "1 mm/s"},
-                               {"Loading/Programme",
-                                "press 5 MPa in 1 s; slide for 2 mm"}};
-  const auto     stick_slip = [](const Settings &more) {
-    return make_parameters(more, "stick_slip/stick_slip.prm");
-  };
-  const double mass =
-    Machine(stick_slip(programme)).mass() / 5.; // of 5 mm of height
-  const auto result = run_block_case<2>(
-    stick_slip(stiff_block + programme +
-               Settings{{"Block/Density", exact_text(mass) + " t/mm^3"},
-                        {"Loading/Machine mass", "0"}}));
-  EXPECT_EQ(result.failure, "");
-  const auto point = point_history(stick_slip(programme));
-
-  // Between upward passes of the middle, and from trough to peak.
-  const auto cycle = [](const std::vector<HistoryRow> &history) {
-    double lowest = 1e9, highest = -1e9;
-    for (const HistoryRow &row : history)
-      if (row.time > 2.)
-        {
-          lowest  = std::min(lowest, row.friction);
-          highest = std::max(highest, row.friction);
-        }
-    std::vector<double> passes;
-    for (unsigned int i = 1; i < history.size(); ++i)
-      if (history[i].time > 2. &&
-          history[i - 1].friction < (lowest + highest) / 2. &&
-          history[i].friction >= (lowest + highest) / 2.)
-        passes.push_back(history[i].time);
-    return std::make_pair((passes.back() - passes.front()) /
-                            (passes.size() - 1.),
-                          highest - lowest);
-  };
-  const auto found = cycle(result.history), expected = cycle(point);
-  EXPECT_GT(expected.second, 0.05);
-  EXPECT_NEAR(found.first, expected.first, 0.01 * expected.first);
-  EXPECT_NEAR(found.second, expected.second, 0.01 * expected.second);
-  EXPECT_LT(missing_energy(result.history.back()), 1e-3);
-}
-
-
-
 // An elastic block that sticks, slips and rings.
 TEST(BlockInertia, keeps_the_balance_of_energy_in_stick_slip)
 {
