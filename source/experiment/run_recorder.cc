@@ -144,7 +144,8 @@ namespace SlipStep
     if (!is_writer)
       return;
     progress.clear();
-    std::cerr << "warning: " << text << std::endl;
+    // At once: a kill leaves all of it or nothing.
+    std::cerr << "warning: " + text + '\n' << std::flush;
     warnings.push_back(text);
   }
 

@@ -229,7 +229,9 @@ TEST_F(Damage, AFullDiskIsToldAndTheRunGoesOn)
         [&]() { return fs::exists(path(output) / "checkpoint"); }));
       // Enough for the history, not for the checkpoint.
       run.limit_file_size(32000);
-      ASSERT_TRUE(run.wait_until([&]() { return !run.err().empty(); }));
+      ASSERT_TRUE(run.wait_until([&]() {
+        return run.err().find("the last one is of step ") != std::string::npos;
+      }));
       if (is_killed)
         run.send(SIGKILL);
       else
