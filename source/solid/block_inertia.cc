@@ -69,8 +69,9 @@ namespace SlipStep
   // @f$\delta = (\mathbf K + \mathbf C + m)^{-1} m e@f$ with
   // @f$m = \mathbf M/(\gamma h)^2@f$, little of what is far quicker than it.
   // The energy of its stress, @f$\delta\cdot m(e - \delta)/2@f$, counts beside
-  // that in the block, and beside that of the loads while the block is still
-  // empty.
+  // that in block, contact and spring of the drive, and beside that of the
+  // loads while these are still empty. A stiff block on a soft spring has next
+  // to none of its own when it comes to rest.
   template <int dim>
   double Block<dim>::error_of_motion()
   {
@@ -113,10 +114,11 @@ namespace SlipStep
       volume *= parameters.size[d];
     const double of_loads =
       stress * stress / (2. * parameters.young_modulus) * volume;
-    constexpr double part = 0.3;
-    return part * std::sqrt(energy / std::max(of_loads,
-                                              elastic_energy() +
-                                                inertia.kinetic_energy()));
+    constexpr double part   = 0.3;
+    const double     stored = elastic_energy() + inertia.kinetic_energy() +
+                          contact.totals(communicator).stored +
+                          drive.stored_energy();
+    return part * std::sqrt(energy / std::max(of_loads, stored));
   }
 
 
