@@ -287,8 +287,7 @@ namespace SlipStep
           }
         // At least one iteration, so that every step is an equilibrium of its
         // own and not a guess that happens to be good enough.
-        if (n > 0 && (norm <= parameters.newton_tolerance * force_scale ||
-                      only_round_off_is_left()))
+        if (n > 0 && (norm <= wanted_norm() || only_round_off_is_left()))
           return true;
         if (n == parameters.newton_iterations)
           {
@@ -324,6 +323,20 @@ namespace SlipStep
 
 
 
+  // What counts as balanced. The shorter a step, the larger the forces of
+  // inertia into which the round-off of displacements turns, and no iteration
+  // takes that away.
+  template <int dim>
+  double Block<dim>::wanted_norm() const
+  {
+    return std::max(parameters.newton_tolerance * force_scale,
+                    inertia.round_off(solution,
+                                      loading.displacement.norm(),
+                                      stage_time));
+  }
+
+
+
   // Forces in a very stiff or a tilting block are differences of large numbers.
   // Close to its end Newton's method gains digits quickly; where it gains none
   // there are none.
@@ -346,9 +359,7 @@ namespace SlipStep
   double Block<dim>::linear_tolerance(const double norm) const
   {
     const double forcing = std::min(0.01, 5. * norm / force_scale);
-    return std::max({1e-13 * norm,
-                     forcing * norm,
-                     0.5 * parameters.newton_tolerance * force_scale});
+    return std::max({1e-13 * norm, forcing * norm, 0.5 * wanted_norm()});
   }
 
 
@@ -369,11 +380,10 @@ namespace SlipStep
       return compute_residual();
     };
 
-    const double converged = parameters.newton_tolerance * force_scale;
     for (double share = 1.; share > 0.05; share /= 2.)
       {
         const double norm = residual_after(share);
-        if (norm < (1. - 1e-4 * share) * old_norm || norm <= converged)
+        if (norm < (1. - 1e-4 * share) * old_norm || norm <= wanted_norm())
           return norm;
       }
     return residual_after(1.);
@@ -405,11 +415,12 @@ namespace SlipStep
 
     system->add_elastic_forces(strained_displacement(), unbalanced);
     unbalanced.compress(VectorOperation::add);
-    inertia.add_forces(solution,
-                       stage_solution,
-                       frame_motion_in_stage(),
-                       stage_time,
-                       unbalanced);
+    force_scale = std::max(force_scale,
+                           inertia.add_forces(solution,
+                                              stage_solution,
+                                              frame_motion_in_stage(),
+                                              stage_time,
+                                              unbalanced));
     add_loads(-1., unbalanced);
     move_to_masters(hanging_constraints, unbalanced);
     force_scale = std::max(force_scale, 1e-300);

@@ -3,6 +3,9 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
+#include <cmath>
+#include <limits>
+
 namespace SlipStep
 {
   using namespace dealii;
@@ -44,21 +47,52 @@ namespace SlipStep
 
 
   template <int dim>
-  void Inertia<dim>::add_forces(const Vector         &displacement,
-                                const Vector         &start,
-                                const Tensor<1, dim> &frame_motion,
-                                const double          time,
-                                Vector               &forces) const
+  double Inertia<dim>::add_forces(const Vector         &displacement,
+                                  const Vector         &start,
+                                  const Tensor<1, dim> &frame_motion,
+                                  const double          time,
+                                  Vector               &forces) const
   {
+    double square = 0.;
     for (unsigned int i = 0; i < component.size(); ++i)
       {
         const double motion = displacement.local_element(i) -
                               start.local_element(i) +
                               frame_motion[component[i]];
-        forces.local_element(i) +=
-          lumped_mass.local_element(i) *
-          (motion / time - stage_velocity.local_element(i)) / time;
+        const double force = lumped_mass.local_element(i) *
+                             (motion / time - stage_velocity.local_element(i)) /
+                             time;
+        forces.local_element(i) += force;
+        square += force * force;
       }
+    return norm_of_all(square);
+  }
+
+
+
+  template <int dim>
+  double Inertia<dim>::round_off(const Vector &displacement,
+                                 const double  frame,
+                                 const double  time) const
+  {
+    double square = 0.;
+    for (unsigned int i = 0; i < component.size(); ++i)
+      {
+        const double force = lumped_mass.local_element(i) / (time * time) *
+                             (std::abs(displacement.local_element(i)) + frame);
+        square += force * force;
+      }
+    return std::numeric_limits<double>::epsilon() * norm_of_all(square);
+  }
+
+
+
+  template <int dim>
+  double Inertia<dim>::norm_of_all(const double square) const
+  {
+    return exists() ? std::sqrt(Utilities::MPI::sum(
+                        square, lumped_mass.get_mpi_communicator())) :
+                      0.;
   }
 
 

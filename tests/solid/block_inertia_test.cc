@@ -191,6 +191,40 @@ TEST(BlockInertia, is_resolved_by_adaptive_steps)
 
 
 
+// A column whose top begins to move at V sends a wave of the stress rho c V
+// down before its foot touches anything: of the work half is motion. Steps are
+// so short that forces of inertia are differences of much larger numbers.
+TEST(BlockInertia, moves_a_block_that_has_not_touched_yet)
+{
+  const double speed = 300., time = 3e-6, density = 1e-9, wave = 1e6;
+  const auto   result = run_block_case<2>(
+    make_parameters(Settings{{"Block/Dimension", "2"},
+                             {"Block/Size", "0.2 mm, 10 mm"},
+                             {"Block/Subdivisions", "1, 64"},
+                             {"Block/Degree", "1"},
+                             {"Block/Faces/top", "displacement y -0.0009 mm"},
+                             {"Block/Young modulus", "1 GPa"},
+                             {"Block/Poisson ratio", "0"},
+                             {"Block/Density", "1000 kg/m^3"},
+                             {"Contact/Gap", "0.0005 + 0.01*x"},
+                             {"Friction/Effects", ""},
+                             {"Loading/Programme", "hold 3 us"}} +
+                    steps(1000)));
+  // The last step may not leave it there.
+  EXPECT_NE(result.failure.find("has not touched the plane"), std::string::npos)
+    << result.failure;
+  ASSERT_EQ(result.history.size(), 1000u);
+  const HistoryRow &end  = result.history.back();
+  const double      work = density * wave * speed * speed * time * 0.2;
+  EXPECT_NEAR(end.external_work, work, 0.01 * work);
+  EXPECT_NEAR(end.kinetic_energy, work / 2., 0.01 * work);
+  // The mass of half a cell begins to move within one step: an impact.
+  const double half_a_cell = 10. / 64. / 2.;
+  EXPECT_NEAR(missing_energy(end), half_a_cell / (2. * wave * time), 1e-3);
+}
+
+
+
 TEST(BlockInertia, is_the_same_with_every_solver)
 {
   const Settings block =

@@ -215,6 +215,7 @@ namespace SlipStep
     bool        solve_stage();
     double      compute_residual();
     double      least_force_scale() const;
+    double      wanted_norm() const;
     bool        only_round_off_is_left() const;
     double      linear_tolerance(const double norm) const;
     double      line_search(const Vector               &update,

@@ -74,16 +74,24 @@ namespace SlipStep
       return result;
     }
 
-    /// Add M a. Constraints are not applied.
+    /// Add M a. Constraints are not applied. All ranks take part.
     /// @param displacement, start at the end and the beginning of a stage,
     ///   relative to the frame [mm]
     /// @param frame_motion in the stage [mm]
     /// @param time of the stage [s]
-    void add_forces(const Vector                 &displacement,
-                    const Vector                 &start,
-                    const dealii::Tensor<1, dim> &frame_motion,
-                    const double                  time,
-                    Vector                       &forces) const;
+    /// @return the norm of what was added [N]
+    double add_forces(const Vector                 &displacement,
+                      const Vector                 &start,
+                      const dealii::Tensor<1, dim> &frame_motion,
+                      const double                  time,
+                      Vector                       &forces) const;
+
+    /// Norm of the forces of inertia that are nothing but round-off of
+    /// displacements [N]. All ranks take part.
+    /// @param frame displacement of the frame [mm]
+    double round_off(const Vector &displacement,
+                     const double  frame,
+                     const double  time) const;
 
     /// Add by how much they change with displacement and frame.
     void add_force_changes(const Vector                 &displacement,
@@ -129,6 +137,9 @@ namespace SlipStep
     }
 
   private:
+    /// @param square of the norm of this rank's part
+    double norm_of_all(const double square) const;
+
     const BlockParameters     parameters;
     std::vector<unsigned int> component; // of locally owned unknowns
     Vector                    lumped_mass;
