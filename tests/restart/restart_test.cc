@@ -143,6 +143,18 @@ TEST_F(Restart, OfABlockInMotionOnAnAdaptiveMeshGoesOnBitForBit)
 
 
 
+// Its centre is part of the state of every point.
+TEST_F(Restart, OfALawWithAnElasticCoreGoesOnBitForBit)
+{
+  kill_and_resume("set Block/Refinement = adaptive 1\n" +
+                  std::regex_replace(pushed,
+                                     std::regex("subloading"),
+                                     "subloading, elastic_core") +
+                  "0.05 MPa in 1 s; push 0.1 MPa in 1 s\n");
+}
+
+
+
 TEST_F(Restart, OfACurvedFaceWithAWeakPatchGoesOnBitForBit)
 {
   kill_and_resume("set Contact/Gap = (x - 5)^2/(2*200)\n"
