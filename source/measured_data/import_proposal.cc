@@ -119,6 +119,21 @@ namespace SlipStep
 
 
 
+    // A map takes the rest of a line behind # for a remark, and * for any
+    // letters; ? stands for one letter.
+    std::string name_in_map(const std::filesystem::path &file)
+    {
+      std::string name = file.filename().string();
+      std::replace_if(
+        name.begin(),
+        name.end(),
+        [](const char c) { return c == '#' || c == '*'; },
+        '?');
+      return name;
+    }
+
+
+
     /// Looks at one file.
     class Observer
     {
@@ -171,7 +186,7 @@ namespace SlipStep
     {
       const RecordLayout &layout = proposal.layout;
       guess("Raw file/Name",
-            proposal.file.filename().string(),
+            name_in_map(proposal.file),
             counted(layout.n_rows, "row") + " of " +
               counted(layout.n_cells, "cell") + ", the first is line " +
               std::to_string(layout.first_row));
@@ -397,8 +412,7 @@ namespace SlipStep
                 points = found;
               }
           if (points == 0 ||
-              (words.key == "Tangential load" && taken_as("Friction")) ||
-              (words.key == "Normal load" && taken_as("Pressure")))
+              (words.key == "Tangential load" && taken_as("Friction")))
             continue;
           guess_column(words.key, best);
         }
@@ -418,12 +432,21 @@ namespace SlipStep
           if (!seen.has_numbers || !has_word(seen.name, shear_words) ||
               dimension_of_unit(seen.unit) != Dimension::stress)
             continue;
-          const SeenColumn &pressure = *taken_as("Pressure");
-          seen.taken_as              = "Friction";
+          seen.taken_as = "Friction";
+          // With its unit and sign, as far as they are known.
+          const ImportGuess &pressure =
+            *std::find_if(proposal.guesses.begin(),
+                          proposal.guesses.end(),
+                          [](auto &guess) {
+                            return guess.path == "Columns/Pressure";
+                          });
+          const bool is_formula = pressure.value.find('{') != std::string::npos;
+          const std::string divisor = is_formula ? "(" + pressure.value + ")" :
+                                                   "{" + pressure.value + "}";
           guess("Columns/Friction",
-                "{" + reference(i) + " in " + seen.unit + "}/{" +
-                  reference(pressure.number - 1) + " in " + pressure.unit + "}",
-                "shear stress over normal stress");
+                "{" + reference(i) + " in " + seen.unit + "}/" + divisor,
+                "shear stress over normal stress",
+                pressure.is_open);
           return;
         }
     }
@@ -474,10 +497,12 @@ namespace SlipStep
                   "no column is called like a pressure",
                   true);
         }
-      if (has_load || (taken_as("Tangential load")))
+      const bool has_pressure = taken_as("Pressure");
+      const bool has_force    = taken_as("Tangential load");
+      if (has_pressure ? has_force && !has_load : has_force || has_load)
         guess("Constants/Area",
               "1 mm^2 assumed",
-              taken_as("Pressure") ?
+              has_pressure ?
                 "turns the pressure into a normal load" :
                 "turns the normal load into a pressure; without 'assumed' if "
                 "it is known",

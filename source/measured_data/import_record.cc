@@ -7,7 +7,9 @@
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/text.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -222,9 +224,13 @@ namespace SlipStep
                    "give either this column or Constants/Speed");
       if (columns.has("Displacement"))
         return values("Displacement");
+      const auto first = // a gap may begin the record
+        std::find_if(time.begin(), time.end(), [](const double value) {
+          return std::isfinite(value);
+        });
       std::vector<double> result(time);
       for (double &value : result)
-        value = *speed * (value - time.front());
+        value = first == time.end() ? value : *speed * (value - *first);
       return result;
     }
 
@@ -437,7 +443,9 @@ namespace SlipStep
       std::vector<std::size_t> chosen;
       try
         {
-          parts  = cut_record(record, cut);
+          parts = cut_record(record, cut);
+          if (parts.empty())
+            throw InputError("no part has the two rows that a test needs");
           path   = "Selection/Parts";
           chosen = chosen_parts(map.text(path), parts.size());
         }

@@ -215,6 +215,29 @@ namespace
      {"Columns/Displacement = column 2 in um",
       "Columns/Friction = column 3",
       "Columns/Pressure = column 4 in N/mm^2"},
+     {}},
+    {"shear.csv", // compression counts negative
+     "t [s],d [mm],sigma_n [MPa],tau [MPa]\n"
+     "0,0,-5,0\n1,1,-5,0.5\n2,2,-5,0.5\n",
+     {"Columns/Pressure = -1*{sigma_n [MPa] in MPa}",
+      "Columns/Friction = {tau [MPa] in MPa}/(-1*{sigma_n [MPa] in MPa})"},
+     {"Constants/Area"}},
+    {"shear_without_unit.csv",
+     "t [s],d [mm],sigma_n,tau [MPa]\n"
+     "0,0,5,0\n1,1,5,0.5\n2,2,5,0.5\n",
+     {"? Columns/Pressure = sigma_n in MPa",
+      "? Columns/Friction = {tau [MPa] in MPa}/{sigma_n in MPa}"},
+     {}},
+    {"load_and_pressure.csv",
+     "t [s],d [mm],normal load [N],pressure [MPa],friction force [N]\n"
+     "0,0,60,5,0\n1,1,60,5,6\n2,2,60,5,6\n",
+     {"Columns/Normal load = normal load [N] in N",
+      "Columns/Pressure = pressure [MPa] in MPa",
+      "Columns/Tangential load = friction force [N] in N"},
+     {"Constants/Area"}},
+    {"run #2*.csv",
+     "t [s],d [mm],mu,p [MPa]\n0,0,0,5\n1,1,0.1,5\n2,2,0.1,5\n",
+     {"Raw file/Name = run ?2?.csv"},
      {}}};
 } // namespace
 
@@ -252,6 +275,7 @@ TEST(ImportProposal, CompleteMapsConvert)
         import_record(proposal.map(), {proposal.file, {}}, "a");
       ASSERT_EQ(tests.size(), 1u) << example.name;
       EXPECT_GE(tests[0].time.size(), 3u) << example.name;
+      EXPECT_GE(tests[0].friction.back(), 0.) << example.name;
     }
   EXPECT_GE(n_complete, 7u);
 }

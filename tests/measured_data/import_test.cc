@@ -135,6 +135,16 @@ TEST(Import, SpeedRowsAndNumberedColumns)
   EXPECT_EQ(test.time, std::vector<double>({1., 2.}));
   EXPECT_EQ(test.displacement, std::vector<double>({0., 1.}));
   EXPECT_EQ(test.friction, std::vector<double>({0.1, 0.2}));
+
+  // A gap may begin the record.
+  const auto begun_late =
+    import_test(map_of({{"Columns/Time", "t in s"},
+                        {"Columns/Friction", "mu"},
+                        {"Constants/Speed", "60 mm/min"},
+                        {"Constants/Pressure", "2 MPa"}}),
+                write("late.csv", "t,mu\n,0.1\n1,0.1\n2,0.2\n3,0.1\n"));
+  EXPECT_EQ(begun_late.time, std::vector<double>({0., 1., 2.}));
+  EXPECT_EQ(begun_late.displacement, std::vector<double>({0., 1., 2.}));
 }
 
 
@@ -434,6 +444,9 @@ TEST(Import, RecordsAreCutAtHoldsAndTimes)
   refused("at 100 s", "all", "outside of the record");
   refused("at 30 s, 20 s", "all", "must increase");
   refused("at reversals", "7", "6 parts only");
+  expect_refused(and_also(simple, {{"Selection/Cut", "at 1 s"}}),
+                 write("two_rows.csv", "t,x,mu\n0,0,0\n1,1,0.1\n"),
+                 "no part has the two rows");
   refused("at reversals", "2, 1 to 3", "named twice");
   refused("at reversals", "two", "write numbers of parts");
 }
