@@ -90,6 +90,41 @@ namespace SlipStep
     {
       return {value, value, value};
     }
+
+
+
+    // The normal stiffness is linear: its work is what it stores.
+    double normal_energy(const FrictionLaw &law, const ContactState &state)
+    {
+      return std::pow(state.normal_traction, 2) / (2. * law.normal_stiffness());
+    }
+
+
+
+    // What the contact alone has to say after a step.
+    HistoryRow row_of(const FrictionLaw  &law,
+                      const ContactPoint &point,
+                      const Loading      &loading,
+                      const bool          is_closed)
+    {
+      const ContactState &state    = point.trial();
+      const double        pressure = loading.pressure;
+      HistoryRow          row;
+      row.pressure          = pressure;
+      row.friction          = is_closed ? state.traction[0] / pressure : 0.;
+      row.friction_y        = is_closed ? state.traction[1] / pressure : 0.;
+      row.normal_load       = pressure;
+      row.tangential_load   = state.traction[0];
+      row.loading_ratio     = single(state.loading_ratio);
+      row.normal_ratio      = single(state.normal_ratio);
+      row.coefficient       = single(state.coefficient);
+      row.dissipated_energy = state.dissipation;
+      row.stored_energy = normal_energy(law, state) + law.stored_energy(state);
+      row.newton_iterations = 1;
+      row.slip              = state.slip_path;
+      row.memories          = state.memories;
+      return row;
+    }
   } // namespace
 
 
@@ -136,14 +171,8 @@ namespace SlipStep
         if (!control.accept(machine.error(law, point, step).measure()))
           continue;
 
-        const ContactState &state = point.trial();
-        // The normal stiffness is linear, so its work is what it stores.
-        const double stored_before =
-          std::pow(point.committed().normal_traction, 2) /
-          (2. * law.normal_stiffness());
-        const double stored_normal =
-          std::pow(state.normal_traction, 2) / (2. * law.normal_stiffness());
-        work += stored_normal - stored_before + step.work;
+        work += normal_energy(law, point.trial()) -
+                normal_energy(law, point.committed()) + step.work;
         // A contact that opens lets a spring without mass go.
         const bool is_closed = to.pressure > 0.;
         if (!is_closed && machine.mass() == 0.)
@@ -153,28 +182,16 @@ namespace SlipStep
           pushed += step.motion;
         point.commit();
 
-        HistoryRow row;
-        row.time            = control.time();
-        row.displacement    = to.displacement[0] + pushed[0];
-        row.displacement_y  = to.displacement[1] + pushed[1];
-        row.pressure        = to.pressure;
-        row.friction        = is_closed ? state.traction[0] / to.pressure : 0.;
-        row.friction_y      = is_closed ? state.traction[1] / to.pressure : 0.;
-        row.normal_load     = to.pressure;
-        row.tangential_load = state.traction[0];
-        row.loading_ratio   = single(state.loading_ratio);
-        row.normal_ratio    = single(state.normal_ratio);
-        row.coefficient     = single(state.coefficient);
-        row.slip_fraction   = step.contact.slips ? 1. : 0.;
-        row.dissipated_energy = state.dissipation + snapped;
-        row.stored_energy     = stored_normal + law.stored_energy(state) +
-                            machine.stored_energy(slider);
-        row.kinetic_energy    = machine.kinetic_energy(slider);
-        row.external_work     = work;
-        row.step_size         = time_step;
-        row.newton_iterations = 1;
-        row.slip              = state.slip_path;
-        row.memories          = state.memories;
+        HistoryRow row     = row_of(law, point, to, is_closed);
+        row.time           = control.time();
+        row.displacement   = to.displacement[0] + pushed[0];
+        row.displacement_y = to.displacement[1] + pushed[1];
+        row.slip_fraction  = step.contact.slips ? 1. : 0.;
+        row.dissipated_energy += snapped;
+        row.stored_energy += machine.stored_energy(slider);
+        row.kinetic_energy = machine.kinetic_energy(slider);
+        row.external_work  = work;
+        row.step_size      = time_step;
         if (!machine.is_rigid())
           row.probes = Machine::probes(slider, to.pressure);
         observe(row);

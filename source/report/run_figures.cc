@@ -274,21 +274,43 @@ namespace SlipStep
 
 
 
+    // Of slides that are steady, over their speeds [mm/min].
+    Rows steady_ratios(const std::vector<RunResults> &runs, Range &speeds)
+    {
+      Rows ratios;
+      for (const RunResults &run : runs)
+        for (const SlideSummary &slide : run.summary.slides)
+          if (slide.is_complete && slide.slip_fraction >= 0.999 &&
+              !run.summary.is_unstable(slide))
+            {
+              ratios.push_back({slide.speed * mm_min, slide.dynamic_ratio});
+              speeds.add(slide.speed * mm_min);
+            }
+      return ratios;
+    }
+
+
+
+    Rows reference_line(const Reference &reference, const Range &speeds)
+    {
+      Rows line;
+      for (int i = 0; i <= 60; ++i)
+        {
+          const double speed =
+            speeds.lower * std::pow(speeds.upper / speeds.lower, i / 60.);
+          line.push_back({speed, reference.dynamic_ratio(speed / mm_min)});
+        }
+      return line;
+    }
+
+
+
     void add_speed_picture(RunFigures &figures)
     {
       const auto &runs      = figures.runs;
       const auto &reference = figures.reference;
-      Rows        simulated;
       Range       speeds;
-      for (const RunResults &run : runs)
-        for (const SlideSummary &slide : run.summary.slides)
-          {
-            if (!slide.is_complete || slide.slip_fraction < 0.999 ||
-                run.summary.is_unstable(slide))
-              continue;
-            simulated.push_back({slide.speed * mm_min, slide.dynamic_ratio});
-            speeds.add(slide.speed * mm_min);
-          }
+      const Rows  simulated = steady_ratios(runs, speeds);
       if (simulated.empty() || speeds.upper < 1.001 * speeds.lower)
         return;
 
@@ -300,12 +322,7 @@ namespace SlipStep
               marks.push_back({speed * mm_min, reference.dynamic_ratio(speed)});
               speeds.add(speed * mm_min);
             }
-          for (int i = 0; i <= 60; ++i)
-            {
-              const double speed =
-                speeds.lower * std::pow(speeds.upper / speeds.lower, i / 60.);
-              line.push_back({speed, reference.dynamic_ratio(speed / mm_min)});
-            }
+          line = reference_line(reference, speeds);
         }
 
       Figure figure(figures.folder,

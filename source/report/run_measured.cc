@@ -117,52 +117,73 @@ namespace SlipStep
 
 
 
-    void draw_measured(RunFigures                        &figures,
-                       const std::vector<MeasuredBeside> &measured,
-                       const bool                         is_over_time)
+    std::string abscissa(const bool is_over_time)
     {
-      const std::vector<RunResults> &runs = figures.runs;
-      const std::string abscissa = is_over_time ? "time" : "displacement";
-      Figure            figure(figures.folder,
-                    "measured_over_" + abscissa,
-                    "Measured and simulated friction over " + abscissa,
-                    picture_width,
-                    // The legend is below.
-                    390 + 12 * (measured.size() + runs.size()));
+      return is_over_time ? "time" : "displacement";
+    }
+
+
+
+    // Their points; in words how far those that a run repeats are off.
+    std::string plot_measured(Figure                            &figure,
+                              const RunFigures                  &figures,
+                              const std::vector<MeasuredBeside> &measured,
+                              const bool                         is_over_time,
+                              Range                             &friction)
+    {
       const std::vector<std::string> greys = {"#777777", "#aaaaaa", "#444444"};
-      Range                          friction;
       std::string                    differences;
-      std::vector<bool>              is_drawn(runs.size(), false);
       std::size_t                    n = 0;
       for (const MeasuredBeside &beside : measured)
         {
           const MeasuredTest &test = beside.test;
           Rows                points;
           for (std::size_t i = 0; i < test.time.size(); ++i)
-            points.push_back(
-              {is_over_time ?
-                 beside.start_time + test.time[i] - test.time[0] :
-                 beside.start + test.displacement[i] - test.displacement[0],
-               test.friction[i]});
-          for (const auto &point : points)
-            friction.add(point[1]);
+            {
+              points.push_back(
+                {is_over_time ?
+                   beside.start_time + test.time[i] - test.time[0] :
+                   beside.start + test.displacement[i] - test.displacement[0],
+                 test.friction[i]});
+              friction.add(test.friction[i]);
+            }
           figure.plot(test.name,
-                      {abscissa, "friction"},
+                      {abscissa(is_over_time), "friction"},
                       thinned(points),
                       "with points pt 7 ps 0.4 lc rgb '" +
                         greys[n++ % greys.size()] + "' title " +
                         gnuplot_text(test.name + ", measured"));
-          if (beside.is_repeated)
-            {
-              is_drawn[beside.run] = true;
-              const std::string difference =
-                difference_in_words(beside, runs[beside.run]);
-              differences += (difference.empty()  ? "" :
-                              differences.empty() ? "" :
-                                                    "; ") +
-                             difference;
-            }
+          if (!beside.is_repeated)
+            continue;
+          const std::string difference =
+            difference_in_words(beside, figures.runs[beside.run]);
+          if (!difference.empty())
+            differences += (differences.empty() ? "" : "; ") + difference;
         }
+      return differences;
+    }
+
+
+
+    void draw_measured(RunFigures                        &figures,
+                       const std::vector<MeasuredBeside> &measured,
+                       const bool                         is_over_time)
+    {
+      const std::vector<RunResults> &runs = figures.runs;
+      const std::string              over = abscissa(is_over_time);
+      Figure                         figure(figures.folder,
+                    "measured_over_" + over,
+                    "Measured and simulated friction over " + over,
+                    picture_width,
+                    // The legend is below.
+                    390 + 12 * (measured.size() + runs.size()));
+      Range                          friction;
+      const std::string              differences =
+        plot_measured(figure, figures, measured, is_over_time, friction);
+      std::vector<bool> is_drawn(runs.size(), false);
+      for (const MeasuredBeside &beside : measured)
+        if (beside.is_repeated)
+          is_drawn[beside.run] = true;
       const bool draws_all = std::none_of(is_drawn.begin(),
                                           is_drawn.end(),
                                           [](bool is) { return is; });
@@ -175,7 +196,7 @@ namespace SlipStep
             points.push_back(
               {is_over_time ? row.time : row.displacement, row.friction});
           if (!points.empty())
-            plot_run(figure, runs[i], i, {abscissa, "friction"}, points, 1.8);
+            plot_run(figure, runs[i], i, {over, "friction"}, points, 1.8);
         }
       figure.script() << axes_style
                       << "set key outside below Left reverse\n"

@@ -258,79 +258,97 @@ namespace SlipStep
       return script;
     }
 
+    /// The points of a picture, of each run or of all runs together.
+    struct RequestedCurves
+    {
+      std::vector<Rows>        points;
+      std::vector<std::string> names; ///< "" for one that needs none
+      bool                     is_joined = false;
+      /// Where something else varies, too, a line would be a zigzag.
+      bool  is_zigzag = false;
+      Range x, y;
+    };
+
+
+
+    RequestedCurves curves_of(const RequestedPicture &requested,
+                              const RunFigures       &figures)
+    {
+      RequestedCurves curves;
+      const auto     &runs    = figures.runs;
+      std::size_t     longest = 0;
+      for (const RunResults &run : runs)
+        {
+          curves.points.push_back(points_of(requested, run, figures.reference));
+          curves.names.push_back(runs.size() > 1 ? legend(run) : "");
+          longest = std::max(longest, curves.points.back().size());
+          for (const auto &point : curves.points.back())
+            {
+              curves.x.add(point[0]);
+              curves.y.add(point[1]);
+            }
+        }
+      // The speeds of a sweep make one curve of all runs.
+      curves.is_joined = !requested.is_of<OfStep>() && longest <= 1;
+      if (!curves.is_joined)
+        return curves;
+      Rows all;
+      for (const Rows &points : curves.points)
+        all.insert(all.end(), points.begin(), points.end());
+      std::sort(all.begin(), all.end());
+      curves.is_zigzag =
+        std::adjacent_find(all.begin(),
+                           all.end(),
+                           [](const auto &one, const auto &other) {
+                             return other[0] - one[0] <=
+                                    1e-6 * std::abs(one[0]);
+                           }) != all.end();
+      curves.points = {all};
+      curves.names  = {""};
+      return curves;
+    }
+
+
+
     void add_requested_picture(RunFigures             &figures,
                                const std::string      &name,
                                const RequestedPicture &requested)
     {
-      const auto &runs  = figures.runs;
-      std::string title = requested.text;
-      title[0]          = std::toupper(title[0]);
-      Range      x, y;
-      const bool is_curve = requested.is_of<OfStep>();
-      // The speeds of a sweep make one curve of all runs.
-      Rows       all;
-      const bool is_joined =
-        !is_curve &&
-        std::all_of(runs.begin(), runs.end(), [&](const auto &run) {
-          return points_of(requested, run, figures.reference).size() <= 1;
-        });
-      const unsigned int height = requested.is_polar() ? 560 : 400;
-      LegendPlace        legend_place;
-      if (runs.size() > 1 && !is_joined)
-        legend_place = place_legend(runs, {}, height);
-      if (legend_place.is_beside)
-        legend_place.commands = "set key outside right top Left reverse\n";
-      Figure     figure(figures.folder,
-                    name,
-                    title,
-                    picture_width,
-                    height + legend_place.more_height);
-      bool       is_zigzag = false;
-      const auto plot      = [&](const Rows        &points,
-                            const std::size_t  i,
-                            const std::string &of) {
-        if (points.empty())
-          return;
-        for (const auto &point : points)
-          {
-            x.add(point[0]);
-            y.add(point[1]);
-          }
-        figure.plot(of,
-                    {requested.x.name, requested.y.name},
-                    points,
-                    (is_curve  ? "with lines lw 1.8 " :
-                          is_zigzag ? "with points pt 7 ps 0.8 " :
-                                      "with linespoints pt 7 ps 0.8 lw 1.2 ") +
-                      run_style(i) +
-                      (of.empty() ? " notitle" : " title " + gnuplot_text(of)));
-      };
-      for (std::size_t i = 0; i < runs.size(); ++i)
-        {
-          const Rows points = points_of(requested, runs[i], figures.reference);
-          if (is_joined)
-            all.insert(all.end(), points.begin(), points.end());
-          else
-            plot(points, i, runs.size() > 1 ? legend(runs[i]) : "");
-        }
-      std::sort(all.begin(), all.end());
-      // Where something else varies, too, a line would be a zigzag.
-      is_zigzag = std::adjacent_find(all.begin(),
-                                     all.end(),
-                                     [](const auto &one, const auto &other) {
-                                       return other[0] - one[0] <=
-                                              1e-6 * std::abs(one[0]);
-                                     }) != all.end();
-      plot(all, 0, "");
-      // Nothing was plotted.
-      if (!std::isfinite(x.width()))
+      const RequestedCurves curves = curves_of(requested, figures);
+      if (!std::isfinite(curves.x.width()))
         {
           figures.warnings.push_back("no picture '" + requested.text +
                                      "': no slide or step has both of them");
           return;
         }
+      std::string title           = requested.text;
+      title[0]                    = std::toupper(title[0]);
+      const bool         is_curve = requested.is_of<OfStep>();
+      const unsigned int height   = requested.is_polar() ? 560 : 400;
+      LegendPlace        legend_place;
+      if (curves.points.size() > 1)
+        legend_place = place_legend(figures.runs, {}, height);
+      if (legend_place.is_beside)
+        legend_place.commands = "set key outside right top Left reverse\n";
+      Figure            figure(figures.folder,
+                    name,
+                    title,
+                    picture_width,
+                    height + legend_place.more_height);
+      const std::string marks = is_curve         ? "with lines lw 1.8 " :
+                                curves.is_zigzag ? "with points pt 7 ps 0.8 " :
+                                                   "with linespoints pt 7 ps "
+                                                   "0.8 lw 1.2 ";
+      for (std::size_t i = 0; i < curves.points.size(); ++i)
+        if (const std::string &of = curves.names[i]; !curves.points[i].empty())
+          figure.plot(of,
+                      {requested.x.name, requested.y.name},
+                      curves.points[i],
+                      marks + run_style(i) +
+                        (of.empty() ? " notitle" :
+                                      " title " + gnuplot_text(of)));
       figure.script() << axes_style << legend_place.commands
-                      << axes_of(requested, x, y);
+                      << axes_of(requested, curves.x, curves.y);
       figures.add(figure,
                   title,
                   is_curve ? "" :

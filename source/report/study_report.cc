@@ -7,6 +7,7 @@
 #include <slipstep/report/study_report.h>
 #include <slipstep/utilities/text.h>
 
+#include <array>
 #include <cmath>
 
 namespace SlipStep
@@ -46,24 +47,16 @@ namespace SlipStep
               {n_b, a.error / 2. * std::pow(n_a / n_b, slope)}};
     }
 
-    Picture draw(const std::filesystem::path           &folder,
-                 const std::size_t                      number,
-                 const std::vector<const StudyCurve *> &curves,
-                 std::vector<std::string>              &warnings)
+    /// What the two parts of a picture plot; none if no run has an error.
+    std::array<std::string, 2>
+    plots_of(Figure                                &figure,
+             const std::vector<const StudyCurve *> &curves,
+             const bool                             is_time)
     {
-      const StudyCurve &first   = *curves.front();
-      const bool        is_time = first.kind == StudySequence::Kind::time_step;
-      const std::string title   = "Convergence of the " + first.quantity +
-                                (is_time ? " with the time step" : "");
-      Figure figure(folder,
-                    "convergence_" + std::to_string(number),
-                    title,
-                    picture_width,
-                    380);
-
-      std::string  plots[2];
-      const char  *separator = "";
-      unsigned int n_points  = 0;
+      const StudyCurve          &first = *curves.front();
+      std::array<std::string, 2> plots;
+      const char                *separator = "";
+      unsigned int               n_points  = 0;
       for (const StudyCurve *curve : curves)
         {
           Rows rows;
@@ -101,7 +94,29 @@ namespace SlipStep
           plot += ", " + exact_text(uncertainty) +
                   " with lines lc rgb '#888888' lw 1.5 title " +
                   gnuplot_text("uncertainty of the reference");
+      return plots;
+    }
 
+
+
+    Picture draw(const std::filesystem::path           &folder,
+                 const std::size_t                      number,
+                 const std::vector<const StudyCurve *> &curves,
+                 std::vector<std::string>              &warnings)
+    {
+      const StudyCurve &first   = *curves.front();
+      const bool        is_time = first.kind == StudySequence::Kind::time_step;
+      const std::string title   = "Convergence of the " + first.quantity +
+                                (is_time ? " with the time step" : "");
+      Figure figure(folder,
+                    "convergence_" + std::to_string(number),
+                    title,
+                    picture_width,
+                    380);
+
+      const auto plots = plots_of(figure, curves, is_time);
+      if (plots[0].empty())
+        return {};
       figure.script() << axes_style
                       << "set key inside left bottom Left reverse\n"
                          "set logscale xy\nset format '10^{%T}'\n"
@@ -117,7 +132,8 @@ namespace SlipStep
         " (" + first.reference_name +
         (std::isfinite(first.order) ? ", order " + fixed_text(first.order, 2) :
                                       "") +
-        "), which is itself uncertain by " + short_text(uncertainty, 2) +
+        "), which is itself uncertain by " +
+        short_text(first.relative_uncertainty(), 2) +
         " of it. Runs whose difference is not above that are not shown.";
       return finish(figure, title, caption, warnings);
     }

@@ -36,179 +36,176 @@ namespace SlipStep
 
 
 
-    const std::vector<Command> &commands()
-    {
-      constexpr unsigned int            any  = std::numeric_limits<int>::max();
-      static const std::vector<Command> list = {
-        {"run",
-         "CASE.prm",
-         "simulate the block with finite elements",
-         "Runs the case, or all its variants side by side on the cores. On\n"
-         "several processes: mpirun -np N slipstep run CASE.prm\n"
-         "Checkpoints are written at times (Checkpoint/Every), on SIGUSR1, and\n"
-         "when the run is stopped (SIGTERM, Ctrl-C); --resume goes on from\n"
-         "there and keeps the variants that are finished.\n",
-         1,
-         1,
-         {"set", "sweep", "slurm", "output", "variant", "resume", "quiet"},
-         {}},
-        {"point",
-         "CASE.prm",
-         "the same law and loading on one contact point",
-         "Like run, but without block and mesh: a matter of seconds, and no\n"
-         "checkpoints. --resume keeps the variants that are finished.\n",
-         1,
-         1,
-         {"set", "sweep", "slurm", "output", "variant", "resume", "quiet"},
-         {}},
-        {"refine",
-         "CASE.prm",
-         "study the convergence with mesh and time step",
-         "Runs the case on the meshes and with the time steps of its section\n"
-         "\"Refinement study\", each in a process of its own, and compares the\n"
-         "quantities of interest (Output/Quantities): tables on the screen,\n"
-         "refinement.csv, refinement.json, and pictures of the error over\n"
-         "unknowns and CPU time in report.html. Differences that are not above\n"
-         "the reference's own uncertainty are not shown as errors, and an order\n"
-         "takes four runs. A run that fails is reported; the others go on. Of a\n"
-         "sweep, choose one member with --variant. --resume keeps the runs that\n"
-         "are finished and goes on with the others.\n",
-         1,
-         1,
-         {"set", "output", "variant", "resume", "quiet"},
-         {}},
-        {"compare",
-         "RESULTS ...",
-         "put results of several runs into one page",
-         "RESULTS are folders that run or point wrote, of single runs or whole\n"
-         "sweeps, and measured tests (.csv) to be drawn beside. The page has\n"
-         "their curves and tables together, and the keys in which they differ.\n",
-         1,
-         any,
-         {"output", "quiet"},
-         {}},
-        {"calibrate",
-         "CASE.prm",
-         "find parameters from measured tests",
-         "Section \"Calibration\" of the case names the tests and the parameters\n"
-         "with their bounds. Prints and reports (report.html, calibration.json)\n"
-         "values with intervals, what the tests cannot tell, and how well each\n"
-         "test is met; fitted.prm is the case with the values found. Of a sweep,\n"
-         "choose one member with --variant.\n",
-         1,
-         1,
-         {"set", "output", "variant", "quiet"},
-         {}},
-        {"diagnose",
-         "CASE.prm",
-         "find the effect that is missing in a case, and add it",
-         "Calibrates the case with its measured tests (section \"Calibration\"),\n"
-         "finds where they disagree beyond the noise of replicates, names what is\n"
-         "missing - or says that nothing is, that several effects would do, or\n"
-         "that no effect of the catalogue does - adds it, and shows the gap\n"
-         "shrink, on the contact point and with finite elements (section\n"
-         "\"Diagnosis\"). Writes report.html, diagnosis.json and improved.prm.\n",
-         1,
-         1,
-         {"set", "output", "variant", "quiet"},
-         {}},
-        {"import",
-         "RAW | MAP.prm [RAW]",
-         "convert files of instruments into measured tests",
-         "RAW alone, as the instrument wrote it, is looked at: a map is written\n"
-         "beside it (RAW_map.prm), every line with the reason why, and a page\n"
-         "that shows what it makes of the record (output/RAW/import). MAP.prm\n"
-         "says which column holds what in which unit, what is not in the file\n"
-         "(area, pressure), and what its signs mean; \"slipstep parameters\n"
-         "import\" prints all of its keys. RAW behind it is the file, or the\n"
-         "folder of the files, that the map names. The tests, one per variant,\n"
-         "file and part, go into the folder \"measured\" beside the map.\n",
-         1,
-         2,
-         {"set", "output", "variant", "quiet"},
-         {}},
-        {"export",
-         "CASE.prm",
-         "write the law of a case for other programs",
-         "Section Friction of the case alone, law.prm, for C, Fortran or Python\n"
-         "with libslipstep_friction. With --format abaqus the user subroutine\n"
-         "FRIC (fric.f), the law that it reads (slipstep.prm) and the lines of\n"
-         "the input file (interaction.inp).\n",
-         1,
-         1,
-         {"set", "output", "variant", "format", "quiet"},
-         {"law", "abaqus"}},
-        {"plant",
-         "FOLDER",
-         "make measured tests with a hidden effect, as an exercise",
-         "Writes tests as a laboratory would (FOLDER/measured), a case that\n"
-         "lacks what is hidden and is badly set (case.prm), and the answer, not\n"
-         "to be read by accident (answer.sealed; slipstep plant --open FILE\n"
-         "prints it). Classes: none, one (effect of the catalogue), two,\n"
-         "other_formula, outside (the catalogue), ablated (the case lacks\n"
-         "overstress or softening), narrow (one, but the tests hardly tell\n"
-         "effects apart). The same class and seed give the same tests.\n",
-         0,
-         1,
-         {"class",
-          "seed",
-          "effect",
-          "tests",
-          "no-replicates",
-          "noise",
-          "noise-factor",
-          "amplitude",
-          "edition",
-          "list",
-          "open",
-          "quiet"},
-         {}},
-        {"check",
-         "CASE.prm ...",
-         "read and cross-check cases and tests, compute nothing",
-         "Prints one line per case; writes no file. Reads measured tests, too:\n"
-         "a .csv file, or a folder of them, whose replicates are compared.\n",
-         1,
-         any,
-         {"set", "sweep", "output", "variant", "quiet"},
-         {}},
-        {"effects",
-         "[NAME ...]",
-         "list the effects of the friction law",
-         "With formula, parameters, units and source of each, or of those named.\n",
-         0,
-         any,
-         {"format"},
-         {"text", "md"}},
-        {"parameters",
-         "[import] [NAME ...]",
-         "list all parameters with their defaults",
-         "Or those of the keys and sections named: Friction/healing, healing,\n"
-         "\"Time stepping/Tolerance\". As a commented .prm file to start from, a\n"
-         "page to search in (html), tables (md), one key per line (keys), for\n"
-         "programs (json), or as a JSON schema (schema). \"slipstep parameters\n"
-         "import\" lists the keys of a map for slipstep import.\n",
-         0,
-         any,
-         {"set", "format"},
-         {"prm", "html", "md", "keys", "json", "schema"}},
-        {"help",
-         "[COMMAND]",
-         "explain the program or a command",
-         "",
-         0,
-         1,
-         {},
-         {}}};
-      return list;
-    }
+    constexpr unsigned int any = std::numeric_limits<int>::max();
+
+    const std::vector<Command> commands = {
+      {"run",
+       "CASE.prm",
+       "simulate the block with finite elements",
+       "Runs the case, or all its variants side by side on the cores. On\n"
+       "several processes: mpirun -np N slipstep run CASE.prm\n"
+       "Checkpoints are written at times (Checkpoint/Every), on SIGUSR1, and\n"
+       "when the run is stopped (SIGTERM, Ctrl-C); --resume goes on from\n"
+       "there and keeps the variants that are finished.\n",
+       1,
+       1,
+       {"set", "sweep", "slurm", "output", "variant", "resume", "quiet"},
+       {}},
+      {"point",
+       "CASE.prm",
+       "the same law and loading on one contact point",
+       "Like run, but without block and mesh: a matter of seconds, and no\n"
+       "checkpoints. --resume keeps the variants that are finished.\n",
+       1,
+       1,
+       {"set", "sweep", "slurm", "output", "variant", "resume", "quiet"},
+       {}},
+      {"refine",
+       "CASE.prm",
+       "study the convergence with mesh and time step",
+       "Runs the case on the meshes and with the time steps of its section\n"
+       "\"Refinement study\", each in a process of its own, and compares the\n"
+       "quantities of interest (Output/Quantities): tables on the screen,\n"
+       "refinement.csv, refinement.json, and pictures of the error over\n"
+       "unknowns and CPU time in report.html. Differences that are not above\n"
+       "the reference's own uncertainty are not shown as errors, and an order\n"
+       "takes four runs. A run that fails is reported; the others go on. Of a\n"
+       "sweep, choose one member with --variant. --resume keeps the runs that\n"
+       "are finished and goes on with the others.\n",
+       1,
+       1,
+       {"set", "output", "variant", "resume", "quiet"},
+       {}},
+      {"compare",
+       "RESULTS ...",
+       "put results of several runs into one page",
+       "RESULTS are folders that run or point wrote, of single runs or whole\n"
+       "sweeps, and measured tests (.csv) to be drawn beside. The page has\n"
+       "their curves and tables together, and the keys in which they differ.\n",
+       1,
+       any,
+       {"output", "quiet"},
+       {}},
+      {"calibrate",
+       "CASE.prm",
+       "find parameters from measured tests",
+       "Section \"Calibration\" of the case names the tests and the parameters\n"
+       "with their bounds. Prints and reports (report.html, calibration.json)\n"
+       "values with intervals, what the tests cannot tell, and how well each\n"
+       "test is met; fitted.prm is the case with the values found. Of a sweep,\n"
+       "choose one member with --variant.\n",
+       1,
+       1,
+       {"set", "output", "variant", "quiet"},
+       {}},
+      {"diagnose",
+       "CASE.prm",
+       "find the effect that is missing in a case, and add it",
+       "Calibrates the case with its measured tests (section \"Calibration\"),\n"
+       "finds where they disagree beyond the noise of replicates, names what is\n"
+       "missing - or says that nothing is, that several effects would do, or\n"
+       "that no effect of the catalogue does - adds it, and shows the gap\n"
+       "shrink, on the contact point and with finite elements (section\n"
+       "\"Diagnosis\"). Writes report.html, diagnosis.json and improved.prm.\n",
+       1,
+       1,
+       {"set", "output", "variant", "quiet"},
+       {}},
+      {"import",
+       "RAW | MAP.prm [RAW]",
+       "convert files of instruments into measured tests",
+       "RAW alone, as the instrument wrote it, is looked at: a map is written\n"
+       "beside it (RAW_map.prm), every line with the reason why, and a page\n"
+       "that shows what it makes of the record (output/RAW/import). MAP.prm\n"
+       "says which column holds what in which unit, what is not in the file\n"
+       "(area, pressure), and what its signs mean; \"slipstep parameters\n"
+       "import\" prints all of its keys. RAW behind it is the file, or the\n"
+       "folder of the files, that the map names. The tests, one per variant,\n"
+       "file and part, go into the folder \"measured\" beside the map.\n",
+       1,
+       2,
+       {"set", "output", "variant", "quiet"},
+       {}},
+      {"export",
+       "CASE.prm",
+       "write the law of a case for other programs",
+       "Section Friction of the case alone, law.prm, for C, Fortran or Python\n"
+       "with libslipstep_friction. With --format abaqus the user subroutine\n"
+       "FRIC (fric.f), the law that it reads (slipstep.prm) and the lines of\n"
+       "the input file (interaction.inp).\n",
+       1,
+       1,
+       {"set", "output", "variant", "format", "quiet"},
+       {"law", "abaqus"}},
+      {"plant",
+       "FOLDER",
+       "make measured tests with a hidden effect, as an exercise",
+       "Writes tests as a laboratory would (FOLDER/measured), a case that\n"
+       "lacks what is hidden and is badly set (case.prm), and the answer, not\n"
+       "to be read by accident (answer.sealed; slipstep plant --open FILE\n"
+       "prints it). Classes: none, one (effect of the catalogue), two,\n"
+       "other_formula, outside (the catalogue), ablated (the case lacks\n"
+       "overstress or softening), narrow (one, but the tests hardly tell\n"
+       "effects apart). The same class and seed give the same tests.\n",
+       0,
+       1,
+       {"class",
+        "seed",
+        "effect",
+        "tests",
+        "no-replicates",
+        "noise",
+        "noise-factor",
+        "amplitude",
+        "edition",
+        "list",
+        "open",
+        "quiet"},
+       {}},
+      {"check",
+       "CASE.prm ...",
+       "read and cross-check cases and tests, compute nothing",
+       "Prints one line per case; writes no file. Reads measured tests, too:\n"
+       "a .csv file, or a folder of them, whose replicates are compared.\n",
+       1,
+       any,
+       {"set", "sweep", "output", "variant", "quiet"},
+       {}},
+      {"effects",
+       "[NAME ...]",
+       "list the effects of the friction law",
+       "With formula, parameters, units and source of each, or of those named.\n",
+       0,
+       any,
+       {"format"},
+       {"text", "md"}},
+      {"parameters",
+       "[import] [NAME ...]",
+       "list all parameters with their defaults",
+       "Or those of the keys and sections named: Friction/healing, healing,\n"
+       "\"Time stepping/Tolerance\". As a commented .prm file to start from, a\n"
+       "page to search in (html), tables (md), one key per line (keys), for\n"
+       "programs (json), or as a JSON schema (schema). \"slipstep parameters\n"
+       "import\" lists the keys of a map for slipstep import.\n",
+       0,
+       any,
+       {"set", "format"},
+       {"prm", "html", "md", "keys", "json", "schema"}},
+      {"help",
+       "[COMMAND]",
+       "explain the program or a command",
+       "",
+       0,
+       1,
+       {},
+       {}}};
 
 
 
     std::vector<std::string> command_names()
     {
       std::vector<std::string> names;
-      for (const Command &command : commands())
+      for (const Command &command : commands)
         names.push_back(command.name);
       return names;
     }
@@ -217,7 +214,7 @@ namespace SlipStep
 
     const Command &find_command(const std::string &name)
     {
-      for (const Command &command : commands())
+      for (const Command &command : commands)
         if (command.name == name)
           return command;
       const bool is_case =
@@ -406,6 +403,88 @@ namespace SlipStep
 
 
 
+    std::string text_of(const po::variables_map &values,
+                        const std::string       &name)
+    {
+      return values.count(name) ? values[name].as<std::string>() : "";
+    }
+
+
+
+    // An option that is given has a value.
+    std::string named_by(const po::variables_map &values,
+                         const std::string       &name,
+                         const std::string       &what)
+    {
+      const std::string text = text_of(values, name);
+      if (values.count(name) && text.empty())
+        throw InputError("--" + name + ": the name of " + what + " is needed");
+      return text;
+    }
+
+
+
+    std::vector<std::string> list_of(const po::variables_map &values,
+                                     const std::string       &name)
+    {
+      return values.count(name) ? values[name].as<std::vector<std::string>>() :
+                                  std::vector<std::string>();
+    }
+
+
+
+    std::map<std::string, std::string>
+    plant_options(const po::variables_map &values)
+    {
+      std::map<std::string, std::string> options;
+      for (const std::string name : {"class",
+                                     "seed",
+                                     "effect",
+                                     "tests",
+                                     "noise",
+                                     "noise-factor",
+                                     "amplitude",
+                                     "edition",
+                                     "open"})
+        if (values.count(name))
+          {
+            const std::string text = text_of(values, name);
+            if (text.empty())
+              throw InputError("--" + name + ": a value is needed");
+            options[name] = name == "open" ? with_home(text).string() : text;
+          }
+      for (const std::string name : {"no-replicates", "list"})
+        if (values.count(name))
+          options[name];
+      return options;
+    }
+
+
+
+    void read_settings(const po::variables_map &values, CommandLine &line)
+    {
+      line.settings_as_typed = list_of(values, "set");
+      for (const std::string &typed : line.settings_as_typed)
+        {
+          const auto setting = parse_setting("--set", typed);
+          for (const auto &other : line.settings)
+            if (other.first == setting.first)
+              throw InputError("--set " + setting.first + " is given twice: " +
+                               other.second + " and " + setting.second);
+          line.settings.push_back(setting);
+        }
+      line.sweeps_as_typed = list_of(values, "sweep");
+      for (const std::string &typed : line.sweeps_as_typed)
+        line.sweeps.push_back(parse_sweep(typed));
+      for (const auto &sweep : line.sweeps)
+        for (const auto &setting : line.settings)
+          if (setting.first == sweep.first)
+            throw InputError("--sweep " + sweep.first +
+                             ": --set gives it, too: leave out one of the two");
+    }
+
+
+
     void check_usage(const CommandLine &line, const po::variables_map &values)
     {
       const Command &command = find_command(line.command);
@@ -448,67 +527,19 @@ namespace SlipStep
   {
     const po::variables_map values = parse_options(argc, argv);
     CommandLine             line;
-    const auto              text = [&values](const std::string &name) {
-      return values.count(name) ? values[name].as<std::string>() : "";
-    };
-    const auto list = [&values](const std::string &name) {
-      return values.count(name) ? values[name].as<std::vector<std::string>>() :
-                                  std::vector<std::string>();
-    };
-    line.output            = with_home(text("output")).string();
-    line.format            = text("format");
-    line.variant           = text("variant");
-    line.slurm             = with_home(text("slurm")).string();
-    line.quiet             = values.count("quiet") > 0;
-    line.resume            = values.count("resume") > 0;
-    line.is_child          = values.count("child") > 0;
-    line.version           = values.count("version") > 0;
-    line.help              = values.count("help") > 0;
-    line.settings_as_typed = list("set");
-    for (const std::string name : {"class",
-                                   "seed",
-                                   "effect",
-                                   "tests",
-                                   "noise",
-                                   "noise-factor",
-                                   "amplitude",
-                                   "edition",
-                                   "open"})
-      if (values.count(name))
-        {
-          line.plant_options[name] =
-            name == "open" ? with_home(text(name)).string() : text(name);
-          if (text(name).empty())
-            throw InputError("--" + name + ": a value is needed");
-        }
-    for (const std::string name : {"no-replicates", "list"})
-      if (values.count(name))
-        line.plant_options[name];
-    for (const std::string &typed : line.settings_as_typed)
-      {
-        const auto setting = parse_setting("--set", typed);
-        for (const auto &other : line.settings)
-          if (other.first == setting.first)
-            throw InputError("--set " + setting.first + " is given twice: " +
-                             other.second + " and " + setting.second);
-        line.settings.push_back(setting);
-      }
-    line.sweeps_as_typed = list("sweep");
-    for (const std::string &typed : line.sweeps_as_typed)
-      line.sweeps.push_back(parse_sweep(typed));
-    for (const auto &sweep : line.sweeps)
-      for (const auto &setting : line.settings)
-        if (setting.first == sweep.first)
-          throw InputError("--sweep " + sweep.first +
-                           ": --set gives it, too: leave out one of the two");
-    if (values.count("output") && line.output.empty())
-      throw InputError("--output: the name of a folder is needed");
-    if (values.count("slurm") && line.slurm.empty())
-      throw InputError("--slurm: the name of a file is needed");
-    if (values.count("variant") && line.variant.empty())
-      throw InputError("--variant: the name of a variant is needed");
+    line.output   = with_home(named_by(values, "output", "a folder")).string();
+    line.slurm    = with_home(named_by(values, "slurm", "a file")).string();
+    line.variant  = named_by(values, "variant", "a variant");
+    line.format   = text_of(values, "format");
+    line.quiet    = values.count("quiet") > 0;
+    line.resume   = values.count("resume") > 0;
+    line.is_child = values.count("child") > 0;
+    line.version  = values.count("version") > 0;
+    line.help     = values.count("help") > 0;
+    line.plant_options = plant_options(values);
+    read_settings(values, line);
 
-    const std::vector<std::string> words = list("words");
+    const std::vector<std::string> words = list_of(values, "words");
     if (!words.empty())
       line.command = words.front();
     if (line.version)
@@ -540,7 +571,7 @@ namespace SlipStep
         out
           << "slipstep: rate-dependent friction of a sliding elastic block\n\n"
           << "usage: slipstep COMMAND [CASE.prm] [options]\n\ncommands:\n";
-        for (const Command &command : commands())
+        for (const Command &command : commands)
           {
             const std::string left = command.name + " " + command.arguments;
             out << "  " << left
