@@ -301,14 +301,19 @@ namespace SlipStep
 
 
 
-  // Of a vector in a disc its components are scaled together.
+  // Of a vector in a disc its components are scaled together. Other memories
+  // keep their places.
   template <int dim>
   void ContactProjection<dim>::limit_cores(std::vector<Fields> &fields) const
   {
     const Fields mean      = mean_of(fields, weights);
+    const auto   memories  = law.core_memories();
     const auto   scaled_by = [&](const double factor, Fields values) {
-      for (unsigned int i = first_memory; i < n_fields; ++i)
-        values[i] = mean[i] + factor * (values[i] - mean[i]);
+      for (const ContactMemory &memory : memories)
+        {
+          const unsigned int i = first_memory + memory.slot;
+          values[i]            = mean[i] + factor * (values[i] - mean[i]);
+        }
       return values;
     };
     const auto fits = [&](const double factor) {

@@ -185,6 +185,38 @@ TEST(ContactProjection, any_state_stays_admissible_and_integrals_stay)
 
 
 
+// A core that leaves its limit between the points is drawn in; what else
+// contacts remember stays the line that it is.
+TEST(ContactProjection, other_memories_do_not_follow_a_core)
+{
+  const FrictionLaw          law = make_law(effects[5]);
+  const ContactProjection<2> projection(1, law);
+  const ContactMemory        core   = contact_memory("core_1");
+  const ContactMemory        age    = contact_memory("contact_age_s");
+  const auto                 points = dealii::QGauss<1>(2).get_points();
+  std::vector<ContactState>  parent(2);
+  for (unsigned int q = 0; q < 2; ++q)
+    {
+      parent[q].normal_traction = 1.;
+      parent[q].coefficient     = law.coefficient_range()[1];
+      parent[q].strength        = parent[q].coefficient;
+      parent[q][age]            = 5. + points[q][0];
+    }
+  parent[1][core] = 1.; // beyond the limit
+  law.complete(parent[1]);
+  const double limit = parent[1][core];
+
+  const auto children = projection.refine(parent);
+  EXPECT_NEAR(children[1][1][core], limit, 1e-9 * limit);
+  for (unsigned int child = 0; child < 2; ++child)
+    for (unsigned int q = 0; q < 2; ++q)
+      EXPECT_NEAR(children[child][q][age],
+                  5. + (child + points[q][0]) / 2.,
+                  1e-12);
+}
+
+
+
 // Full slip with a pressure that varies: the traction is at its limit at every
 // point, and nothing may be scaled because of round-off.
 TEST(ContactProjection, full_slip_is_kept)

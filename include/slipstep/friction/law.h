@@ -99,6 +99,12 @@ namespace SlipStep
              (1. + 1e-12) * core->core_limit();
     }
 
+    /// What the elastic core remembers; nothing without one.
+    std::vector<ContactMemory> core_memories() const
+    {
+      return core->memories();
+    }
+
     /// The smallest and the largest mu that can be reached from the initial
     /// one.
     const std::array<double, 2> &coefficient_range() const
