@@ -120,7 +120,7 @@ namespace SlipStep
   ImportColumns::Source
   ImportColumns::find_source(const std::string             &path,
                              const std::string             &text,
-                             const std::optional<Dimension> dimension) const
+                             const std::optional<Dimension> dimension)
   {
     const std::string bare = " as recorded";
     std::size_t       in   = text.rfind(" in ");
@@ -138,10 +138,9 @@ namespace SlipStep
     Source source{"", find_column(path, name), {}};
     if (is_bare || dimension == Dimension::number)
       return source;
-    if (unit.empty())
-      unit = table.units()[source.position];
-    if (unit.empty())
-      unit = split_heading(table.header()[source.position]).unit;
+    const bool is_told = !unit.empty();
+    if (!is_told)
+      unit = unit_in_file(source.position);
     const std::string remedy =
       dimension.has_value() ?
         "'" + name + " in " + base_unit(*dimension) + "', or whatever it is" :
@@ -163,12 +162,44 @@ namespace SlipStep
       {
         map.reject(path, error.what());
       }
+    if (is_told)
+      compare_units(source.position, unit, *wanted);
     return source;
   }
 
 
 
-  ImportColumns::Recipe ImportColumns::read_formula(const ColumnKey &key) const
+  std::string ImportColumns::unit_in_file(const std::size_t position) const
+  {
+    const std::string &unit = table.units()[position];
+    return unit.empty() ? split_heading(table.header()[position]).unit : unit;
+  }
+
+
+
+  // The file may be wrong, but nobody should find out by a factor of 60.
+  void ImportColumns::compare_units(const std::size_t  position,
+                                    const std::string &unit,
+                                    const Dimension    dimension)
+  {
+    const std::string in_file = unit_in_file(position);
+    const auto        known   = dimension_of_unit(in_file);
+    if (!known.has_value() ||
+        (*known == dimension && unit_conversion(in_file, dimension)(1.) ==
+                                  unit_conversion(unit, dimension)(1.)))
+      return;
+    const std::string words = "column " + std::to_string(position + 1) +
+                              " is taken in " + unit + ", the file says " +
+                              in_file;
+    if (std::count(contradicting_units.begin(),
+                   contradicting_units.end(),
+                   words) == 0)
+      contradicting_units.push_back(words);
+  }
+
+
+
+  ImportColumns::Recipe ImportColumns::read_formula(const ColumnKey &key)
   {
     const std::string path = "Columns/" + key.name;
     std::string       text = map.text(path);

@@ -364,7 +364,11 @@ namespace SlipStep
                                 rounded_text(seen.most, 5);
       if (dimension == Dimension::number)
         {
-          guess("Columns/" + key, name, range);
+          const bool may_be_force = seen.name == "f" && seen.unit.empty();
+          guess("Columns/" + key,
+                name,
+                range + (may_be_force ? "; or is it a force?" : ""),
+                may_be_force);
           return;
         }
       const bool is_known =

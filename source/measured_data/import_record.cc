@@ -535,6 +535,12 @@ namespace SlipStep
           for (double &value : *series)
             value = -value;
       tidy(record);
+      for (const std::string &words : columns.contradictions())
+        {
+          record.warnings.push_back(raw_file.file.string() + ": " + words);
+          std::string &note = notes["units"];
+          note += (note.empty() ? "" : "; ") + words;
+        }
       record.notes                   = notes;
       record.notes["converted from"] = raw_file.file.filename().string();
       return parts_of(record);

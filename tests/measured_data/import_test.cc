@@ -491,6 +491,32 @@ TEST(Import, ZeroAndDriftOfASensorAreTakenOff)
 
 
 
+TEST(Import, UnitsThatContradictTheFileAreTold)
+{
+  const auto raw =
+    write("raw.csv", "Time [s],Pos [mm],F [N]\n0,0,0\n60,1,0.5\n");
+  const auto read = [&](const std::string &time, const std::string &force) {
+    return import_test(map_of({{"Columns/Time", time},
+                               {"Columns/Displacement", "Pos [mm]"},
+                               {"Columns/Tangential load", force},
+                               {"Constants/Normal load", "5 N"},
+                               {"Constants/Area", "1 mm^2"}}),
+                       raw);
+  };
+  EXPECT_TRUE(read("Time [s] in s", "F [N]").warnings.empty());
+  EXPECT_TRUE(read("Time [s]", "{F [N] in N} + 0.1").warnings.empty());
+  const auto wrong = read("Time [s] in min", "2*{F [N] in kN} + {F [N] in kN}");
+  ASSERT_GE(wrong.warnings.size(), 2u);
+  EXPECT_EQ(wrong.time.back(), 3600.);
+  EXPECT_NE(wrong.notes.at("units").find(
+              "column 1 is taken in min, the file says s; column 3 is taken in "
+              "kN, the file says N"),
+            std::string::npos)
+    << wrong.notes.at("units");
+}
+
+
+
 TEST(Import, WhatIsAssumedIsSaid)
 {
   auto settings = of_strokes;

@@ -47,6 +47,12 @@ namespace SlipStep
     /// The values of a key in base units; NaN where a cell is empty.
     std::vector<double> values(const std::string &key) const;
 
+    /// Columns whose unit in the map is not that in the file, in words.
+    const std::vector<std::string> &contradictions() const
+    {
+      return contradicting_units;
+    }
+
     /// Report a value of a key.
     /// @throws InputError "file:line:column: why"
     [[noreturn]] void reject(const std::size_t  row,
@@ -75,13 +81,21 @@ namespace SlipStep
 
     Source find_source(const std::string             &path,
                        const std::string             &text,
-                       const std::optional<Dimension> dimension) const;
+                       const std::optional<Dimension> dimension);
 
-    Recipe read_formula(const ColumnKey &key) const;
+    /// "" if it says none.
+    std::string unit_in_file(const std::size_t position) const;
+
+    void compare_units(const std::size_t  position,
+                       const std::string &unit,
+                       const Dimension    dimension);
+
+    Recipe read_formula(const ColumnKey &key);
 
     const Parameters             &map;
     CsvTable                     &table;
     std::map<std::string, Recipe> recipes;
+    std::vector<std::string>      contradicting_units;
   };
 } // namespace SlipStep
 
