@@ -62,6 +62,29 @@ namespace SlipStep
 
 
 
+    // A key without a say in the results, or one value written in two ways: the
+    // table of the sweep would look as if it made no difference.
+    void print_warning_of_twins(const Case        &the_case,
+                                const std::string &command)
+    {
+      constexpr std::size_t most = 100; // as all are compared with all
+      const std::size_t     n    = std::min(most, the_case.complete.size());
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          const CaseIdentity identity(the_case.complete[i], command);
+          for (std::size_t j = i + 1; j < n; ++j)
+            if (identity.is_that_of(the_case.complete[j]))
+              return print_warnings(
+                {"'" + the_case.variants[i].label + "' and '" +
+                 the_case.variants[j].label +
+                 "' of the sweep are the same case: what they differ in does "
+                 "not act on the results of slipstep " +
+                 command});
+        }
+    }
+
+
+
     class Runner
     {
     public:
@@ -115,6 +138,8 @@ namespace SlipStep
         print_warnings(warnings_of_programmes(the_case));
       if (is_first_rank && !line.is_child && line.command == "point")
         print_warnings_of_point(the_case);
+      if (is_first_rank && !line.is_child && the_case.is_sweep())
+        print_warning_of_twins(the_case, line.command);
       earlier.assign(the_case.complete.size(), EarlierRun::none);
       if (line.resume)
         look_for_earlier_runs();

@@ -68,7 +68,8 @@ namespace SlipStep
       return begins_with(path, "Loading/") ||
              begins_with(path, "Time stepping/") ||
              begins_with(path, "Friction/") || path == "Output/Quantities" ||
-             (command == "run" && begins_with(path, "Block/"));
+             (command == "run" &&
+              (begins_with(path, "Block/") || begins_with(path, "Contact/")));
     }
 
 
@@ -185,6 +186,21 @@ namespace SlipStep
     parameters.reject("Loading/Programme",
                       "a test that it follows has changed since " + owner +
                         " was made" + remedy);
+  }
+
+
+
+  bool CaseIdentity::is_that_of(const Parameters &parameters) const
+  {
+    try
+      {
+        require_same(parameters, "");
+        return true;
+      }
+    catch (const InputError &)
+      {
+        return false;
+      }
   }
 
 

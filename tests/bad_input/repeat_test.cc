@@ -147,6 +147,29 @@ TEST(Repeat, SettingsAreAmongTheUsedParameters)
 
 
 
+// A table of equal rows would look as if the key made no difference.
+TEST(Repeat, MembersThatAreTheSameCaseAreTold)
+{
+  const SlipstepProcess process;
+  process.write("case.prm",
+                "set Loading/Programme = press 5 MPa in 1 s; slide 1 mm/s for "
+                "0.01 mm\n");
+  const auto warning = [&](const std::string &sweep) {
+    const auto result = process.run(
+      {"point", "case.prm", "--sweep", sweep, "--quiet", "--output", "out"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  for (const std::string &sweep : {"Block/Young modulus=206 GPa|70 GPa",
+                                   "Friction/Static coefficient=0.2|0.20",
+                                   "Output/Directory=a|b"})
+    EXPECT_NE(warning(sweep).find("are the same case"), std::string::npos)
+      << sweep;
+  EXPECT_EQ(warning("Friction/Static coefficient=0.2|0.3"), "");
+}
+
+
+
 TEST(Repeat, ThePrintedParametersAreACase)
 {
   const SlipstepProcess process;

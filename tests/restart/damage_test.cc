@@ -186,6 +186,9 @@ TEST_F(Damage, NoneButAnotherCaseIsRefusedByName)
   expect_refused("reworded",
                  with("Block/Degree=2"),
                  {"Block/Degree = 2", "finished run"});
+  expect_refused("reworded",
+                 with("Contact/Strength=1 - 0.1*(x > 5)"),
+                 {"Contact/Strength", "finished run"});
 
   const auto result =
     process.run({"point", "case.prm", "--output", "victim", "--resume"});

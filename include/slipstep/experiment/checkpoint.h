@@ -38,6 +38,9 @@ namespace SlipStep
     void require_same(const Parameters  &parameters,
                       const std::string &owner) const;
 
+    /// Whether a case differs in nothing.
+    bool is_that_of(const Parameters &parameters) const;
+
     /// Pairs (path of a parameter, value), in declared order.
     std::vector<std::pair<std::string, std::string>> values;
     /// Checksum of the segments of the programme.
