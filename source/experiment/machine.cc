@@ -367,7 +367,8 @@ namespace SlipStep
   // alone would make, of position and velocity. The stage itself lets a part of
   // it through; of oscillations far quicker than it little is left. Of a swing
   // the scheme itself errs far less than this, so a part of it counts.
-  double Machine::error_of_motion(const MachineStep &step) const
+  double Machine::error_of_motion(const MachineStep &step,
+                                  const double       body) const
   {
     const double       stage_time = TwoStages::gamma * step.time_step;
     const Tensor<1, 2> position   = 0.5 * TwoStages::carry * stage_time *
@@ -379,7 +380,7 @@ namespace SlipStep
     constexpr double part = 0.3;
     const double     all  = stiffness() + step.contact.d_slip.norm();
     return part * all * (position + stage_time * velocity).norm() /
-           (1. + all * stage_time * stage_time / areal_mass);
+           (1. + all * stage_time * stage_time / (areal_mass + body));
   }
 
 

@@ -244,9 +244,11 @@ namespace SlipStep
     const double ideal = 0.9 * std::sqrt(tolerance / std::max(error, 1e-30));
     if (!would_accept(error))
       {
-        shrink(step * std::max(0.2, std::min(ideal, 0.7)),
-               std::string("the friction law asks for less than ") +
-                 least_step_key + " or the clock's resolution");
+        shrink(
+          step * std::max(0.2, std::min(ideal, 0.7)),
+          std::string(
+            "the error allowed (Time stepping/Tolerance) asks for less than ") +
+            least_step_key + " or the clock's resolution");
         return false;
       }
 

@@ -83,9 +83,10 @@ namespace SlipStep
         // On a new mesh the contact finds another equilibrium at once, however
         // short the step; the step's length was fine before.
         double error = contact.step_error(communicator);
-        error        = std::max({error,
-                                 drive.error(drive_resistance, totals.limit_load),
-                                 error_of_motion()});
+        error =
+          std::max({error,
+                    drive.error(drive_springs, driven_mass, totals.limit_load),
+                    error_of_motion()});
         if (mesh_is_new)
           error = std::min(error, control.wanted_error());
         if (control.would_accept(error) && adapt_to_trial(output))

@@ -174,7 +174,7 @@ namespace SlipStep
               << " or, where round-off is in the way, a larger Block/Newton "
                  "tolerance may help ("
               << failure << ")";
-    else if (drive.is_unknown())
+    else if (drive.is_unknown() && drive.mass() == 0. && !inertia.exists())
       message << drive.reason_of_failure() << " (" << failure << ")";
     else
       message << failure;

@@ -7,6 +7,7 @@
 #include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 namespace SlipStep
@@ -144,9 +145,11 @@ namespace SlipStep
     const Tensor<1, 2> missing =
       force_missing_on_drive() - force_on_drive(changes);
 
-    Vector correction(update);
-    drive_resistance       = Tensor<2, 2>();
-    drive_resistance[1][1] = 1.; // of a block in 2-D
+    Vector       correction(update);
+    Tensor<2, 2> resistance;
+    resistance[1][1] = 1.; // of a block in 2-D
+    drive_springs    = Tensor<2, 2>();
+    driven_mass      = std::numeric_limits<double>::max();
     for (unsigned int j = 0; j < dim - 1; ++j)
       {
         Tensor<1, 2> unit;
@@ -164,10 +167,17 @@ namespace SlipStep
         compute_force_changes(drive_modes[j], unit, changes);
         const Tensor<1, 2> force = force_on_drive(changes);
         for (unsigned int i = 0; i < dim - 1; ++i)
-          drive_resistance[i][j] = force[i];
+          resistance[i][j] = drive_springs[i][j] = force[i];
+        // What resists with the square of the time is no spring: shorter steps
+        // would not make its error less.
+        Tensor<1, dim> direction;
+        direction[parameters.tangential_axis(j)] = 1.;
+        const double mass = inertia.mass_of(drive_modes[j], direction);
+        drive_springs[j][j] -= mass / (stage_time * stage_time);
+        driven_mass = std::min(driven_mass, mass);
       }
 
-    Tensor<2, 2> all = drive_resistance;
+    Tensor<2, 2> all = resistance;
     for (unsigned int i = 0; i < dim - 1; ++i)
       all[i][i] += drive.stiffness();
     const bool         resists = determinant(all) > 0. && trace(all) > 0.;

@@ -100,20 +100,21 @@ namespace SlipStep
 
 
 
-  double Drive::error(const Tensor<2, 2> &contact_stiffness,
+  double Drive::error(const Tensor<2, 2> &springs,
+                      const double        body,
                       const double        strength) const
   {
     if (machine.mass() == 0.)
       return 0.;
     MachineStep step;
-    step.contact.d_slip = contact_stiffness / area;
+    step.contact.d_slip = springs / area;
     step.start          = at_start;
     step.first          = first;
     step.second         = stage_start;
     step.slider         = stage_end;
     step.time_step      = stage_time / TwoStages::gamma;
     StepError error;
-    error.at_end = machine.error_of_motion(step) /
+    error.at_end = machine.error_of_motion(step, body / area) /
                    std::max(strength / area, stage_end.load.norm());
     return error.measure();
   }

@@ -112,6 +112,23 @@ namespace SlipStep
 
 
   template <int dim>
+  double Inertia<dim>::mass_of(const Vector         &mode,
+                               const Tensor<1, dim> &frame) const
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < component.size(); ++i)
+      {
+        const double motion = mode.local_element(i) + frame[component[i]];
+        sum += lumped_mass.local_element(i) * motion * motion;
+      }
+    return exists() ?
+             Utilities::MPI::sum(sum, lumped_mass.get_mpi_communicator()) :
+             0.;
+  }
+
+
+
+  template <int dim>
   void Inertia<dim>::end_stage(const Vector         &displacement,
                                const Vector         &start,
                                const Tensor<1, dim> &frame_motion,

@@ -142,7 +142,7 @@ TEST(BlockMachine, of_a_stiff_block_is_that_of_the_point)
 
 
 
-// Whether the mass is that of the driven face or that of the body.
+// Whether the mass is that of the driven face, of the body or of both.
 TEST(BlockMachine, sticks_and_slips_as_the_point)
 {
   const Settings programme  = {{"Loading/Speed", "1 mm/s"},
@@ -156,7 +156,9 @@ TEST(BlockMachine, sticks_and_slips_as_the_point)
   EXPECT_GT(expected.period, 0.05);
   const Settings masses[] = {{},
                              {{"Loading/Machine mass", "0"},
-                              {"Block/Density", "2e-6 t/mm^3"}}};
+                              {"Block/Density", "2e-6 t/mm^3"}},
+                             {{"Loading/Machine mass", "5e-6 MPa s^2/mm"},
+                              {"Block/Density", "1e-6 t/mm^3"}}};
   for (const Settings &mass : masses)
     {
       const auto block =
@@ -166,6 +168,35 @@ TEST(BlockMachine, sticks_and_slips_as_the_point)
       EXPECT_NEAR(found.period, expected.period, 0.01 * expected.period);
       EXPECT_NEAR(found.drop, expected.drop, 0.01 * expected.drop);
       EXPECT_LT(found.missing, 1e-3);
+      expect_balanced(block.history);
+    }
+}
+
+
+
+// Faster than waves go through the block: the inertia that the driven face
+// meets is no spring, however short the step.
+TEST(BlockMachine, pushes_and_pulls_a_body_with_mass)
+{
+  const Settings common = {{"Friction/Effects", ""},
+                           {"Friction/Static coefficient", "0.2"},
+                           {"Block/Dimension", "2"},
+                           {"Block/Size", "20 mm, 4 mm"},
+                           {"Block/Subdivisions", "8, 2"},
+                           {"Block/Degree", "1"},
+                           {"Block/Density", "7850 kg/m^3"},
+                           {"Loading/Machine stiffness", "500 MPa/mm"},
+                           {"Loading/Machine mass", "10 kg/m^2"}};
+  for (const std::string &motion :
+       {"push 0.8 MPa in 20 us", "slide 100 mm/s for 20 us"})
+    {
+      SCOPED_TRACE(motion);
+      const auto block = run_block_case<2>(make_parameters(
+        common +
+        Settings{{"Loading/Programme", "press 5 MPa in 1 ms; " + motion}}));
+      EXPECT_EQ(block.failure, "");
+      EXPECT_LT(block.history.size(), 1000u);
+      EXPECT_GT(block.history.back().tangential_load, 0.);
       expect_balanced(block.history);
     }
 }

@@ -109,7 +109,9 @@ namespace SlipStep
                     const MachineStep  &step) const;
 
     /// Estimated error of the load that the motion of the mass makes [MPa].
-    double error_of_motion(const MachineStep &step) const;
+    /// @param body mass per area that moves with it [MPa s^2/mm]
+    double error_of_motion(const MachineStep &step,
+                           const double       body = 0.) const;
 
     /// What the probes of a history are, in the order of probes().
     static std::vector<std::string> probe_names();

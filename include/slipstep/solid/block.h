@@ -313,11 +313,13 @@ namespace SlipStep
     double               trial_damped_energy = 0.; // likewise, by viscosity
 
     // The drive; how the block follows it where that is unknown, the forces
-    // that has to balance, and what the driven faces resist [N/mm].
+    // that has to balance, the springs of block and contact in it [N/mm], and
+    // the mass of the block that moves along [t].
     Drive                       drive;
     std::array<Vector, dim - 1> drive_modes;
     std::array<double, dim - 1> mode_scale;
-    dealii::Tensor<2, 2>        drive_resistance;
+    dealii::Tensor<2, 2>        drive_springs;
+    double                      driven_mass = 0.;
 
     // Newton's method.
     FaceVector          contact_forces; // not constrained

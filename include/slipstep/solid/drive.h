@@ -70,6 +70,12 @@ namespace SlipStep
              (force_at_start - resistance * (displacement - stage_start.slip));
     }
 
+    /// Of the drive without the block [MPa s^2/mm].
+    double mass() const
+    {
+      return machine.mass();
+    }
+
     /// How fast that falls with their displacement [N/mm].
     double stiffness() const
     {
@@ -82,9 +88,12 @@ namespace SlipStep
 
     /// Estimated error of the motion of the mass in the step that ended, as
     /// StepError::measure().
-    /// @param contact_stiffness of block and contact [N/mm]
+    /// @param springs of block and contact against a motion of the driven
+    ///   faces [N/mm]
+    /// @param body mass of the block that such a motion takes along [t]
     /// @param strength of the contact [N]
-    double error(const dealii::Tensor<2, 2> &contact_stiffness,
+    double error(const dealii::Tensor<2, 2> &springs,
+                 const double                body,
                  const double                strength) const;
 
     /// At the end of the last step; `slip` is the displacement of the driven

@@ -99,6 +99,12 @@ namespace SlipStep
                            const double                  time,
                            Vector                       &forces) const;
 
+    /// Mass that a mode moves: the sum of m (v + frame)^2 [t]. All ranks take
+    /// part.
+    /// @param mode, frame displacement of the block in the frame, and its own
+    double mass_of(const Vector                 &mode,
+                   const dealii::Tensor<1, dim> &frame) const;
+
     /// Take over the motion in the stage that ended; arguments as of
     /// add_forces().
     void end_stage(const Vector                 &displacement,
