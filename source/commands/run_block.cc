@@ -81,7 +81,8 @@ namespace SlipStep
               if (!failure.empty())
                 throw RunError(failure);
             },
-            [&]() { checkpoints.write_if_due(block, output, recorder); });
+            [&]() { checkpoints.write_if_due(block, output, recorder); },
+            [&]() { return checkpoints.cannot_wait(); });
         }
       catch (const RunError &error)
         {

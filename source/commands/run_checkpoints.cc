@@ -124,10 +124,17 @@ namespace SlipStep
     if (*std::max_element(wishes.begin(), wishes.end()) == 0)
       return;
 
-    const int          signal  = wishes[0];
-    const std::string  failure = write(block, fields, recorder);
-    const unsigned int step    = block.step_control().n_accepted();
-    const std::string  present =
+    const int          signal = wishes[0];
+    const unsigned int step   = block.step_control().n_accepted();
+    if (step == 0)
+      {
+        if (signal == 0)
+          return;
+        SignalGuard::share(signal);
+        throw RunError(SignalGuard::in_words() + " before the first step");
+      }
+    const std::string failure = write(block, fields, recorder);
+    const std::string present =
       step_in_words(step, block.step_control().time());
     const std::string last =
       last_step > 0 ? "the last one is of step " + std::to_string(last_step) :
@@ -148,6 +155,17 @@ namespace SlipStep
     else if (failure.empty() && wishes[1] != 0)
       recorder.announce("Checkpoint written after " + present + ".");
     has_failed = !failure.empty();
+  }
+
+
+
+  // A step that is given up and made again by --resume does not end with the
+  // same digits, so steps that take no time are waited for.
+  bool RunCheckpoints::cannot_wait() const
+  {
+    constexpr double patience = 1.; // [s]
+    return Utilities::MPI::max(SignalGuard::age() > patience ? 1 : 0,
+                               communicator) == 1;
   }
 
 

@@ -62,8 +62,15 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::run(BlockOutput<dim>                              *output,
                        const std::function<void(const HistoryRow &)> &observe,
-                       const std::function<void()> &between_steps)
+                       const std::function<void()> &between_steps,
+                       const std::function<bool()> &gives_up_step)
   {
+    this->gives_up_step   = gives_up_step;
+    const auto make_again = [&]() {
+      solution = old_solution;
+      if (between_steps)
+        between_steps();
+    };
     const SlidingPath path(programme);
     old_loading              = programme.at(control.time());
     old_loading.displacement = drive.state().slip;
@@ -71,8 +78,11 @@ namespace SlipStep
       {
         if (!make_step())
           {
-            solution = old_solution;
-            control.cut(reason_of_failure());
+            if (is_given_up)
+              forget_iterations();
+            else
+              control.cut(reason_of_failure());
+            make_again();
             continue;
           }
 
@@ -93,7 +103,7 @@ namespace SlipStep
           continue;
         if (!control.accept(error))
           {
-            solution = old_solution;
+            make_again();
             continue;
           }
 
@@ -143,6 +153,7 @@ namespace SlipStep
     const double     begin = control.time(), step_size = control.step_size();
 
     contact.revert();
+    is_given_up = false;
     trial_work = trial_damped_energy = 0.;
     n_newton = n_linear = 0;
     stage_solution      = old_solution;
@@ -302,6 +313,9 @@ namespace SlipStep
             return false;
           }
 
+        is_given_up = gives_up_step && gives_up_step();
+        if (is_given_up)
+          return false;
         try
           {
             count_linear_iterations(
@@ -334,6 +348,16 @@ namespace SlipStep
                     inertia.round_off(solution,
                                       loading.displacement.norm(),
                                       stage_time));
+  }
+
+
+
+  // Those of a step that is made again after a stop count then.
+  template <int dim>
+  void Block<dim>::forget_iterations()
+  {
+    n_newton_total -= n_newton;
+    n_linear_total -= n_linear;
   }
 
 

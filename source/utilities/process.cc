@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <initializer_list>
 #include <iostream>
 #include <thread>
@@ -22,8 +23,12 @@ namespace SlipStep
     volatile std::sig_atomic_t caught_signal = 0;
     unsigned int               n_guards      = 0;
 
+    struct timespec time_of_signal; // written before caught_signal
+
     void remember_signal(const int signal)
     {
+      if (caught_signal == 0)
+        clock_gettime(CLOCK_MONOTONIC, &time_of_signal);
       caught_signal = signal;
     }
 
@@ -198,6 +203,18 @@ namespace SlipStep
 
 
 
+  double SignalGuard::age()
+  {
+    if (caught_signal == 0)
+      return 0.;
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return now.tv_sec - time_of_signal.tv_sec +
+           1e-9 * (now.tv_nsec - time_of_signal.tv_nsec);
+  }
+
+
+
   void SignalGuard::throw_if_caught()
   {
     if (caught_signal != 0)
@@ -208,7 +225,7 @@ namespace SlipStep
 
   void SignalGuard::share(const int signal)
   {
-    caught_signal = signal;
+    remember_signal(signal);
   }
 
 

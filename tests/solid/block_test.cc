@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 using namespace SlipStep;
 using namespace SlipStep::Testing;
@@ -236,6 +237,50 @@ TEST(Newton, ends_where_a_rigid_block_has_no_more_digits)
               "press 5.8 MPa in 1 s; slide 1 mm/min for 0.001 mm"}}));
   EXPECT_EQ(result.failure, "");
   EXPECT_LT(result.force_imbalance, 1e-7);
+}
+
+
+
+// As after a signal: every third step is left undone once, and does not count.
+TEST(Newton, steps_that_are_given_up_are_made_again)
+{
+  const auto parameters  = make_parameters(plane + slide + coarse_steps);
+  const auto undisturbed = run_block_case<2>(parameters);
+  ASSERT_GT(undisturbed.history.size(), 20u);
+
+  const FrictionLaw       law(parameters);
+  const Programme         programme = parse_programme(parameters);
+  Block<2>                block(BlockParameters(parameters, programme),
+                 law,
+                 programme,
+                 StepControl(parameters, programme, law),
+                 MPI_COMM_SELF);
+  std::vector<HistoryRow> history;
+  std::size_t             n_given_up = 0, n_between = 0;
+  bool                    gives_up = false;
+  block.run(
+    nullptr,
+    [&](const HistoryRow &row) {
+      history.push_back(row);
+      gives_up = history.size() % 3 == 0;
+    },
+    [&]() { ++n_between; },
+    [&]() {
+      n_given_up += gives_up;
+      return std::exchange(gives_up, false);
+    });
+  ASSERT_EQ(history.size(), undisturbed.history.size());
+  EXPECT_GE(n_given_up, 6u);
+  EXPECT_EQ(n_between,
+            history.size() + n_given_up + block.step_control().n_rejected());
+  for (unsigned int i = 0; i < history.size(); ++i)
+    {
+      EXPECT_NEAR(history[i].friction, undisturbed.history[i].friction, 1e-7);
+      EXPECT_NEAR(history[i].time, undisturbed.history[i].time, 1e-6);
+    }
+  Summary summary;
+  block.fill(summary);
+  EXPECT_EQ(summary.newton_iterations, undisturbed.summary.newton_iterations);
 }
 
 

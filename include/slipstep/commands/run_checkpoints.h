@@ -45,6 +45,10 @@ namespace SlipStep
                       const BlockOutput<dim> &fields,
                       RunRecorder            &recorder);
 
+    /// Whether a signal came so long ago that the end of the step is not to be
+    /// waited for, on any rank.
+    bool cannot_wait() const;
+
     /// The run is finished: checkpoints have no use any more.
     void remove();
 

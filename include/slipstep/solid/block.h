@@ -62,12 +62,15 @@ namespace SlipStep
     /// Go through the programme.
     /// @param output where fields are written, or nullptr for none
     /// @param observe called on all ranks with the row of every accepted step
-    /// @param between_steps called on all ranks when all of a step is done: the
-    ///   moment to save()
+    /// @param between_steps called on all ranks when all of a step is done, or
+    ///   when it is about to be made again: the moment to save()
+    /// @param gives_up_step asked on all ranks before every linear system:
+    ///   whether to leave the step undone and call between_steps
     /// @throws RunError with the reason if the programme cannot be finished
     void run(BlockOutput<dim>                              *output,
              const std::function<void(const HistoryRow &)> &observe,
-             const std::function<void()>                   &between_steps = {});
+             const std::function<void()>                   &between_steps = {},
+             const std::function<bool()>                   &gives_up_step = {});
 
     /// Save what is needed to go on after the last step: every rank writes
     /// `cells.N`, N its number (mesh, displacements, contact states), one also
@@ -216,6 +219,7 @@ namespace SlipStep
     double      compute_residual();
     double      least_force_scale() const;
     double      wanted_norm() const;
+    void        forget_iterations();
     bool        only_round_off_is_left() const;
     double      linear_tolerance(const double norm) const;
     double      line_search(const Vector               &update,
@@ -331,6 +335,9 @@ namespace SlipStep
     unsigned int        n_newton = 0, n_linear = 0;
     unsigned long long  n_newton_total = 0, n_linear_total = 0;
     std::string         failure;
+
+    std::function<bool()> gives_up_step;
+    bool                  is_given_up = false;
 
     // Adaptivity.
     MeshMarker<dim> marker;

@@ -63,6 +63,9 @@ namespace SlipStep
     /// set up, 0 if none. Holds beyond their life.
     static int caught();
 
+    /// How long ago it came [s], 0 if none did.
+    static double age();
+
     /// @throws RunError if there was one
     static void throw_if_caught();
 
