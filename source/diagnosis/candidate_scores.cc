@@ -168,6 +168,17 @@ namespace SlipStep
 
 
 
+  Pairing pairing(const Candidate &a, const Candidate &b)
+  {
+    if (a.only_beside.empty() && b.only_beside.empty())
+      return Pairing::if_opposed;
+    return a.only_beside == b.name || b.only_beside == a.name ?
+             Pairing::always :
+             Pairing::never;
+  }
+
+
+
   View score_candidates(const Workspace &workspace, const Model &model)
   {
     View view = find_directions(workspace, model);
@@ -193,12 +204,11 @@ namespace SlipStep
           seen.score = seen.ways.front().score;
         seen.p = scores.family_p(seen.score.value);
       }
-    const auto is_beside = [&](const std::size_t i, const std::size_t j) {
-      const Candidate &a = view.candidates[directions[i].candidate].candidate;
-      const Candidate &b = view.candidates[directions[j].candidate].candidate;
-      return a.only_beside == b.name || b.only_beside == a.name;
-    };
-    view.pairs = scores.pairs(directions, is_beside);
+    view.pairs =
+      scores.pairs(directions, [&](const std::size_t i, const std::size_t j) {
+        return pairing(view.candidates[directions[i].candidate].candidate,
+                       view.candidates[directions[j].candidate].candidate);
+      });
     std::stable_sort(view.candidates.begin(), view.candidates.end(), is_better);
     return view;
   }

@@ -270,8 +270,8 @@ namespace SlipStep
 
 
   std::vector<ScoreTest::Pair> ScoreTest::pairs(
-    const std::vector<Direction>                        &directions,
-    const std::function<bool(std::size_t, std::size_t)> &is_asked_for) const
+    const std::vector<Direction>                           &directions,
+    const std::function<Pairing(std::size_t, std::size_t)> &pairing) const
   {
     constexpr double nearly_opposite = 0.8, the_same = 0.9995;
 
@@ -282,14 +282,16 @@ namespace SlipStep
     for (std::size_t i = 0; i < directions.size(); ++i)
       for (std::size_t j = i + 1; j < directions.size(); ++j)
         {
-          const double cosine = cosines(i, j);
-          const bool   is_free =
+          const double  cosine = cosines(i, j);
+          const Pairing when   = pairing(i, j);
+          const bool    is_free =
             !directions[i].is_one_sided || !directions[j].is_one_sided;
+          const bool are_opposed =
+            (is_free ? -std::abs(cosine) : cosine) < -nearly_opposite;
           if (directions[i].candidate == directions[j].candidate ||
               scores[i].free_length == 0. || scores[j].free_length == 0. ||
-              std::abs(cosine) > the_same ||
-              !((is_free ? -std::abs(cosine) : cosine) < -nearly_opposite ||
-                is_asked_for(i, j)))
+              std::abs(cosine) > the_same || when == Pairing::never ||
+              (when == Pairing::if_opposed && !are_opposed))
             continue;
           const auto of = [&](const double a, const double b) {
             return TwoStrengths(a, b, cosine, directions[i], directions[j]);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/candidate_scores.h>
 #include <slipstep/diagnosis/score_test.h>
 #include <slipstep/diagnosis/track_waves.h>
 
@@ -297,9 +298,9 @@ namespace
     }
   };
 
-  bool nobody_asks(std::size_t, std::size_t)
+  Pairing if_opposed(std::size_t, std::size_t)
   {
-    return false;
+    return Pairing::if_opposed;
   }
 } // namespace
 
@@ -309,7 +310,7 @@ TEST(Pairs, ThatNearlyCancelAreSeenTogether)
 {
   const Opposites opposites;
   const ScoreTest test  = opposites.test({12., 12.}, 3);
-  const auto      pairs = test.pairs(opposites.directions, nobody_asks);
+  const auto      pairs = test.pairs(opposites.directions, if_opposed);
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_LE(pairs[0].p, 0.01);
   EXPECT_NEAR(pairs[0].first_strength, 12., 4.);
@@ -328,8 +329,7 @@ TEST(Pairs, OfNoiseHaveTheirChance)
   unsigned int    n_alarms = 0;
   for (unsigned int seed = 10; seed < 110; ++seed)
     for (const ScoreTest::Pair &pair :
-         opposites.test({0., 0.}, seed)
-           .pairs(opposites.directions, nobody_asks))
+         opposites.test({0., 0.}, seed).pairs(opposites.directions, if_opposed))
       n_alarms += pair.p <= 0.1;
   EXPECT_LE(n_alarms, 22u);
   EXPECT_GE(n_alarms, 1u);
@@ -343,15 +343,36 @@ TEST(Pairs, AreOfDifferentCandidatesThatOppose)
 {
   Opposites opposites;
   opposites.directions[1].friction *= -1.;
-  const auto n_pairs = [&](const bool is_asked_for) {
+  const auto n_pairs = [&](const Pairing when) {
     return opposites.test({12., -9.}, 3)
       .pairs(opposites.directions,
-             [=](std::size_t, std::size_t) { return is_asked_for; })
+             [=](std::size_t, std::size_t) { return when; })
       .size();
   };
-  EXPECT_EQ(n_pairs(false), 0u);
+  EXPECT_EQ(n_pairs(Pairing::if_opposed), 0u);
   opposites.directions[1].is_one_sided = false;
-  EXPECT_EQ(n_pairs(false), 1u);
+  EXPECT_EQ(n_pairs(Pairing::if_opposed), 1u);
+  EXPECT_EQ(n_pairs(Pairing::always), 1u);
+  EXPECT_EQ(n_pairs(Pairing::never), 0u);
   opposites.directions[1].candidate = 0;
-  EXPECT_EQ(n_pairs(true), 0u);
+  EXPECT_EQ(n_pairs(Pairing::always), 0u);
+}
+
+
+
+// What is told beside a partner only is never paired with anything else, not
+// even with another one of the kind.
+TEST(Pairs, OfOneThatIsToldBesideAnotherOnlyAreWithThat)
+{
+  const Candidate overstress{"overstress", "", {}, ""};
+  const Candidate softening{"softening", "", {}, ""};
+  Candidate       ageing{"ageing", "", {}, ""};
+  Candidate       slip_law{"slip_law", "", {}, ""};
+  ageing.only_beside = slip_law.only_beside = "overstress";
+  EXPECT_EQ(pairing(overstress, softening), Pairing::if_opposed);
+  EXPECT_EQ(pairing(overstress, ageing), Pairing::always);
+  EXPECT_EQ(pairing(ageing, overstress), Pairing::always);
+  EXPECT_EQ(pairing(softening, ageing), Pairing::never);
+  EXPECT_EQ(pairing(slip_law, softening), Pairing::never);
+  EXPECT_EQ(pairing(slip_law, ageing), Pairing::never);
 }

@@ -46,6 +46,10 @@ namespace SlipStep
     const CandidateView &of(const Direction &direction) const;
   };
 
+  /// When directions of two candidates are seen at once: one that is told
+  /// beside its partner only is paired with that, and with nothing else.
+  Pairing pairing(const Candidate &a, const Candidate &b);
+
   View score_candidates(const Workspace &workspace, const Model &model);
 
   /// The parts of a model and one more.

@@ -68,6 +68,14 @@ namespace SlipStep
     double free_length = 0.;
   };
 
+  /// When two directions are seen at once.
+  enum class Pairing
+  {
+    if_opposed, ///< if they nearly cancel each other
+    always,
+    never
+  };
+
   /// Directions seen from a fitted model, with what chance makes of them.
   class ScoreTest
   {
@@ -108,11 +116,10 @@ namespace SlipStep
       double      p     = 1.; ///< chance of such a value among all pairs
     };
 
-    /// Pairs of different candidates, best first: those that nearly cancel, and
-    /// those asked for.
+    /// Pairs of different candidates, best first.
     std::vector<Pair> pairs(
-      const std::vector<Direction>                        &directions,
-      const std::function<bool(std::size_t, std::size_t)> &is_asked_for) const;
+      const std::vector<Direction>                           &directions,
+      const std::function<Pairing(std::size_t, std::size_t)> &pairing) const;
 
     /// How strong each direction is in the mixture that explains most.
     /// @param smoothness of neighbours, 0 for none: a share of the mean square
