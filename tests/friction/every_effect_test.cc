@@ -381,7 +381,7 @@ namespace
       if (name == "adhesion")
         return f + ratio * 0.3;
       if (name == "viscous")
-        return f + ratio * 0.2 * speed;
+        return f + ratio * 0.2 * speed * std::pow(1. + speed / 0.1, -0.4);
       if (name == "run_in")
         return f * 0.6;
       if (name == "direction")

@@ -113,6 +113,40 @@ TEST(Forms, a_step_of_speed_spreads_over_the_memory_length)
 
 
 
+// Newtonian slow, a power of the speed when fast; and Newtonian at any speed
+// with the exponent 1, to the last bit.
+TEST(Forms, a_film_that_thins_with_shear)
+{
+  const Settings settings    = {{"Effects", "viscous"},
+                                {"Static coefficient", "0.1"},
+                                {"viscous/Drag", "0.2"}};
+  const auto     strength_at = [&](const Settings &more, const double speed) {
+    Settings all = settings;
+    all.insert(all.end(), more.begin(), more.end());
+    const auto   law = make_law(all);
+    ContactPoint point(*law);
+    slide(*law, vector(speed), 10., 100, point);
+    return point.committed().traction[0];
+  };
+  const Settings thins = {{"viscous/Exponent", "0.5"},
+                          {"viscous/Speed", "0.01 mm/s"}};
+  for (const double speed : {1e-5, 0.01, 0.3, 10., 1000.})
+    {
+      EXPECT_NEAR(strength_at(thins, speed) - 0.4,
+                  0.2 * speed / std::sqrt(1. + speed / 0.01),
+                  1e-9)
+        << speed;
+      EXPECT_EQ(strength_at({{"viscous/Speed", "0.01 mm/s"}}, speed),
+                strength_at({}, speed));
+    }
+  EXPECT_NEAR((strength_at(thins, 4000.) - 0.4) /
+                (strength_at(thins, 1000.) - 0.4),
+              2.,
+              1e-4);
+}
+
+
+
 TEST(Forms, refuse_what_has_no_meaning)
 {
   EXPECT_THROW(make_law({{"Effects", "memory_length"},
