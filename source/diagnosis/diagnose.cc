@@ -71,6 +71,8 @@ namespace SlipStep
       std::vector<DiagnosedParameter> found_parameters;
 
     private:
+      void judge_tests();
+
       void name();
 
       void suspect_condition();
@@ -92,10 +94,20 @@ namespace SlipStep
 
 
 
+    // By the weights that the rows have in the end, which what is shown of the
+    // start has, too.
+    void Diagnostician::judge_tests()
+    {
+      judgement     = judge(*ingested.workspace, ingested.base);
+      ingested.base = judgement.base;
+      weigh_start(ingested);
+    }
+
+
+
     // The strongest first.
     void Diagnostician::name()
     {
-      judgement              = judge(*ingested.workspace, ingested.base);
       result.has_gap         = judgement.gap.p <= ingested.workspace->level;
       result.gap_p           = judgement.gap.p;
       result.p_smooth        = judgement.gap.p_smooth;
@@ -127,10 +139,16 @@ namespace SlipStep
         if (final_model.parts[part].corrects.empty())
           result.effects.push_back(final_model.parts[part].name);
       result.is_incomplete = judgement.is_incomplete;
-      ingested.base        = judgement.base;
       for (const Outlier &outlier :
            outlying_rows_words(*ingested.workspace, judgement.outlying))
         result.outliers.push_back(outlier);
+      if (!judgement.named_by_outliers.empty())
+        result.warnings.push_back(
+          "While the numbers that nothing explains counted in full there was a "
+          "gap, and " +
+          list_text(judgement.named_by_outliers) +
+          " had a name for it: should their records be right, this verdict is "
+          "not.");
       for (const Rival &rival : judgement.found.rivals)
         {
           result.ambiguous_with.push_back(rival.name);
@@ -319,6 +337,7 @@ namespace SlipStep
     void Diagnostician::run()
     {
       const ResourceUsage begin = ResourceUsage::now();
+      judge_tests();
       describe_data(ingested, result);
       describe_noise(*ingested.workspace, result);
       name();

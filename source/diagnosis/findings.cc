@@ -333,7 +333,7 @@ namespace SlipStep
       {
         case Verdict::named:
         case Verdict::ambiguous:
-          if (diagnosis.remainder_p <= diagnosis.level)
+          if (diagnosis.is_incomplete)
             doubts.push_back(
               "What remains is more than noise: the formula of " +
               diagnosis.effects.front() +

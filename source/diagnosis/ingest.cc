@@ -440,11 +440,7 @@ namespace SlipStep
                                        start.integer("Diagnosis/Draws"),
                                        start.integer("Diagnosis/Seed"));
       prepare_gap_test(workspace);
-      RowMatrix whitened =
-        comparison.difference(*result.base.simulator,
-                              result.base.campaign->scaled_start());
-      comparison.whiten(whitened);
-      result.start_objective = whitened.squaredNorm();
+      weigh_start(result);
     }
 
 
@@ -577,6 +573,18 @@ namespace SlipStep
       return std::move(result);
     }
   } // namespace
+
+
+
+  void weigh_start(Ingested &ingested)
+  {
+    const Comparison &comparison = ingested.workspace->comparison;
+    RowMatrix         whitened =
+      comparison.difference(*ingested.base.simulator,
+                            ingested.base.campaign->scaled_start());
+    comparison.whiten(whitened);
+    ingested.start_objective = whitened.squaredNorm();
+  }
 
 
 

@@ -77,7 +77,8 @@ namespace SlipStep
                             " of it that nothing explains, at " +
                             list_text(times) +
                             " s, counted for less: see whether the record is "
-                            "right there"});
+                            "right there",
+                          true});
       }
     return result;
   }

@@ -172,6 +172,21 @@ namespace SlipStep
 
 
 
+    // Nothing is missing, or nothing would have been seen.
+    Verdict without_gap(const View &view)
+    {
+      return std::any_of(view.candidates.begin(),
+                         view.candidates.end(),
+                         [](const CandidateView &seen) {
+                           return seen.minimum_detectable <=
+                                  largest_hidden_change;
+                         }) ?
+               Verdict::no_gap :
+               Verdict::not_testable;
+    }
+
+
+
     void look_for_names(Workspace &workspace, Judgement &judgement)
     {
       judgement.found = search(workspace, judgement.base);
@@ -197,26 +212,33 @@ namespace SlipStep
 
 
     // A few bad rows shall not withdraw a right name: once more with those that
-    // it does not explain counting for less.
-    bool judge_without_outliers(Workspace &workspace, Judgement &judgement)
+    // it does not explain counting for less. If that cannot be fitted, they
+    // count as before.
+    void judge_without_outliers(Workspace &workspace, Judgement &judgement)
     {
       const std::vector<Eigen::Index> rows =
         outlying_rows(workspace, judgement.found.model);
       if (rows.empty() || workspace.is_late())
-        return false;
-      weaken_rows(workspace, judgement.found.model, rows);
+        return;
+      Workspace weakened = workspace;
+      weaken_rows(weakened, judgement.found.model, rows);
       Judgement again;
       again.base = judgement.base;
       again.base.simulator =
         std::make_shared<Simulator>(*judgement.base.simulator);
       again.outlying = rows;
-      if (!workspace.comparison.fit(again.base, 0.01))
-        return false;
+      if (!weakened.comparison.fit(again.base, 0.01))
+        return;
+      workspace = std::move(weakened);
       look_for_gap(workspace, again);
       if (again.gap.p <= workspace.level)
         look_for_names(workspace, again);
+      else
+        {
+          again.verdict           = without_gap(again.view);
+          again.named_by_outliers = effect_names(judgement.found.model.parts);
+        }
       judgement = again;
-      return true;
     }
   } // namespace
 
@@ -234,13 +256,7 @@ namespace SlipStep
     look_for_gap(workspace, result);
     if (result.gap.p > workspace.level)
       {
-        const bool is_blind = std::none_of(result.view.candidates.begin(),
-                                           result.view.candidates.end(),
-                                           [](const CandidateView &seen) {
-                                             return seen.minimum_detectable <=
-                                                    largest_hidden_change;
-                                           });
-        result.verdict = is_blind ? Verdict::not_testable : Verdict::no_gap;
+        result.verdict = without_gap(result.view);
         return result;
       }
 

@@ -58,7 +58,9 @@ namespace SlipStep
 
     json to_json(const Outlier &outlier)
     {
-      return {{"test", outlier.test}, {"words", outlier.words}};
+      return {{"test", outlier.test},
+              {"words", outlier.words},
+              {"of_rows", outlier.is_of_rows}};
     }
 
     json to_json(const NoiseComponent &component)

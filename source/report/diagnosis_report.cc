@@ -282,9 +282,10 @@ namespace SlipStep
 
     std::string honesty_section(const Diagnosis &diagnosis)
     {
-      std::vector<std::string> outliers;
+      std::vector<std::string> tests, rows;
       for (const Outlier &outlier : diagnosis.outliers)
-        outliers.push_back(outlier.test + ": " + outlier.words);
+        (outlier.is_of_rows ? rows : tests)
+          .push_back(outlier.test + ": " + outlier.words);
       const auto chance = [&](const double p) {
         return chance_text(p, diagnosis.n_draws);
       };
@@ -326,9 +327,9 @@ namespace SlipStep
                             "test or two before you believe the verdict.");
       html +=
         bullets("What would overturn this verdict", diagnosis.would_overturn) +
-        bullets(counted(outliers.size(), "test") +
-                  " out of line with the others",
-                outliers) +
+        bullets(counted(tests.size(), "test") + " out of line with the others",
+                tests) +
+        bullets("Numbers that nothing explains", rows) +
         bullets("Warnings", diagnosis.warnings) + html_table(lines, "numbers");
       return html + noise_table(diagnosis) + "</div>\n";
     }

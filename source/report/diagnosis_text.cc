@@ -169,7 +169,7 @@ namespace SlipStep
     std::string remainder_words(const Diagnosis &diagnosis)
     {
       if (!has_after(diagnosis) || diagnosis.effects.empty() ||
-          is_all_explained(diagnosis))
+          !diagnosis.is_incomplete)
         return "";
       std::string text = "; not all of it is explained";
       if (diagnosis.remains.empty())
@@ -181,13 +181,14 @@ namespace SlipStep
       return text;
     }
 
-    std::string outlier_words(const std::vector<Outlier> &outliers)
+    // Each once, in quotes, the first three or so.
+    std::vector<std::string> outlier_names(const std::vector<Outlier> &outliers,
+                                           const bool                  are_rows)
     {
-      if (outliers.empty())
-        return "";
       std::vector<std::string> names;
       for (const Outlier &outlier : outliers)
-        if (!contains(names, in_quotes(outlier.test)))
+        if (outlier.is_of_rows == are_rows &&
+            !contains(names, in_quotes(outlier.test)))
           names.push_back(in_quotes(outlier.test));
       if (names.size() > 3)
         {
@@ -195,9 +196,23 @@ namespace SlipStep
           names.resize(2);
           names.push_back(std::to_string(n_more) + " more");
         }
-      return "; look at " + list_text(names) + " first, which " +
-             (names.size() > 1 ? "do" : "does") +
-             " not behave like the other tests";
+      return names;
+    }
+
+    std::string outlier_words(const std::vector<Outlier> &outliers)
+    {
+      const std::vector<std::string> tests = outlier_names(outliers, false);
+      const std::vector<std::string> rows  = outlier_names(outliers, true);
+      std::string                    text;
+      if (!tests.empty())
+        text += "; look at " + list_text(tests) + " first, which " +
+                (tests.size() > 1 ? "do" : "does") +
+                " not behave like the other tests";
+      if (!rows.empty())
+        text += "; a few numbers of " + list_text(rows) +
+                " that nothing explains count for less: look whether they "
+                "are right";
+      return text;
     }
 
     /// Digits by the width of the interval.
@@ -239,22 +254,16 @@ namespace SlipStep
 
 
 
-  bool is_all_explained(const Diagnosis &diagnosis)
-  {
-    return diagnosis.remainder_p > diagnosis.level;
-  }
-
-
-
   std::string short_verdict(const Diagnosis &diagnosis)
   {
     switch (diagnosis.verdict)
       {
         case Verdict::named:
-          return is_all_explained(diagnosis) ? "missing effect named" :
-                                               "named, incomplete";
+          return diagnosis.is_incomplete ? "named, incomplete" :
+                                           "missing effect named";
         case Verdict::ambiguous:
-          return "several explanations";
+          return diagnosis.is_incomplete ? "several explanations, incomplete" :
+                                           "several explanations";
         case Verdict::unnamed:
           return "something unknown is missing";
         case Verdict::no_gap:

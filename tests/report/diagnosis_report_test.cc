@@ -93,6 +93,18 @@ TEST(DiagnosisHeadline, AFormulaAndARestAreTold)
 
 
 
+TEST(DiagnosisHeadline, SeveralExplanationsMayLeaveARestToo)
+{
+  Diagnosis diagnosis     = SyntheticDiagnosis::ambiguous();
+  diagnosis.is_incomplete = true;
+  EXPECT_EQ(short_verdict(diagnosis), "several explanations, incomplete");
+  EXPECT_TRUE(contains(headline(diagnosis), "; not all of it is explained"));
+  EXPECT_TRUE(
+    contains(diagnosis_table(diagnosis), "verdict: ambiguous, incomplete"));
+}
+
+
+
 TEST(DiagnosisHeadline, WithoutReplicatesItIsToned)
 {
   for (Diagnosis diagnosis : {SyntheticDiagnosis::named(),
@@ -162,6 +174,27 @@ TEST(DiagnosisHeadline, OutliersAreMentioned)
   diagnosis.outliers = {{"a", ""}, {"b", ""}, {"c", ""}, {"d", ""}};
   EXPECT_TRUE(
     contains(headline(diagnosis), "look at 'a', 'b' and 2 more first"));
+}
+
+
+
+// A few bad numbers of a test are no bad test.
+TEST(DiagnosisHeadline, RowsThatNothingExplainsAreNoOutlyingTests)
+{
+  Diagnosis diagnosis = SyntheticDiagnosis::no_gap();
+  diagnosis.outliers  = {{"fast", "3 numbers of it", true}};
+  EXPECT_FALSE(contains(headline(diagnosis), "behave like the other tests"));
+  EXPECT_TRUE(contains(headline(diagnosis),
+                       "; a few numbers of 'fast' that nothing explains"));
+  const std::string page = page_of(diagnosis);
+  EXPECT_TRUE(contains(page, "Numbers that nothing explains"));
+  EXPECT_TRUE(contains(page, "fast: 3 numbers of it"));
+  EXPECT_FALSE(contains(page, "out of line with the others"));
+
+  diagnosis.outliers.push_back({"slow", "left out"});
+  EXPECT_TRUE(
+    contains(headline(diagnosis), "look at 'slow' first, which does"));
+  EXPECT_TRUE(contains(headline(diagnosis), "a few numbers of 'fast'"));
 }
 
 

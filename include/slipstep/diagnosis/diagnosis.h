@@ -110,6 +110,8 @@ namespace SlipStep
   {
     std::string test;
     std::string words;
+    /// It is not the test, but some of its numbers.
+    bool is_of_rows = false;
   };
 
   /// One test with the friction before and after. Values at the rows compared;

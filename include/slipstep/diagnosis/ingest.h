@@ -36,6 +36,9 @@ namespace SlipStep
                   const Stage                    &stage,
                   const std::vector<std::string> &left_out = {});
 
+  /// Compute the objective of the start by the weights that rows have now.
+  void weigh_start(Ingested &ingested);
+
   /// The case with everything that is to be calibrated listed: that which
   /// "Calibration/Parameters" names, else all parameters of active effects.
   Parameters with_parameters_listed(const Parameters &parameters);

@@ -26,6 +26,9 @@ namespace SlipStep
     /// model fitted so; none if all count.
     std::vector<Eigen::Index> outlying;
     Model                     base;
+    /// The names that there were while those rows counted in full, if there is
+    /// no gap without.
+    std::vector<std::string> named_by_outliers;
   };
 
   Judgement judge(Workspace &workspace, const Model &base);

@@ -22,9 +22,6 @@ namespace SlipStep
   /// rests on replicates and several conditions.
   std::string reservation(const Diagnosis &diagnosis);
 
-  /// Whether nothing significant remains after what was added.
-  bool is_all_explained(const Diagnosis &diagnosis);
-
   /// "no effect of the catalogue explains", or of those asked for.
   std::string nothing_explains(const Diagnosis &diagnosis);
 

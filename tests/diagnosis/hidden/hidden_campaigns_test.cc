@@ -210,6 +210,38 @@ namespace
     return out.str();
   }
 
+  // Five rows each of friction much higher under high pressure and much lower
+  // under low pressure; a test with one axis.
+  std::string with_rows_that_go_with_pressure(const std::string &text)
+  {
+    std::istringstream in(text);
+    std::ostringstream out;
+    std::string        line;
+    unsigned int       n_rows = 0;
+    out.precision(10);
+    while (std::getline(in, line))
+      {
+        const std::size_t last = line.rfind(',');
+        if (line[0] == '#' || line[0] == 't')
+          {
+            out << line << '\n';
+            continue;
+          }
+        const std::size_t before   = line.rfind(',', last - 1);
+        const double      pressure = std::stod(line.substr(before + 1));
+        ++n_rows;
+        const bool is_bad = n_rows >= 60 && n_rows < 65;
+        out << line.substr(0, last + 1)
+            << (!is_bad       ? 1. :
+                pressure > 8. ? 1.6 :
+                pressure < 4. ? 0.4 :
+                                1.) *
+                 std::stod(line.substr(last + 1))
+            << '\n';
+      }
+    return out.str();
+  }
+
   // Displacement in um, time in ms, pressure in kPa.
   std::string in_other_units(const std::string &text)
   {
@@ -391,6 +423,29 @@ TEST_F(CampaignFolder, KeepsItsNameBesideAFewBadRows)
             effect_names(before.found.model.parts));
   EXPECT_GE(after.outlying.size(), 4u);
   EXPECT_LE(after.outlying.size(), 12u);
+}
+
+
+
+// Rows that alone make a gap, and get a name for it: without them there is
+// none, and that is told.
+TEST_F(CampaignFolder, HasNoGapThatAFewBadRowsMake)
+{
+  plant(CampaignClass::none, 4);
+  rewrite(
+    [](const unsigned int i) {
+      return "test_" + std::to_string(100 + i) + ".csv";
+    },
+    [](const std::string &text) {
+      return text.find("friction_y") == std::string::npos ?
+               with_rows_that_go_with_pressure(text) :
+               text;
+    });
+  const Judgement judgement = judged();
+  EXPECT_EQ(name_of(judgement.verdict), name_of(Verdict::no_gap));
+  EXPECT_FALSE(judgement.outlying.empty());
+  EXPECT_FALSE(judgement.named_by_outliers.empty());
+  EXPECT_TRUE(judgement.found.model.parts.empty());
 }
 
 
