@@ -574,6 +574,13 @@ namespace SlipStep
 
 
 
+  void Simulator::leave_out(const std::vector<bool> &left_out)
+  {
+    is_left_out = left_out;
+  }
+
+
+
   void Simulator::residuals(const std::vector<double> &scaled, double *result)
   {
     const FrictionLaw     law(with(scaled));
@@ -585,8 +592,13 @@ namespace SlipStep
         result += test.n_residuals();
       }
     side_by_side(replays.size(), [&](const std::size_t i) {
-      const CampaignTest &test  = campaign.tests[i];
-      Replay::Curve       curve = at_rows(replays[i], law, machine, test);
+      const CampaignTest &test = campaign.tests[i];
+      if (!is_left_out.empty() && is_left_out[i])
+        {
+          std::fill_n(place[i], test.n_residuals(), 0.);
+          return;
+        }
+      Replay::Curve curve = at_rows(replays[i], law, machine, test);
       if (!corrections.empty())
         add(1., corrections[i], curve);
       double *out = place[i];

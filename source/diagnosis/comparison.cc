@@ -271,12 +271,11 @@ namespace SlipStep
 
       bool residuals(const Eigen::VectorXd &x, Eigen::VectorXd &result)
       {
-        const std::vector<double> scaled(x.data(), x.data() + x.size());
-        const Eigen::VectorXd     difference =
-          comparison.difference(*model.simulator, scaled);
-        if (difference.size() == 0)
+        last_scaled.assign(x.data(), x.data() + x.size());
+        last_difference = comparison.difference(*model.simulator, last_scaled);
+        if (last_difference.size() == 0)
           return false;
-        RowMatrix whitened = difference;
+        RowMatrix whitened = last_difference;
         comparison.whiten(whitened);
         leave_out(whitened);
         result.resize(whitened.rows() + x.size());
@@ -293,7 +292,9 @@ namespace SlipStep
         constexpr double      step = 1e-4;
         std::vector<double>   scaled(x.data(), x.data() + x.size());
         const Eigen::VectorXd here =
-          comparison.difference(*model.simulator, scaled);
+          scaled == last_scaled ?
+            last_difference :
+            comparison.difference(*model.simulator, scaled);
         RowMatrix columns(here.size(), x.size());
         for (Eigen::Index i = 0; i < x.size(); ++i)
           {
@@ -342,6 +343,9 @@ namespace SlipStep
       Model                   &model;
       const std::vector<bool> &left_out;
       std::vector<double>      start, belief;
+      // Of the last call of residuals(), where derivatives are wanted next.
+      std::vector<double> last_scaled;
+      Eigen::VectorXd     last_difference;
     };
   } // namespace
 

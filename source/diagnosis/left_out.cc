@@ -14,16 +14,18 @@ namespace SlipStep
   {
     // A model as fitted to all conditions but one: by one step of Gauss and
     // Newton from the optimum of all, by a fit of its own where that goes far.
+    // From then on it simulates that condition only.
     Model fit_without(const Comparison &comparison,
                       const Model      &model,
                       const std::size_t condition)
     {
       Eigen::MatrixXd   derivatives = model.derivatives;
       Eigen::VectorXd   residual    = model.residual;
-      std::vector<bool> left_out;
+      std::vector<bool> left_out, others;
       for (const ComparedTest &test : comparison.tests)
         {
           left_out.push_back(test.condition == condition);
+          others.push_back(!left_out.back());
           if (!left_out.back())
             continue;
           derivatives.middleRows(test.begin, test.size).setZero();
@@ -46,8 +48,10 @@ namespace SlipStep
       if (!is_near)
         {
           result.scaled = model.scaled;
+          result.simulator->leave_out(left_out);
           comparison.fit(result, 1., left_out);
         }
+      result.simulator->leave_out(others);
       return result;
     }
   } // namespace

@@ -413,6 +413,27 @@ TEST_F(Planted, NoiseThatHangsTogetherCountsOnBothAxes)
 
 
 
+TEST_F(Planted, TestsThatAreLeftOutAreNotSimulated)
+{
+  plant(folder.path(), calibration_case(paper), {1., 20., 200.}, 200, 1e-3, 7);
+  const Campaign campaign(fitting({{"Calibration/Parameters", four}}));
+  Simulator      simulator(campaign);
+  simulator.plan(campaign.scaled_start());
+  std::vector<double> all(campaign.n_residuals()), some(all.size(), 7.);
+  simulator.residuals(campaign.scaled_start(), all.data());
+  simulator.leave_out({false, true, false});
+  simulator.residuals(campaign.scaled_start(), some.data());
+  std::size_t row = 0;
+  for (const CampaignTest &test : campaign.tests)
+    for (std::size_t i = 0; i < test.n_residuals(); ++i, ++row)
+      EXPECT_EQ(some[row], &test == &campaign.tests[1] ? 0. : all[row]);
+  simulator.leave_out({});
+  simulator.residuals(campaign.scaled_start(), some.data());
+  EXPECT_EQ(some, all);
+}
+
+
+
 // Of a profile: where it ends the misfit has risen by the threshold, with all
 // others fitted again; asserted by an independent search.
 TEST_F(Planted, IntervalsEndWhereTheMisfitHasRisen)

@@ -121,6 +121,10 @@ namespace SlipStep
     void correct_by(Simulator                 &reference,
                     const std::vector<double> &reference_scaled);
 
+    /// From now on, do not simulate these tests: their residuals are 0.
+    /// @param left_out by test; empty for none of them
+    void leave_out(const std::vector<bool> &left_out);
+
     /// Simulated minus measured friction over noise, all rows of all tests, by
     /// the steps planned.
     /// @throws InputError, RunError
@@ -167,6 +171,7 @@ namespace SlipStep
     std::vector<Replay> replays;
     /// To be added to the curves at the rows of each test; empty for none.
     std::vector<Replay::Curve> corrections;
+    std::vector<bool>          is_left_out; ///< by test
     unsigned int               n_done = 0;
     std::vector<double>        shifted; ///< residuals, kept to save its memory
   };
