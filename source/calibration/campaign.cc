@@ -2,6 +2,7 @@
 #include <deal.II/base/parallel.h>
 
 #include <slipstep/calibration/campaign.h>
+#include <slipstep/measured_data/rounded_motion.h>
 #include <slipstep/measured_data/resample.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/measured_data/test_set.h>
@@ -166,8 +167,30 @@ namespace SlipStep
 
 
 
-    CampaignTest prepare(const MeasuredTest &test, const Parameters &parameters)
+    // By which the load point moves before the contact slides.
+    double elastic_slip(const MeasuredTest &test, const Parameters &parameters)
     {
+      const FrictionLaw law(parameters);
+      const double traction = law.static_coefficient() * median(test.pressure);
+      return traction / law.tangential_stiffness() +
+             traction / Machine(parameters).stiffness();
+    }
+
+
+
+    CampaignTest prepare(const MeasuredTest &measured,
+                         const Parameters   &parameters)
+    {
+      // Stairs of more make the contact stick and slip in each; what is less is
+      // not felt.
+      constexpr double stick_share = 0.1;
+
+      MeasuredTest test = measured;
+      double       step = rounding_of_motion(test);
+      if (step > 0. && step > stick_share * elastic_slip(test, parameters))
+        undo_rounding_of_motion(test);
+      else
+        step = 0.;
       const double             skip  = parameters.number(skip_key);
       const double             begin = test.time.front() + skip;
       std::vector<std::size_t> rows;
@@ -193,6 +216,7 @@ namespace SlipStep
                                  parameters.number("Calibration/Lead-in"),
                                  row_distance)};
       keep_rows(result.rows, rows);
+      result.motion_step = step;
       const double noted = noted_noise(test);
       const double stated =
         noted > 0. ? noted : Campaign::stated_noise(parameters);

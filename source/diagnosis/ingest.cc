@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/gap.h>
+#include <slipstep/diagnosis/motion_noise.h>
 #include <slipstep/diagnosis/outlier.h>
 #include <slipstep/diagnosis/ingest.h>
 #include <slipstep/measured_data/test_rows.h>
@@ -178,6 +179,8 @@ namespace SlipStep
 
       void calibrate();
 
+      void weigh_motion(const Eigen::VectorXd &noise);
+
       double judge_rows(const Eigen::VectorXd &difference);
 
       void drop_copies(std::vector<CampaignTest> &tests);
@@ -197,6 +200,9 @@ namespace SlipStep
       const Parameters start;
       const Noise      stated;
       Ingested         result;
+      /// By which the noise of every number is multiplied for what rounded
+      /// positions do to it.
+      Eigen::VectorXd motion_factors;
     };
 
 
@@ -259,6 +265,7 @@ namespace SlipStep
                                            stage});
       Workspace &workspace = *result.workspace;
       workspace.comparison.set_noise(stated, workspace.comparison.measured);
+      motion_factors.setOnes(workspace.comparison.n_rows());
       result.base = make_model(start, {}, {}, tests);
       for (std::size_t i = 0; i < result.base.scaled.size(); ++i)
         result.base.scaled[i] = result.base.campaign->scaled_start()[i];
@@ -305,6 +312,24 @@ namespace SlipStep
 
 
 
+    // Add what rounded positions do to the noise of the rows, in the place of
+    // what was added before.
+    void Preparer::weigh_motion(const Eigen::VectorXd &noise)
+    {
+      double      *factor = motion_factors.data();
+      Eigen::Index row    = 0;
+      for (ComparedTest &test : result.workspace->comparison.tests)
+        for (Series &series : test.series)
+          for (double &own : series.row_noise)
+            {
+              own /= *factor;
+              *factor = std::hypot(1., noise(row++) / own);
+              own *= *factor++;
+            }
+    }
+
+
+
     // Fit, noise, and again: what replicates differ by hardly depends on the
     // model, unless the first fit is far off.
     void Preparer::calibrate()
@@ -322,7 +347,11 @@ namespace SlipStep
             break;
           const Eigen::VectorXd difference =
             comparison.difference(simulator, result.base.scaled);
+          weigh_motion(Eigen::VectorXd::Zero(comparison.n_rows()));
           const double row_freedom = judge_rows(difference);
+          weigh_motion(motion_noise(comparison,
+                                    workspace.tests,
+                                    comparison.measured + difference));
           workspace.noise =
             estimate_noise(comparison.contrasts(difference), stated);
           workspace.noise.row_freedom = row_freedom;

@@ -26,6 +26,8 @@ namespace SlipStep
     bool   noise_is_stated = false;
     /// Leads the contact point; with the fewer rows that resample() leaves.
     Replay replay;
+    /// To which its positions were rounded, coarsely [mm]; 0 if they were not.
+    double motion_step = 0.;
 
     /// Whether friction_y is compared, too.
     bool has_two_axes() const

@@ -102,6 +102,12 @@ INSTANTIATE_TEST_SUITE_P(
     Expected{CampaignClass::other_formula, 50, Verdict::named, {"compliance"}},
     Expected{CampaignClass::other_formula, 42, Verdict::named, {"healing"}},
     Expected{CampaignClass::third_formula, 3, Verdict::named, {"overstress"}},
+    // Positions to seven times what the contact moves before it slips.
+    Expected{CampaignClass::none,
+             2,
+             Verdict::no_gap,
+             {},
+             Planting::NoiseKind::rounded_motion},
     // Heat takes away what the drag adds, a second later.
     Expected{CampaignClass::joint, 5, Verdict::named, {"heating", "viscous"}},
     // Squeezed oil and flattened asperities, which leave little trace.
@@ -113,7 +119,10 @@ INSTANTIATE_TEST_SUITE_P(
     Expected{CampaignClass::outside, 10, Verdict::unnamed, {}}),
   [](const testing::TestParamInfo<Expected> &info) {
     return Planting::to_string(info.param.campaign_class) + "_" +
-           std::to_string(info.param.seed);
+           std::to_string(info.param.seed) +
+           (info.param.noise == Planting::NoiseKind::rounded_motion ?
+              "_rounded" :
+              "");
   });
 
 

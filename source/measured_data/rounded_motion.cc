@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/measured_data/rounded_motion.h>
+#include <slipstep/measured_data/test_rows.h>
+#include <slipstep/utilities/text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// Rows of the same value, up to the first row of another one.
+    struct Stair
+    {
+      std::size_t begin = 0, end = 0;
+      double      value = 0.;
+
+      bool is_long() const
+      {
+        return end - begin > 1;
+      }
+    };
+
+
+
+    std::vector<Stair> find_stairs(const std::vector<double> &values)
+    {
+      std::vector<Stair> result;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (result.empty() || values[i] != result.back().value)
+          result.push_back({i, i + 1, values[i]});
+        else
+          result.back().end = i + 1;
+      return result;
+    }
+
+
+
+    /// Finds the motion between the stairs.
+    class StairMotion
+    {
+    public:
+      StairMotion(const std::vector<double> &time,
+                  const std::vector<double> &values,
+                  const double               step)
+        : time(time)
+        , step(step)
+        , stairs(find_stairs(values))
+      {}
+
+      std::vector<double> motion(std::vector<double> values) const;
+
+    private:
+      // Where stair s begins: the last half step towards its value takes its
+      // share of the interval between the rows.
+      double entry(const std::size_t s) const
+      {
+        const std::size_t row      = stairs[s].begin;
+        const double      duration = time[row] - time[row - 1];
+        return time[row] - 0.5 * duration * step /
+                             std::abs(stairs[s].value - stairs[s - 1].value);
+      }
+
+      double exit(const std::size_t s) const
+      {
+        const std::size_t row      = stairs[s].end;
+        const double      duration = time[row] - time[row - 1];
+        return time[row - 1] +
+               0.5 * duration * step /
+                 std::abs(stairs[s + 1].value - stairs[s].value);
+      }
+
+      static constexpr double unknown = std::numeric_limits<double>::infinity();
+
+      // Of the first and the last one nobody knows.
+      double time_per_step(const std::size_t s) const
+      {
+        return s > 0 && s + 1 < stairs.size() ? exit(s) - entry(s) : unknown;
+      }
+
+      double half_step_to(const std::size_t s, const std::size_t other) const
+      {
+        return std::copysign(0.5 * step, stairs[other].value - stairs[s].value);
+      }
+
+      void fill(const std::size_t s, std::vector<double> &values) const;
+
+      const std::vector<double> &time;
+      const double               step;
+      const std::vector<Stair>   stairs;
+    };
+
+
+
+    // From the middle towards the value before it to that towards the next
+    // one; or it comes to rest at the value, and leaves it again, as fast as in
+    // the stairs beside it.
+    void StairMotion::fill(const std::size_t    s,
+                           std::vector<double> &values) const
+    {
+      constexpr double much_longer = 3.;
+
+      const Stair &stair = stairs[s];
+      if (!stair.is_long() || stairs.size() < 2)
+        return;
+      const bool   is_first = s == 0, is_last = s + 1 == stairs.size();
+      const double begin  = is_first ? time[0] : entry(s);
+      const double end    = is_last ? time.back() : exit(s);
+      const double from   = is_first ? 0. : half_step_to(s, s - 1);
+      const double to     = is_last ? 0. : half_step_to(s, s + 1);
+      const double before = is_first ? unknown : time_per_step(s - 1);
+      const double after  = is_last ? unknown : time_per_step(s + 1);
+      const double usual  = std::min(before, after);
+      const bool passes  = from * to < 0. && end - begin <= much_longer * usual;
+      const auto half_of = [&](const double duration) {
+        return 0.5 *
+               std::min(end - begin, duration < unknown ? duration : usual);
+      };
+      const double stops  = begin + half_of(before);
+      const double starts = end - half_of(after);
+      for (std::size_t i = stair.begin; i < stair.end; ++i)
+        {
+          const double t   = time[i];
+          double       off = 0.;
+          if (passes)
+            off = from + (to - from) * (t - begin) / (end - begin);
+          else if (!is_first && t < stops)
+            off = from * (stops - t) / (stops - begin);
+          else if (!is_last && t > starts)
+            off = to * (t - starts) / (end - starts);
+          values[i] = stair.value + std::clamp(off, -0.5 * step, 0.5 * step);
+        }
+    }
+
+
+
+    std::vector<double> StairMotion::motion(std::vector<double> values) const
+    {
+      for (std::size_t s = 0; s < stairs.size(); ++s)
+        fill(s, values);
+      return values;
+    }
+  } // namespace
+
+
+
+  double rounding_of_motion(const std::vector<double> &values)
+  {
+    constexpr double      largest_share = 0.01; // of the range
+    constexpr double      unlike        = 1e-3;
+    constexpr std::size_t least_stairs = 3, least_sizes = 3, many_stairs = 20;
+
+    const std::vector<Stair> stairs = find_stairs(values);
+    double                   step   = std::numeric_limits<double>::infinity();
+    for (std::size_t s = 1; s < stairs.size(); ++s)
+      step = std::min(step, std::abs(stairs[s].value - stairs[s - 1].value));
+    if (!(step < largest_share * range_of(values)))
+      return 0.;
+    std::size_t      n_stairs = 0;
+    std::set<double> sizes;
+    for (std::size_t s = 1; s < stairs.size(); ++s)
+      {
+        const double ratio = (stairs[s].value - stairs[s - 1].value) / step;
+        if (std::abs(ratio - std::round(ratio)) > unlike)
+          return 0.;
+        sizes.insert(std::abs(std::round(ratio)));
+        // Between two single steps in one direction: what takes several of them
+        // in a row and then stays is a stroke.
+        if (stairs[s].is_long() && s + 1 < stairs.size() &&
+            std::abs(ratio) < 1.5)
+          {
+            const double next = (stairs[s + 1].value - stairs[s].value) / step;
+            n_stairs += next * ratio > 0. && std::abs(next) < 1.5;
+          }
+      }
+    // Few equal strokes, each passed within a row, look alike, but have one
+    // size.
+    return n_stairs >=
+               (sizes.size() < least_sizes ? many_stairs : least_stairs) ?
+             step :
+             0.;
+  }
+
+
+
+  std::vector<double> without_stairs(const std::vector<double> &time,
+                                     const std::vector<double> &values,
+                                     const double               step)
+  {
+    return StairMotion(time, values, step).motion(values);
+  }
+
+
+
+  double rounding_of_motion(const MeasuredTest &test)
+  {
+    return std::max(rounding_of_motion(test.displacement),
+                    rounding_of_motion(test.displacement_y));
+  }
+
+
+
+  void undo_rounding_of_motion(MeasuredTest &test)
+  {
+    const double largest = rounding_of_motion(test);
+    for (std::vector<double> *values :
+         {&test.displacement, &test.displacement_y})
+      {
+        const double step = rounding_of_motion(*values);
+        if (step > 0.)
+          *values = without_stairs(test.time, *values, step);
+      }
+    if (largest > 0.)
+      test.warnings.push_back(
+        test.file.string() + ": the displacement is rounded to " +
+        short_text(largest) +
+        " mm: between its stairs the motion is taken to be even; record "
+        "positions with more digits");
+  }
+} // namespace SlipStep

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/measured_data/rounded_motion.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace SlipStep;
+
+namespace
+{
+  constexpr double step = 0.01;
+
+  // Rest at 0, slide, rest, slide ten times as fast, and back.
+  double place_at(const double t)
+  {
+    if (t < 5.)
+      return 0.;
+    if (t < 25.)
+      return 0.02 * (t - 5.);
+    if (t < 35.)
+      return 0.4;
+    if (t < 45.)
+      return 0.4 + 0.2 * (t - 35.);
+    return 2.4 - 0.1 * (t - 45.);
+  }
+
+  struct Record
+  {
+    std::vector<double> time, exact, rounded;
+
+    explicit Record(const double interval)
+    {
+      for (double t = 0.; t < 60.; t += interval)
+        {
+          time.push_back(t);
+          exact.push_back(place_at(t));
+          rounded.push_back(step * std::round(exact.back() / step));
+        }
+    }
+  };
+
+  double largest_difference(const std::vector<double> &a,
+                            const std::vector<double> &b)
+  {
+    double result = 0.;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      result = std::max(result, std::abs(a[i] - b[i]));
+    return result;
+  }
+} // namespace
+
+
+
+TEST(RoundedMotion, IsSeenInItsStairs)
+{
+  for (const double interval : {0.02, 0.1, 0.3})
+    {
+      const Record record(interval);
+      EXPECT_NEAR(rounding_of_motion(record.rounded), step, 1e-9) << interval;
+      EXPECT_EQ(rounding_of_motion(record.exact), 0.) << interval;
+    }
+  // Rows so far apart that it makes no stairs.
+  std::vector<double> fast;
+  for (unsigned int i = 0; i < 200; ++i)
+    fast.push_back(step * std::round(0.0537 * i / step));
+  EXPECT_EQ(rounding_of_motion(fast), 0.);
+  EXPECT_EQ(rounding_of_motion(std::vector<double>()), 0.);
+  EXPECT_EQ(rounding_of_motion(std::vector<double>(3, 1.)), 0.);
+}
+
+
+
+// Strokes between rests, each passed within a row.
+TEST(RoundedMotion, IsNotSeenInStrokes)
+{
+  std::vector<double> strokes;
+  for (unsigned int i = 0; i < 15; ++i)
+    strokes.insert(strokes.end(), 10, 0.5 * i);
+  EXPECT_EQ(rounding_of_motion(strokes), 0.);
+  for (double &value : strokes)
+    value *= value;
+  EXPECT_EQ(rounding_of_motion(strokes), 0.);
+}
+
+
+
+// Ten times nearer to the motion than the record is where stairs have ten rows;
+// rests stay rests, and a turn stays within half a step.
+TEST(RoundedMotion, IsEvenBetweenStairs)
+{
+  const Record              record(0.05);
+  const std::vector<double> even =
+    without_stairs(record.time, record.rounded, step);
+  EXPECT_LE(largest_difference(even, record.rounded), 0.5 * step + 1e-12);
+  for (std::size_t i = 0; record.time[i] < 35.; ++i)
+    {
+      const double t = record.time[i];
+      const bool   is_corner =
+        std::min(std::abs(t - 5.), std::abs(t - 25.)) < 0.6;
+      EXPECT_NEAR(even[i], record.exact[i], (is_corner ? 0.25 : 0.12) * step)
+        << t;
+    }
+  for (const double t : {1., 4., 30.})
+    EXPECT_NEAR(even[static_cast<std::size_t>(t / 0.05)], place_at(t), 1e-12);
+}
+
+
+
+TEST(RoundedMotion, IsTold)
+{
+  const Record record(0.05);
+  MeasuredTest test;
+  test.file         = "coarse.csv";
+  test.time         = record.time;
+  test.displacement = record.rounded;
+  EXPECT_NEAR(rounding_of_motion(test), step, 1e-9);
+  undo_rounding_of_motion(test);
+  ASSERT_EQ(test.warnings.size(), 1u);
+  EXPECT_NE(test.warnings[0].find("rounded to 0.01 mm"), std::string::npos);
+
+  test.displacement = record.exact;
+  test.warnings.clear();
+  EXPECT_EQ(rounding_of_motion(test), 0.);
+  undo_rounding_of_motion(test);
+  EXPECT_EQ(test.displacement, record.exact);
+  EXPECT_TRUE(test.warnings.empty());
+}
