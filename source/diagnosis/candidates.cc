@@ -111,7 +111,9 @@ namespace SlipStep
               formula.along = info->search.along;
               if (formula.why_not.empty())
                 candidate.formulas.push_back(formula);
-              else
+              else if (std::find(reasons.begin(),
+                                 reasons.end(),
+                                 formula.why_not) == reasons.end())
                 reasons.push_back(formula.why_not);
             }
         }

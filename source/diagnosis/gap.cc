@@ -124,6 +124,26 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // Bonferroni, with most of the chance given to what has a name.
+    constexpr double share_of_smooth = 2. / 3.;
+    constexpr double share_of_others = (1. - share_of_smooth) / 3.;
+  } // namespace
+
+
+
+  double clear_track_wave(const Workspace &workspace, const Model &model)
+  {
+    const TrackWave wave = find_track_wave(workspace.along_track,
+                                           workspace.wavelengths,
+                                           model,
+                                           workspace.null_draws);
+    return wave.p <= share_of_others * workspace.level ? wave.wavelength : 0.;
+  }
+
+
+
   GapTest
   test_gap(const Workspace &workspace, const Model &model, const View &view)
   {
@@ -149,13 +169,11 @@ namespace SlipStep
                                             null_draws);
     result.p_track        = track.p;
     result.wavelength     = track.wavelength;
-    // Bonferroni, with most of the chance given to what has a name.
-    constexpr double share = 2. / 3., share_of_others = (1. - share) / 3.;
-    result.p = std::min({1.,
-                         result.p_smooth / share,
-                         result.p_together / share_of_others,
-                         result.p_replicates / share_of_others,
-                         result.p_track / share_of_others});
+    result.p              = std::min({1.,
+                                      result.p_smooth / share_of_smooth,
+                                      result.p_together / share_of_others,
+                                      result.p_replicates / share_of_others,
+                                      result.p_track / share_of_others});
     return result;
   }
 } // namespace SlipStep

@@ -469,6 +469,7 @@ namespace SlipStep
                                        start.integer("Diagnosis/Draws"),
                                        start.integer("Diagnosis/Seed"));
       prepare_gap_test(workspace);
+      workspace.range.track_wave = clear_track_wave(workspace, result.base);
       weigh_start(result);
     }
 

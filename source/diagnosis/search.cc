@@ -190,7 +190,8 @@ namespace SlipStep
     // one are completed: what that explains is no second effect.
     bool Searcher::add()
     {
-      const View         view = score_candidates(workspace, result.model);
+      workspace.range.track_wave = clear_track_wave(workspace, result.model);
+      const View         view    = score_candidates(workspace, result.model);
       std::vector<Model> found;
       if (n_effects() < workspace.most_effects)
         {

@@ -36,6 +36,7 @@ namespace
     range.longest_test     = 2000.;
     range.longest_slide    = 2000.;
     range.typical_friction = 0.1;
+    range.track_wave       = 2.;
     return range;
   }
 } // namespace
@@ -115,19 +116,27 @@ TEST(Candidates, AreAllOfTheCatalogueUnlessSomeAreAskedFor)
 
 
 
-// Slip normal to the ellipse, and friction opposite to slip.
-TEST(Candidates, AnisotropyHasTwoForms)
+// Slip normal to the ellipse, and friction opposite to slip; half of a change
+// across, or none of it; a film that is Newtonian or thins.
+TEST(Candidates, HaveOtherForms)
 {
-  Parameters start = coulomb_case();
-  start.set("Diagnosis/Candidates", "anisotropy", "test");
-  const Candidate found = make_candidates(start, usual_range()).at(0);
-  ASSERT_EQ(found.formulas.size(), 2u);
-  std::vector<std::string> forms;
-  for (const TrialFormula &formula : found.formulas)
-    forms.push_back(
-      assemble(start, {{found.name, formula}}, formula.shapes[0](30.))
-        .parameters.text("Friction/anisotropy/Form"));
-  EXPECT_EQ(forms, (std::vector<std::string>{"associated", "opposite"}));
+  const auto forms = [](const std::string &name, const std::string &key) {
+    Parameters start = coulomb_case();
+    start.set("Diagnosis/Candidates", name, "test");
+    const Candidate found = make_candidates(start, usual_range()).at(0);
+    std::vector<std::string> result;
+    for (const TrialFormula &formula : found.formulas)
+      result.push_back(
+        assemble(start, {{found.name, formula}}, formula.shapes[0](30.))
+          .parameters.text("Friction/" + name + "/" + key));
+    return result;
+  };
+  using Forms = std::vector<std::string>;
+  EXPECT_EQ(forms("anisotropy", "Form"), (Forms{"associated", "opposite"}));
+  EXPECT_EQ(forms("direction", "Form"), (Forms{"cosine", "reversed"}));
+  EXPECT_EQ(forms("viscous", "Exponent"), (Forms{"1", "0.5"}));
+  EXPECT_EQ(forms("texture", "Wavelength"),
+            (Forms{"2 mm", "1.4142135623730951 mm"}));
 }
 
 
@@ -167,6 +176,32 @@ TEST(Candidates, StatesAreTriedBesideADirectEffect)
   EXPECT_EQ(found("overstress, ageing", 0.), "ageing(-)slip_law(slip_law)");
   range.fastest = range.slowest;
   EXPECT_EQ(found("overstress", 0.), "ageing(-)slip_law(-)");
+}
+
+
+
+// What a jump of speed spreads over shows beside an effect that jumps; a
+// texture where there are waves.
+TEST(Candidates, NeedWhatTheyShowIn)
+{
+  Parameters start = coulomb_case();
+  start.set("Diagnosis/Candidates", "memory_length, texture", "test");
+  TestedRange range  = usual_range();
+  const auto  reason = [&](const std::string &effects, const unsigned int i) {
+    start.set("Friction/Effects", effects, "test");
+    return make_candidates(start, range).at(i).why_not;
+  };
+  EXPECT_EQ(reason("", 0), "there is no effect of speed that could spread");
+  for (const char *effects : {"overstress", "perzyna"})
+    {
+      EXPECT_EQ(reason(effects, 0), "");
+      const TrialFormula formula =
+        make_candidates(start, range).at(0).formulas.at(0);
+      EXPECT_EQ(formula.texts.at("Friction/memory_length/Form"), "flow");
+    }
+  EXPECT_EQ(reason("", 1), "");
+  range.track_wave = 0.;
+  EXPECT_EQ(reason("", 1), "there is no clear wave along the track");
 }
 
 

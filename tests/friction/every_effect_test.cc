@@ -382,6 +382,9 @@ namespace
         return f + ratio * 0.3;
       if (name == "viscous")
         return f + ratio * 0.2 * speed * std::pow(1. + speed / 0.1, -0.4);
+      if (name == "resonance")
+        return f * (1. + 0.3 / (1. + std::pow(1.5 * (speed / 0.2 - 0.2 / speed),
+                                              2)));
       if (name == "run_in")
         return f * 0.6;
       if (name == "direction")

@@ -147,6 +147,94 @@ TEST(Forms, a_film_that_thins_with_shear)
 
 
 
+// Largest at its speed, half of it where Q |x - 1/x| = 1, and the same at x and
+// 1/x.
+TEST(Forms, a_resonance_is_a_bump_over_the_logarithm_of_speed)
+{
+  const auto law     = make_law({{"Effects", "resonance"},
+                                 {"Static coefficient", "0.1"},
+                                 {"resonance/Rise", "0.3"},
+                                 {"resonance/Speed", "0.2 mm/s"},
+                                 {"resonance/Quality", "2"}});
+  const auto rise_at = [&](const double x) {
+    ContactPoint point(*law);
+    slide(*law, vector(0.2 * x), 10. / x, 100, point);
+    return point.committed().traction[0] / 0.4 - 1.;
+  };
+  const double half = std::sqrt(1. + 1. / 16.) + 0.25;
+  EXPECT_NEAR(half - 1. / half, 0.5, 1e-12);
+  EXPECT_NEAR(rise_at(1.), 0.3, 1e-9);
+  EXPECT_NEAR(rise_at(half), 0.15, 1e-9);
+  EXPECT_NEAR(rise_at(1. / half), 0.15, 1e-9);
+  EXPECT_NEAR(rise_at(1e-3), 0., 1e-6);
+  EXPECT_NEAR(rise_at(1e6), 0., 1e-9);
+}
+
+
+
+// At the same place friction is the same, whichever way it is passed.
+TEST(Forms, a_texture_belongs_to_places)
+{
+  const double       pi = dealii::numbers::PI, alpha = 1e4;
+  const auto         law = make_law({{"Effects", "texture"},
+                                     {"Static coefficient", "0.1"},
+                                     {"Tangential stiffness", "1e4"},
+                                     {"texture/Amplitude", "0.3"},
+                                     {"texture/Wavelength", "0.5 mm"},
+                                     {"texture/Phase", "40 deg"},
+                                     {"texture/Angle", "30 deg"}});
+  const Tensor<1, 2> e   = vector(std::cos(pi / 6.), std::sin(pi / 6.));
+  ContactPoint       point(*law);
+  Tensor<1, 2>       load_point;
+  for (const Tensor<1, 2> &way :
+       {vector(0.8, 0.), vector(-0.3, 0.), vector(0., 0.6), vector(-1., -1.)})
+    for (unsigned int step = 0; step < 400; ++step)
+      {
+        slide(*law, way / 400., 1., 1, point);
+        load_point += way / 400.;
+        // Turning takes some elastic slip.
+        if (step < 100)
+          continue;
+        const Tensor<1, 2> place =
+          load_point - point.committed().traction / alpha;
+        EXPECT_NEAR(point.committed().traction.norm(),
+                    0.4 * (1. + 0.3 * std::sin(2. * pi * (e * place) / 0.5 +
+                                               40. * pi / 180.)),
+                    2e-4)
+          << place;
+      }
+}
+
+
+
+// As without it until the pressure falls below what it was.
+TEST(Forms, the_largest_pressure_is_remembered)
+{
+  const auto   law = make_law({{"Effects", "largest_pressure"},
+                               {"Static coefficient", "0.1"},
+                               {"largest_pressure/Change", "0.5"}});
+  ContactPoint point(*law);
+  double       largest = 0.;
+  for (const double pressure : {2., 3., 8., 4., 6., 8., 10., 5.})
+    {
+      largest = std::max(largest, pressure);
+      for (unsigned int step = 0; step < 20; ++step)
+        {
+          point.update(*law, vector(0.05), pressure, 0.1);
+          point.commit();
+        }
+      EXPECT_NEAR(point.committed().traction[0],
+                  0.1 * pressure * (1. + 0.5 * (1. - pressure / largest)),
+                  1e-9);
+    }
+  // Off the plane it is not forgotten.
+  point.update(*law, vector(0.), 0., 0.1);
+  point.commit();
+  EXPECT_EQ(point.committed()[contact_memory("largest_pressure_MPa")], 10.);
+}
+
+
+
 TEST(Forms, refuse_what_has_no_meaning)
 {
   EXPECT_THROW(make_law({{"Effects", "memory_length"},

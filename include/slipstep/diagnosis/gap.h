@@ -35,6 +35,10 @@ namespace SlipStep
   /// again when draws of noise or weights have changed.
   void prepare_gap_test(Workspace &workspace);
 
+  /// The length of the wave along the track that a model leaves, if that is
+  /// evidence of a gap by itself [mm]; else 0.
+  double clear_track_wave(const Workspace &workspace, const Model &model);
+
   /// Whether a model leaves more than noise, with what is seen from it.
   GapTest
   test_gap(const Workspace &workspace, const Model &model, const View &view);

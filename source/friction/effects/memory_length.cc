@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -115,13 +116,33 @@ namespace SlipStep
         info.typical_settings = {{"Growth", "0.3"},
                                  {"Speed", "0.1 mm/s"},
                                  {"Slip length", "0.02 mm"}};
-        info.search.why_not = "its slip length shows in densely sampled steps "
-                              "of speed only; without it, it is effect "
-                              "overstress, which is tried";
+        info.search = {"jumps of speed spread over a slip length", search};
         return info;
       }
 
     private:
+      // By its slip length: Form = factor, without one, is the overstress by
+      // another formula.
+      static TrialFormula search(const Circumstances &now)
+      {
+        const std::string length = "Friction/memory_length/Slip length";
+        const double      path   = now.range.longest_path;
+        if (!now.has("overstress") && !now.has("perzyna"))
+          return TrialFormula::none(
+            "there is no effect of speed that could spread");
+        if (!(now.range.fastest > 1.5 * now.range.slowest))
+          return TrialFormula::none("the speed hardly varies");
+        TrialFormula formula;
+        formula.is_one_sided = true;
+        formula.texts        = {{"Friction/memory_length/Form", "flow"}};
+        formula.parameters   = {{length, 1e-5 * path, 0.3 * path, true}};
+        formula.shapes       = {[=](const double strength) {
+          return Values{
+            {length, std::clamp(1e-3 * strength, 1.1e-5, 0.29) * path}};
+        }};
+        return formula;
+      }
+
       // V_m at the end, exact for a constant slip rate, and its derivative with
       // respect to slip, the time step being kept.
       Rate rate_after(const ContactState &start,

@@ -110,11 +110,12 @@ INSTANTIATE_TEST_SUITE_P(
              Planting::NoiseKind::rounded_motion},
     // Heat takes away what the drag adds, a second later.
     Expected{CampaignClass::joint, 5, Verdict::named, {"heating", "viscous"}},
-    // Squeezed oil and flattened asperities, which leave little trace.
+    // Squeezed oil, which leaves little trace.
     Expected{CampaignClass::outside, 14, Verdict::unnamed, {}},
-    Expected{CampaignClass::outside, 34, Verdict::unnamed, {}},
+    // Flattened asperities, which the catalogue has by now.
+    Expected{CampaignClass::outside, 34, Verdict::named, {"largest_pressure"}},
+    Expected{CampaignClass::outside, 6, Verdict::named, {"largest_pressure"}},
     Expected{CampaignClass::outside, 1, Verdict::unnamed, {}},
-    Expected{CampaignClass::outside, 6, Verdict::unnamed, {}},
     Expected{CampaignClass::outside, 9, Verdict::unnamed, {}},
     Expected{CampaignClass::outside, 10, Verdict::unnamed, {}}),
   [](const testing::TestParamInfo<Expected> &info) {
@@ -373,7 +374,9 @@ TEST_F(CampaignFolder, WaveAlongTheTrackIsTold)
 {
   plant(CampaignClass::outside, 115);
   const Judgement judgement = judged();
-  EXPECT_EQ(name_of(judgement.verdict), "unnamed");
+  EXPECT_EQ(name_of(judgement.verdict), "named");
+  EXPECT_EQ(effect_names(judgement.found.model.parts),
+            std::vector<std::string>{"texture"});
   EXPECT_LE(judgement.gap.p_track, 0.002);
   const double level = ingested.workspace->level;
   EXPECT_GT(judgement.gap.p_smooth, 5. * judgement.gap.p_track);

@@ -33,10 +33,6 @@ namespace SlipStep
     {
       for (std::string &name : names)
         {
-          // The workshop's memory of speed is the slip law of rate and state in
-          // other letters.
-          if (name == "memory_length")
-            name = "slip_law";
           const auto found = effect_registry().find(name);
           if (found != effect_registry().end() &&
               !found->second.search.candidate.empty())
@@ -316,8 +312,11 @@ namespace SlipStep
       Trial trial;
       trial.cpu_time =
         static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      // The workshop's memory of speed is the slip law of rate and state in
+      // other letters.
       for (const Planting::PlantedEffect &effect : campaign.hidden)
-        trial.truth.push_back(effect.name);
+        trial.truth.push_back(effect.name == "memory_length" ? "slip_law" :
+                                                               effect.name);
       trial.truth = candidates_of(trial.truth);
       trial.named = candidates_of(effect_names(judgement.found.model.parts));
       for (const Rival &rival : judgement.found.rivals)
