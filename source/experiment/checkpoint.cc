@@ -29,7 +29,7 @@ namespace SlipStep
 
     // Grows when an older program could not read what this one writes, or the
     // other way round.
-    constexpr unsigned int manifest_format = 6;
+    constexpr unsigned int manifest_format = 7;
 
     const char *const manifest_name = "manifest.json";
 
