@@ -333,7 +333,8 @@ TEST_F(Diagnose, NothingIsLeftToAdd)
   const auto json = verdict_of(
     diagnose({"Friction/Effects=subloading, overstress, softening, healing, "
               "pressure, shear_cap, adhesion, heating, run_in, anisotropy, "
-              "direction, stribeck, viscous",
+              "direction, stribeck, viscous, texture, resonance, "
+              "largest_pressure, memory_length",
               "Friction/healing/Rate=1e-9",
               "Friction/pressure/Exponent=0",
               "Friction/shear_cap/Shear limit=1e6",
@@ -344,6 +345,9 @@ TEST_F(Diagnose, NothingIsLeftToAdd)
               "Friction/direction/Change=0",
               "Friction/stribeck/Rise=0",
               "Friction/viscous/Drag=0",
+              "Friction/texture/Amplitude=0",
+              "Friction/resonance/Rise=0",
+              "Friction/largest_pressure/Change=0",
               "Calibration/Parameters=Friction/Static coefficient from 0.02 to "
               "0.5; Friction/Tangential stiffness from 100 to 1e4; "
               "Friction/softening/Kinetic coefficient from 0.02 to 0.5; "
