@@ -160,9 +160,9 @@ TEST(Repeat, MembersThatAreTheSameCaseAreTold)
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return result.err;
   };
-  for (const std::string &sweep : {"Block/Young modulus=206 GPa|70 GPa",
-                                   "Friction/Static coefficient=0.2|0.20",
-                                   "Output/Directory=a|b"})
+  for (const std::string sweep : {"Block/Young modulus=206 GPa|70 GPa",
+                                  "Friction/Static coefficient=0.2|0.20",
+                                  "Output/Directory=a|b"})
     EXPECT_NE(warning(sweep).find("are the same case"), std::string::npos)
       << sweep;
   EXPECT_EQ(warning("Friction/Static coefficient=0.2|0.3"), "");

@@ -187,7 +187,7 @@ TEST(BlockMachine, pushes_and_pulls_a_body_with_mass)
                            {"Block/Density", "7850 kg/m^3"},
                            {"Loading/Machine stiffness", "500 MPa/mm"},
                            {"Loading/Machine mass", "10 kg/m^2"}};
-  for (const std::string &motion :
+  for (const std::string motion :
        {"push 0.8 MPa in 20 us", "slide 100 mm/s for 20 us"})
     {
       SCOPED_TRACE(motion);
