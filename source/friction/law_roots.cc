@@ -155,6 +155,7 @@ namespace SlipStep
       return local.flow.value;
     };
     const unsigned int most_iterations = 50;
+    constexpr double   tolerance       = 1e-6;
     try
       {
         boost::uintmax_t iterations = most_iterations;
@@ -170,12 +171,22 @@ namespace SlipStep
           iterations);
         if (iterations < most_iterations)
           {
-            evaluate(traction, local);
-            const double correction =
-              alpha_t * local.flow.value / local.d_residual;
-            if (local.d_residual > 0. &&
-                std::abs(correction) <= 1e-6 * traction)
+            const double value      = residual(traction);
+            const double correction = alpha_t * value / local.d_residual;
+            const bool   is_close   = local.d_residual > 0. &&
+                                  std::abs(correction) <= tolerance * traction;
+            if (is_close && std::abs(value) <= tolerance)
               return;
+            // A strength that rises steeply from rest makes the correction
+            // small far from any root, too.
+            if (is_close &&
+                value * residual((1. + std::copysign(tolerance, value)) *
+                                 traction) <
+                  0.)
+              {
+                evaluate(traction, local);
+                return;
+              }
           }
       }
     catch (const boost::math::evaluation_error &)
