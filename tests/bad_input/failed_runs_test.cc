@@ -207,7 +207,10 @@ TEST(StoppedRun, LeavesReadableFiles)
 TEST(StoppedRun, StopsTheVariants)
 {
   const SlipstepProcess process;
-  process.write("case.prm", std::string(slow) + sweep);
+  const std::string     at_one_speed = "slide 1 mm/s for";
+  std::string           at_all       = slow;
+  at_all.replace(at_all.find(at_one_speed), at_one_speed.size(), "slide for");
+  process.write("case.prm", at_all + sweep);
   // Only the parent gets the signal.
   interrupted(process, SIGTERM, 2);
   for (const auto &entry :
