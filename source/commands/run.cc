@@ -67,19 +67,21 @@ namespace SlipStep
     void print_warning_of_twins(const Case        &the_case,
                                 const std::string &command)
     {
-      constexpr std::size_t most = 100; // as all are compared with all
-      const std::size_t     n    = std::min(most, the_case.complete.size());
-      for (std::size_t i = 0; i < n; ++i)
+      constexpr std::size_t     most = 100; // as all are compared with all
+      const std::size_t         n    = std::min(most, the_case.complete.size());
+      std::vector<CaseIdentity> identities;
+      for (std::size_t j = 0; j < n; ++j)
         {
-          const CaseIdentity identity(the_case.complete[i], command);
-          for (std::size_t j = i + 1; j < n; ++j)
-            if (identity.is_that_of(the_case.complete[j]))
+          const CaseIdentity identity(the_case.complete[j], command);
+          for (std::size_t i = 0; i < j; ++i)
+            if (identity.is_same(identities[i], the_case.parameters))
               return print_warnings(
                 {"'" + the_case.variants[i].label + "' and '" +
                  the_case.variants[j].label +
                  "' of the sweep are the same case: what they differ in does "
                  "not act on the results of slipstep " +
                  command});
+          identities.push_back(identity);
         }
     }
 

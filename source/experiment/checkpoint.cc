@@ -100,6 +100,14 @@ namespace SlipStep
 
 
 
+    // These are compared as a whole, by what they say.
+    bool is_in_programme(const std::string &path)
+    {
+      return path == "Loading/Programme" || path == "Loading/Speed";
+    }
+
+
+
     // "1 cm" is "10 mm", "0.10" is "0.1", "a, b" is "a,b".
     bool is_same_value(const dealii::Patterns::PatternBase *pattern,
                        const std::string                   &value,
@@ -190,17 +198,22 @@ namespace SlipStep
 
 
 
-  bool CaseIdentity::is_that_of(const Parameters &parameters) const
+  bool CaseIdentity::is_same(const CaseIdentity &other,
+                             const Parameters   &declared) const
   {
-    try
-      {
-        require_same(parameters, "");
-        return true;
-      }
-    catch (const InputError &)
-      {
-        return false;
-      }
+    return programme == other.programme &&
+           std::equal(
+             values.begin(),
+             values.end(),
+             other.values.begin(),
+             other.values.end(),
+             [&](const auto &one, const auto &another) {
+               return one.first == another.first &&
+                      (is_in_programme(one.first) ||
+                       is_same_value(declared.entry(one.first).pattern.get(),
+                                     one.second,
+                                     another.second));
+             });
   }
 
 

@@ -263,7 +263,6 @@ namespace SlipStep
     {
       std::vector<Rows>        points;
       std::vector<std::string> names; ///< "" for one that needs none
-      bool                     is_joined = false;
       /// Where something else varies, too, a line would be a zigzag.
       bool  is_zigzag = false;
       Range x, y;
@@ -289,8 +288,8 @@ namespace SlipStep
             }
         }
       // The speeds of a sweep make one curve of all runs.
-      curves.is_joined = !requested.is_of<OfStep>() && longest <= 1;
-      if (!curves.is_joined)
+      const bool is_joined = !requested.is_of<OfStep>() && longest <= 1;
+      if (!is_joined)
         return curves;
       Rows all;
       for (const Rows &points : curves.points)

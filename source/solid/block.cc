@@ -96,7 +96,7 @@ namespace SlipStep
         error =
           std::max({error,
                     drive.error(drive_springs, driven_mass, totals.limit_load),
-                    error_of_motion()});
+                    error_of_motion(totals)});
         if (mesh_is_new)
           error = std::min(error, control.wanted_error());
         if (control.would_accept(error) && adapt_to_trial(output))

@@ -73,7 +73,7 @@ namespace SlipStep
   // loads while these are still empty. A stiff block on a soft spring has next
   // to none of its own when it comes to rest.
   template <int dim>
-  double Block<dim>::error_of_motion()
+  double Block<dim>::error_of_motion(const ContactTotals &totals)
   {
     if (!inertia.exists())
       return 0.;
@@ -116,8 +116,7 @@ namespace SlipStep
       stress * stress / (2. * parameters.young_modulus) * volume;
     constexpr double part   = 0.3;
     const double     stored = elastic_energy() + inertia.kinetic_energy() +
-                          contact.totals(communicator).stored +
-                          drive.stored_energy();
+                          totals.stored + drive.stored_energy();
     return part * std::sqrt(energy / std::max(of_loads, stored));
   }
 

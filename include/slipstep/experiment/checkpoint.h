@@ -38,8 +38,9 @@ namespace SlipStep
     void require_same(const Parameters  &parameters,
                       const std::string &owner) const;
 
-    /// Whether a case differs in nothing.
-    bool is_that_of(const Parameters &parameters) const;
+    /// Whether another case differs in nothing.
+    /// @param declared with the patterns of the keys
+    bool is_same(const CaseIdentity &other, const Parameters &declared) const;
 
     /// Pairs (path of a parameter, value), in declared order.
     std::vector<std::pair<std::string, std::string>> values;

@@ -232,7 +232,7 @@ namespace SlipStep
     const Vector          &strained_displacement();
     dealii::Tensor<1, dim> frame_motion_in_stage() const;
     double                 damped_energy_of_stage();
-    double                 error_of_motion();
+    double                 error_of_motion(const ContactTotals &totals);
     std::vector<Vector *>  fields_of_state();
 
     // The drive, where its displacement is an unknown.
