@@ -27,10 +27,9 @@ namespace SlipStep
                           const CommandLine &line,
                           const fs::path    &output)
     {
-      const std::string program =
-        word(fs::read_symlink("/proc/self/exe").string());
-      const fs::path case_file = fs::absolute(line.files.front());
-      std::string    call =
+      const std::string program   = word(line.program.string());
+      const fs::path    case_file = fs::absolute(line.files.front());
+      std::string       call =
         program + " " + line.command + " " + word(case_file.string());
       for (const std::string &sweep : line.sweeps_as_typed)
         call += " --sweep " + word(sweep);

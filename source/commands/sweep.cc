@@ -377,7 +377,7 @@ namespace SlipStep
   {
     SweepJob job;
     job.label     = label;
-    job.arguments = {std::filesystem::read_symlink("/proc/self/exe").string(),
+    job.arguments = {line.program.string(),
                      command,
                      line.files.front().string(),
                      "--child",

@@ -11,8 +11,11 @@
 
 namespace SlipStep
 {
-  /// Read the command line and do what it says.
-  Outcome start(const int argc, char **argv);
+  /// The whole program: read the command line, do what it says, and tell of
+  /// what went wrong.
+  /// @param file the file that children are started from
+  /// @return the exit code
+  int program(const int argc, char **argv, const std::filesystem::path &file);
 
   /// @name The commands, each in a file of its own. They return the exit code,
   /// or more if they have something to say about every case.

@@ -14,6 +14,8 @@ namespace SlipStep
   /// What the user typed.
   struct CommandLine
   {
+    /// The program that children are started from.
+    std::filesystem::path              program;
     std::string                        command;
     std::vector<std::filesystem::path> files;
     /// Pairs (path of a parameter, value) of the options --set.
