@@ -102,7 +102,10 @@ TEST_F(Planted, WithoutNoiseTheTruth)
 
 // 100 repetitions with other noise, white and such that 0.8 of a row is what
 // the row before it had.
-TEST_F(Planted, IntervalsCoverTheTruthAsOftenAsTheySay)
+class IntervalsCover : public Planted
+{};
+
+TEST_F(IntervalsCover, TheTruthAsOftenAsTheySay)
 {
   const Parameters truth = calibration_case(paper);
   const auto       fitted =
