@@ -10,10 +10,11 @@ missing=$(find run .ci/run include source tests doc cmake -type f \
                \( -name '*.h' -o -name '*.cc' -o -name '*.sh' -o -name '*.pl' \
                   -o -name '*.py' -o -name '*.awk' -o -name '*.cmake' \
                   -o -name '*.js' -o -name '*.css' \
-                  -o -name run \) | sort | while read -r file; do
-  head -n 2 "$file" | grep -q 'SPDX-License-Identifier: LGPL-2.1-or-later' ||
-    echo "$file"
-done)
+                  -o -name run \) -exec \
+  awk 'FNR == 1 {said = 0}
+       FNR <= 2 && /SPDX-License-Identifier: LGPL-2.1-or-later/ {said = 1}
+       FNR == 2 && !said {print FILENAME}
+       FNR == 2 {nextfile}' {} + | sort)
 if [ -n "$missing" ]; then
   printf 'No line "SPDX-License-Identifier: LGPL-2.1-or-later":\n%s\n' "$missing"
   exit 1
