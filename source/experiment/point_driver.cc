@@ -104,11 +104,10 @@ namespace SlipStep
     // What the contact alone has to say after a step.
     HistoryRow row_of(const FrictionLaw  &law,
                       const ContactPoint &point,
-                      const Loading      &loading,
-                      const bool          is_closed)
+                      const double        pressure)
     {
-      const ContactState &state    = point.trial();
-      const double        pressure = loading.pressure;
+      const ContactState &state     = point.trial();
+      const bool          is_closed = pressure > 0.;
       HistoryRow          row;
       row.pressure          = pressure;
       row.friction          = is_closed ? state.traction[0] / pressure : 0.;
@@ -174,15 +173,14 @@ namespace SlipStep
         work += normal_energy(law, point.trial()) -
                 normal_energy(law, point.committed()) + step.work;
         // A contact that opens lets a spring without mass go.
-        const bool is_closed = to.pressure > 0.;
-        if (!is_closed && machine.mass() == 0.)
+        if (to.pressure <= 0. && machine.mass() == 0.)
           snapped += machine.stored_energy(slider);
         slider = step.slider;
         if (segment.pushes)
           pushed += step.motion;
         point.commit();
 
-        HistoryRow row     = row_of(law, point, to, is_closed);
+        HistoryRow row     = row_of(law, point, to.pressure);
         row.time           = control.time();
         row.displacement   = to.displacement[0] + pushed[0];
         row.displacement_y = to.displacement[1] + pushed[1];

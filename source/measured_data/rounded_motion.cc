@@ -205,11 +205,12 @@ namespace SlipStep
 
   void undo_rounding_of_motion(MeasuredTest &test)
   {
-    const double largest = rounding_of_motion(test);
+    double largest = 0.;
     for (std::vector<double> *values :
          {&test.displacement, &test.displacement_y})
       {
         const double step = rounding_of_motion(*values);
+        largest           = std::max(largest, step);
         if (step > 0.)
           *values = without_stairs(test.time, *values, step);
       }

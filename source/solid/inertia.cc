@@ -65,7 +65,7 @@ namespace SlipStep
         forces.local_element(i) += force;
         square += force * force;
       }
-    return norm_of_all(square);
+    return std::sqrt(sum_of_ranks(square));
   }
 
 
@@ -82,17 +82,18 @@ namespace SlipStep
                              (std::abs(displacement.local_element(i)) + frame);
         square += force * force;
       }
-    return std::numeric_limits<double>::epsilon() * norm_of_all(square);
+    return std::numeric_limits<double>::epsilon() *
+           std::sqrt(sum_of_ranks(square));
   }
 
 
 
   template <int dim>
-  double Inertia<dim>::norm_of_all(const double square) const
+  double Inertia<dim>::sum_of_ranks(const double value) const
   {
-    return exists() ? std::sqrt(Utilities::MPI::sum(
-                        square, lumped_mass.get_mpi_communicator())) :
-                      0.;
+    return exists() ?
+             Utilities::MPI::sum(value, lumped_mass.get_mpi_communicator()) :
+             0.;
   }
 
 
@@ -121,9 +122,7 @@ namespace SlipStep
         const double motion = mode.local_element(i) + frame[component[i]];
         sum += lumped_mass.local_element(i) * motion * motion;
       }
-    return exists() ?
-             Utilities::MPI::sum(sum, lumped_mass.get_mpi_communicator()) :
-             0.;
+    return sum_of_ranks(sum);
   }
 
 
@@ -152,9 +151,7 @@ namespace SlipStep
     for (unsigned int i = 0; i < component.size(); ++i)
       sum += 0.5 * lumped_mass.local_element(i) *
              end_velocity.local_element(i) * end_velocity.local_element(i);
-    return exists() ?
-             Utilities::MPI::sum(sum, lumped_mass.get_mpi_communicator()) :
-             0.;
+    return sum_of_ranks(sum);
   }
 
 

@@ -30,7 +30,7 @@ namespace SlipStep
     std::chrono::steady_clock::time_point deadline =
       std::chrono::steady_clock::time_point::max();
     /// Told what is being done.
-    std::function<void(const std::string &)> progress;
+    std::function<void(const std::string &)> progress = {};
 
     /// @name Directions that are the same for every model, see
     /// prepare_gap_test(): smooth functions of covariates, waves of conditions,

@@ -143,8 +143,8 @@ namespace SlipStep
     }
 
   private:
-    /// @param square of the norm of this rank's part
-    double norm_of_all(const double square) const;
+    // Zero without inertia.
+    double sum_of_ranks(const double value) const;
 
     const BlockParameters     parameters;
     std::vector<unsigned int> component; // of locally owned unknowns
