@@ -259,8 +259,12 @@ namespace SlipStep
         message << "part of the contact face lifted off the plane: at worst "
                 << std::setprecision(2) << 100. * summary.opening.share
                 << " % of it was open, at t = " << std::setprecision(6)
-                << time_of_opening
-                << " s (friction turns a block that is high for its length)";
+                << time_of_opening << " s ("
+                << (inertia.exists() ?
+                      "waves lift a block with density, or friction turns it; "
+                      "slower statements or a 'Damping time' calm waves" :
+                      "friction turns a block that is high for its length")
+                << ')';
         summary.warnings.push_back(message.str());
       }
     const std::string solver_warning = warning_of_solver();
