@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace SlipStep
@@ -282,7 +283,7 @@ namespace SlipStep
       {
         const double value = rise(distance);
         const double root  = std::sqrt(std::max(value, 0.));
-        if (std::abs(value - 1.) < 0.03)
+        if (std::abs(value - 1.) < 0.03 && (value >= 1. || distance < room))
           {
             // To the crossing, straight through the nearer neighbour: where an
             // influence begins, the rise is far steeper than a parabola.
@@ -344,13 +345,18 @@ namespace SlipStep
 
       void follow();
 
-      double                                 end     = 0.; ///< scaled
-      bool                                   is_open = false;
-      std::vector<std::pair<double, double>> points;
-      std::vector<double>                    better;
+      std::vector<std::pair<double, double>> points() const;
+
+      double              end     = 0.; ///< scaled
+      bool                is_open = false;
+      std::vector<double> better;
 
     private:
       double rise(const double distance);
+
+      FitResult fit_at(const double distance);
+
+      bool jumps_at_end() const;
 
       double first_distance() const;
 
@@ -364,6 +370,13 @@ namespace SlipStep
       std::vector<unsigned int> others;
       Eigen::VectorXd           slopes; ///< of the others, per distance
       double                    least_rise = 0.;
+
+      struct Fitted
+      {
+        double              rise = 0.;
+        std::vector<double> scaled;
+      };
+      std::map<double, Fitted> fitted; ///< by distance
     };
 
 
@@ -391,6 +404,33 @@ namespace SlipStep
       if (!others.empty())
         slopes = -columns.completeOrthogonalDecomposition().solve(
           optimum.R.col(parameter) * optimum.size[parameter]);
+      fitted[0.] = {0., optimum.scaled};
+    }
+
+
+
+    // The others fitted: from where they go to first order, and, before that
+    // contradicts the distance, from where they are at the nearest one.
+    FitResult ProfileSide::fit_at(const double distance)
+    {
+      std::vector<double> scaled = optimum.scaled;
+      scaled[parameter]          = start + sign * distance;
+      for (std::size_t i = 0; i < others.size(); ++i)
+        scaled[others[i]] =
+          std::clamp(scaled[others[i]] + sign * distance * slopes(i), 0., 1.);
+      FitResult result = fit(simulator, scaled, others, 0);
+      if (result.misfit < optimum.misfit + threshold || others.empty())
+        return result;
+      const auto nearest = std::min_element(
+        fitted.begin(), fitted.end(), [&](const auto &a, const auto &b) {
+          return std::abs(a.first - distance) < std::abs(b.first - distance);
+        });
+      std::vector<double> again = nearest->second.scaled;
+      again[parameter]          = start + sign * distance;
+      const FitResult other     = fit(simulator, again, others, 0);
+      return other.misfit < result.misfit || !std::isfinite(result.misfit) ?
+               other :
+               result;
     }
 
 
@@ -398,16 +438,11 @@ namespace SlipStep
     // Of the misfit, relative to the threshold, with all others fitted.
     double ProfileSide::rise(const double distance)
     {
-      std::vector<double> scaled = optimum.scaled;
-      scaled[parameter]          = start + sign * distance;
-      for (std::size_t i = 0; i < others.size(); ++i)
-        scaled[others[i]] =
-          std::clamp(scaled[others[i]] + sign * distance * slopes(i), 0., 1.);
-      const FitResult result = fit(simulator, scaled, others, 0);
+      const FitResult result = fit_at(distance);
       const double    rise   = (result.misfit - optimum.misfit) / threshold;
       if (!std::isfinite(rise))
         return infinite;
-      points.emplace_back(scaled[parameter], rise);
+      fitted[distance] = {rise, result.scaled};
       if (rise < std::min(-0.01, least_rise))
         {
           least_rise = rise;
@@ -432,14 +467,62 @@ namespace SlipStep
 
 
 
+    // Whether the search closed in on a jump from one optimum of the others to
+    // another one.
+    bool ProfileSide::jumps_at_end() const
+    {
+      constexpr double close = 1e-2, much = 0.3;
+
+      const auto beyond =
+        std::find_if(fitted.begin(), fitted.end(), [](const auto &point) {
+          return point.second.rise >= 1.;
+        });
+      if (beyond == fitted.end() || beyond == fitted.begin())
+        return false;
+      const auto before = std::prev(beyond);
+      return beyond->first - before->first < close * beyond->first &&
+             beyond->second.rise - before->second.rise > much;
+    }
+
+
+
+    // A jump is no end: what lies beyond is fitted again from this side of it.
+    // Where it jumps again and again nobody knows the end.
     void ProfileSide::follow()
     {
-      const RiseEnd found =
-        follow_rise([this](const double distance) { return rise(distance); },
-                    first_distance(),
-                    room);
-      is_open = found.is_open;
-      end     = start + sign * found.distance;
+      constexpr unsigned int most_attempts = 4;
+
+      double first = first_distance();
+      for (unsigned int n = 0; n < most_attempts; ++n)
+        {
+          const RiseEnd found =
+            follow_rise([this](
+                          const double distance) { return rise(distance); },
+                        first,
+                        room);
+          is_open = found.is_open;
+          end     = start + sign * found.distance;
+          if (!jumps_at_end())
+            return;
+          const auto beyond =
+            std::find_if(fitted.begin(), fitted.end(), [](const auto &point) {
+              return point.second.rise >= 1.;
+            });
+          first = std::min(room, 1.1 * beyond->first);
+          fitted.erase(beyond, fitted.end());
+        }
+      is_open = true;
+    }
+
+
+
+    std::vector<std::pair<double, double>> ProfileSide::points() const
+    {
+      std::vector<std::pair<double, double>> result;
+      for (const auto &[distance, point] : fitted)
+        if (distance > 0.)
+          result.emplace_back(start + sign * distance, point.rise);
+      return result;
     }
   } // namespace
 
@@ -458,9 +541,8 @@ namespace SlipStep
         side.follow();
         (sign < 0 ? result.lower : result.upper)                 = side.end;
         (sign < 0 ? result.is_lower_open : result.is_upper_open) = side.is_open;
-        result.points.insert(result.points.end(),
-                             side.points.begin(),
-                             side.points.end());
+        for (const auto &point : side.points())
+          result.points.push_back(point);
         if (!side.better.empty())
           result.better = side.better;
       }

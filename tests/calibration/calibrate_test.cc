@@ -102,6 +102,52 @@ TEST_F(Planted, WithoutNoiseTheTruth)
 
 // 100 repetitions with other noise, white and such that 0.8 of a row is what
 // the row before it had.
+// Of few and noisy rows the fits of a profile fall from one optimum of the
+// other parameters to another one: that is no end of an interval.
+TEST_F(Planted, IntervalsDoNotEndAtAJump)
+{
+  const Settings law = {{"Friction/Static coefficient", "0.3"},
+                        {"Friction/softening/Kinetic coefficient", "0.22"},
+                        {"Friction/softening/Rate", "0.5"},
+                        {"Friction/overstress/Viscosity", "500"},
+                        {"Friction/overstress/Exponent", "12"},
+                        {"Friction/subloading/Rate", "50"},
+                        {"Friction/Tangential stiffness", "500"},
+                        {"Calibration/Tests", folder.path().string()},
+                        {"Calibration/Starts", "1"},
+                        {"Calibration/Parameters",
+                         "Friction/Static coefficient from 0.02 to 3; "
+                         "Friction/softening/Rate from 0.005 to 50; "
+                         "Friction/overstress/Viscosity from 1 to 1e6; "
+                         "Friction/subloading/Rate from 1 to 1e4"}};
+  for (unsigned int seed = 1; seed <= 3; ++seed)
+    {
+      plant(folder.path(),
+            calibration_case(law),
+            {0.6, 6., 60.},
+            5,
+            4e-3,
+            seed,
+            2.);
+      const Calibration found = calibrate(calibration_case(law));
+      for (const FittedParameter &fitted : found.parameters)
+        for (std::size_t i = 1; i < fitted.profile.size(); ++i)
+          {
+            const auto [x0, rise0] = fitted.profile[i - 1];
+            const auto [x1, rise1] = fitted.profile[i];
+            const bool is_open =
+              rise0 < 1. ? fitted.is_upper_open : fitted.is_lower_open;
+            const bool is_end = (rise0 < 1.) != (rise1 < 1.) && !is_open;
+            EXPECT_FALSE(is_end && std::abs(x1 / x0 - 1.) < 1e-3 &&
+                         std::abs(rise1 - rise0) > 0.3)
+              << fitted.parameter.path << ", seed " << seed << ": " << x0 << " "
+              << rise0 << ", " << x1 << " " << rise1;
+          }
+    }
+}
+
+
+
 class IntervalsCover : public Planted
 {};
 
