@@ -258,6 +258,7 @@ namespace SlipStep
       else
         measured.push_back(read_measured_test(file));
     check_conditions(measured);
+    warn_of_copies(measured);
     std::vector<CampaignTest> tests;
     std::set<fs::path>        files;
     for (const MeasuredTest &test : measured)
@@ -294,21 +295,11 @@ namespace SlipStep
     , tests(tests)
     , search_tolerance(4. * parameters.number("Time stepping/Tolerance"))
   {
-    const std::set<std::string> inactive =
-      FrictionLaw(parameters).inactive_sections();
     for (const FitParameter &parameter : fitted)
-      {
-        for (const std::string &section : inactive)
-          if (parameter.path.compare(0, section.size() + 1, section + "/") == 0)
-            parameters.reject("Calibration/Parameters",
-                              parameter.path +
-                                ": this effect is off: add it to "
-                                "Friction/Effects");
-        for (const Derived &tie : derived)
-          if (tie.name == parameter.path)
-            parameters.reject("Calibration/Derived",
-                              tie.name + " is fitted already");
-      }
+      for (const Derived &tie : derived)
+        if (tie.name == parameter.path)
+          parameters.reject("Calibration/Derived",
+                            tie.name + " is fitted already");
     if (n_residuals() <= fitted.size())
       parameters.reject("Calibration/Parameters",
                         std::to_string(fitted.size()) +

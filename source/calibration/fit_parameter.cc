@@ -2,6 +2,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/calibration/fit_parameter.h>
+#include <slipstep/friction/law.h>
 #include <slipstep/utilities/decimal_comma.h>
 
 #include <algorithm>
@@ -157,6 +158,10 @@ namespace SlipStep
         reject("write it as: path from A to B [start C] [log|linear]");
       result.path = rest;
       read_dimension();
+      for (const std::string &section :
+           FrictionLaw(parameters).inactive_sections())
+        if (result.path.compare(0, section.size() + 1, section + "/") == 0)
+          reject("this effect is off: add it to Friction/Effects");
 
       result.lower = quantity(lower, "from");
       result.upper = quantity(upper, "to");

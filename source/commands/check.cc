@@ -148,6 +148,7 @@ namespace SlipStep
         tests = read_test_set(file);
       else
         tests.push_back(read_measured_test(file));
+      warn_of_copies(tests);
       for (const MeasuredTest &test : tests)
         {
           print_warnings(test.warnings);

@@ -84,6 +84,8 @@ namespace SlipStep
 
       void warn_of_scales();
 
+      void warn_of_jumps();
+
       std::size_t size() const
       {
         return kept.size();
@@ -314,6 +316,41 @@ namespace SlipStep
                " mm/s: are the units of displacement and time right?",
              kept[0]);
     }
+
+
+
+    // From one row to the next against the motion of the rows on both sides, by
+    // far more than these move, and a good part of the way: no machine does
+    // that.
+    void RowsOfTest::warn_of_jumps()
+    {
+      constexpr std::size_t beside = 5; // rows
+      constexpr double      far = 3., good_part = 0.05;
+
+      const std::vector<double> &x     = test.displacement;
+      const double               least = good_part * range_of(x);
+      std::size_t                n     = 0;
+      std::size_t                first = 0;
+      for (std::size_t i = beside + 1; i + beside < x.size(); ++i)
+        {
+          const double jump   = x[i] - x[i - 1];
+          const double before = x[i - 1] - x[i - 1 - beside];
+          const double after  = x[i + beside] - x[i];
+          if (before * after > 0. && jump * before < 0. &&
+              std::abs(jump) > least &&
+              std::abs(jump) >
+                far * std::max(std::abs(before), std::abs(after)) &&
+              n++ == 0)
+            first = i;
+        }
+      if (n > 0)
+        warn("the displacement jumps by " +
+               rounded_text(x[first] - x[first - 1], 3) +
+               " mm within one row, against the motion before and after: did a "
+               "counter wrap, or are rows missing? Such rows: " +
+               std::to_string(n),
+             kept[first]);
+    }
   } // namespace
 
 
@@ -335,6 +372,7 @@ namespace SlipStep
     rows.check_pressure();
     rows.check_sign_of_friction();
     rows.warn_of_scales();
+    rows.warn_of_jumps();
   }
 
 

@@ -132,6 +132,32 @@ namespace SlipStep
 
 
 
+  void warn_of_copies(std::vector<MeasuredTest> &tests)
+  {
+    std::map<std::vector<double>, std::vector<const MeasuredTest *>>
+      by_friction;
+    for (MeasuredTest &test : tests)
+      {
+        auto      &others = by_friction[test.friction];
+        const auto same =
+          std::find_if(others.begin(),
+                       others.end(),
+                       [&](const MeasuredTest *other) {
+                         return other->displacement == test.displacement &&
+                                range_of(test.friction) > 0.;
+                       });
+        if (same == others.end())
+          others.push_back(&test);
+        else
+          test.warnings.push_back(shown(test) + ": its rows are those of " +
+                                  shown(**same) +
+                                  "; a copy is no second measurement, take it "
+                                  "out");
+      }
+  }
+
+
+
   double typical_pressure(const MeasuredTest &test)
   {
     std::vector<double> pressed;

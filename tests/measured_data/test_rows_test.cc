@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <random>
 
 #include "tests/file_text.h"
@@ -275,4 +277,41 @@ TEST(TestRows, ScalesOfNoLaboratoryAreWarnedOf)
   for (int i = 1; i <= 40; ++i)
     rows += std::to_string(i) + "," + std::to_string(i) + ",5,0.2\n";
   EXPECT_TRUE(read(rows).warnings.empty());
+}
+
+
+
+// A counter of 1.024 mm, read while it moves by 0.01 mm per row; a stroke that
+// turns, jitter at rest and a step between two rests are no such thing.
+TEST(TestRows, ACounterThatWrapsIsTold)
+{
+  const auto record = [](const std::function<double(int)> &displacement) {
+    std::string rows;
+    for (int i = 0; i <= 200; ++i)
+      rows += std::to_string(0.1 * i) + "," + std::to_string(displacement(i)) +
+              ",5,0.2\n";
+    return read(rows);
+  };
+  expect_warning(record([](const int i) {
+                   return 0.01 * i - (i > 102 ? 1.024 : 0.);
+                 }),
+                 "jumps by -1.01 mm within one row, against the motion");
+  expect_warning(record([](const int i) {
+                   return -std::fmod(0.01 * i, 0.512) + 0.512;
+                 }),
+                 "Such rows: 3");
+  const auto has_jump = [](const MeasuredTest &test) {
+    for (const std::string &warning : test.warnings)
+      if (warning.find("jumps") != std::string::npos)
+        return true;
+    return false;
+  };
+  EXPECT_FALSE(has_jump(record([](const int i) {
+    return 0.01 * std::min(i, 100) - 0.01 * std::max(0, i - 150);
+  })));
+  EXPECT_FALSE(has_jump(record([](const int i) { return i > 100 ? 1. : 0.; })));
+  std::mt19937 random(1);
+  EXPECT_FALSE(has_jump(record([&](const int i) {
+    return 0.002 * i + 1e-3 * std::normal_distribution<double>(0., 1.)(random);
+  })));
 }

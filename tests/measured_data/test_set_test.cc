@@ -133,3 +133,23 @@ TEST(TestSet, ConditionsAreCounted)
   tests[1].condition = "wet";
   EXPECT_EQ(describe(tests), "3 tests: condition 'dry': 2, 'wet': 1");
 }
+
+
+
+TEST(TestSet, ACopyIsTold)
+{
+  const auto read_rows = [](const std::string &name, const double last) {
+    std::ofstream(test_folder() / name)
+      << header << "0,0,5,0.1\n1,1,5,0.2\n2,2,5," << last << '\n';
+  };
+  read_rows("a.csv", 0.3);
+  read_rows("b.csv", 0.31);
+  read_rows("c.csv", 0.3);
+  auto tests = read_test_set(test_folder());
+  warn_of_copies(tests);
+  ASSERT_EQ(tests.size(), 3u);
+  EXPECT_TRUE(tests[0].warnings.empty());
+  EXPECT_TRUE(tests[1].warnings.empty());
+  ASSERT_EQ(tests[2].warnings.size(), 1u);
+  EXPECT_TRUE(contains(tests[2].warnings[0], "c.csv: its rows are those of"));
+}
