@@ -3,6 +3,7 @@
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -201,8 +202,10 @@ namespace SlipStep
               share = left / 2.;
             const Step step = {i, begin, share == left ? 1. : begin + share};
             if (n_tried++ > 2 * most_steps)
-              throw RunError("more than " + std::to_string(most_steps) +
-                             " time steps are needed");
+              throw RunError(
+                "more than " + std::to_string(most_steps) +
+                " time steps are needed: at t = " + rounded_text(time, 4) +
+                " s they are " + rounded_text(wanted_step, 2) + " s long");
             if (!attempt(
                   step, law, machine, tolerance, point, slider, wanted_step))
               continue;
