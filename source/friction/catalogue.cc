@@ -45,6 +45,9 @@ namespace SlipStep
             << "   # " << parameter.symbol
             << (parameter.symbol.empty() ? "" : ": ") << allowed << '\n';
     }
+
+
+
     std::vector<std::string> effect_names()
     {
       std::vector<std::string> names;

@@ -153,21 +153,6 @@ namespace SlipStep
 
 
 
-  // A point that was off the plane when the step began slips from when it
-  // touches, @f$1/\xi@f$ of the way of the step,
-  // @f$\xi = g / (g + g_0)@f$ for a penetration g and a distance g_0 at the
-  // beginning. Both stages start from there, since what the first tells of one
-  // that touches later than at its end says nothing of the second: it is one
-  // step of backward Euler, and every point makes such a step once.
-
-  //
-  // What wears away in a stage gives way at once. With a depth
-  // @f$k f_n s@f$ worn over a slip path s the plane answers
-  // @f$f_n = \alpha_n (g - k f_n s)@f$, as a spring of the stiffness
-  // @f$\alpha_n / (1 + \alpha_n k s)@f$ would. The path depends on f_n by no
-  // more than the elastic slip, so that the third time is as good as exact; the
-  // tangent takes it for given.
-
   template <int dim>
   double ContactFace<dim>::worn_at_start(const QuadraturePoint &point) const
   {
@@ -190,6 +175,19 @@ namespace SlipStep
 
 
 
+  // A point that was off the plane when the step began slips from when it
+  // touches, @f$1/\xi@f$ of the way of the step,
+  // @f$\xi = g / (g + g_0)@f$ for a penetration g and a distance g_0 at the
+  // beginning. Both stages start from there, since what the first tells of one
+  // that touches later than at its end says nothing of the second: it is one
+  // step of backward Euler, and every point makes such a step once.
+  //
+  // What wears away in a stage gives way at once. With a depth
+  // @f$k f_n s@f$ worn over a slip path s the plane answers
+  // @f$f_n = \alpha_n (g - k f_n s)@f$, as a spring of the stiffness
+  // @f$\alpha_n / (1 + \alpha_n k s)@f$ would. The path depends on f_n by no
+  // more than the elastic slip, so that the third time is as good as exact; the
+  // tangent takes it for given.
   template <int dim>
   void ContactFace<dim>::respond(QuadraturePoint    &point,
                                  const Tensor<1, 2> &slip,

@@ -144,9 +144,10 @@ namespace SlipStep
        "lacks what is hidden and is badly set (case.prm), and the answer, not\n"
        "to be read by accident (answer.sealed; slipstep plant --open FILE\n"
        "prints it). Classes: none, one (effect of the catalogue), two,\n"
-       "other_formula, outside (the catalogue), ablated (the case lacks\n"
-       "overstress or softening), narrow (one, but the tests hardly tell\n"
-       "effects apart). The same class and seed give the same tests.\n",
+       "joint (two that nearly cancel each other), other_formula and\n"
+       "third_formula (of an effect of the catalogue), outside (the\n"
+       "catalogue), ablated (the case lacks overstress or softening), narrow\n"
+       "(one, but the tests hardly tell effects apart). The same class and seed give the same tests.\n",
        0,
        1,
        {"class",
@@ -248,8 +249,8 @@ namespace SlipStep
          "law, abaqus (export)")
         ("resume", "go on where an earlier run of the case was stopped")
         ("class", po::value<std::string>()->value_name("NAME"),
-         "what is hidden: none, one, two, other_formula, outside, ablated, "
-         "narrow")
+         "what is hidden: none, one, two, joint, other_formula, third_formula, "
+         "outside, ablated, narrow")
         ("seed", po::value<std::string>()->value_name("N"),
          "of the random numbers, 1 unless given")
         ("effect", po::value<std::string>()->value_name("NAME[,NAME]"),
