@@ -4,6 +4,7 @@
 #include <slipstep/calibration/fit.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <atomic>
@@ -356,6 +357,16 @@ namespace SlipStep
           std::to_string(result.starts.size()) +
           " starts ended in a worse optimum: the problem is not convex, take "
           "more Calibration/Starts to be sure.");
+
+      constexpr double far = 10.;
+
+      const double ratio = std::sqrt(result.misfit / result.n_rows);
+      if (ratio > far)
+        result.warnings.push_back(
+          "the law does not describe these tests, which differ from it by " +
+          rounded_text(ratio, 2) +
+          " times their noise: slipstep diagnose looks for what is missing; a "
+          "unit, a scale or a zero of the records may be wrong, too.");
     }
 
 

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/file_text.h"
@@ -417,6 +418,24 @@ TEST_F(Planted, ARecordWithoutNoiseIsWarnedOf)
   constant.friction.assign(100, 0.);
   write_measured_test(folder.path() / "constant.csv", constant);
   EXPECT_THROW(Campaign(campaign.parameters), InputError);
+}
+
+
+
+TEST_F(Planted, ALawThatDoesNotDescribeTheTestsIsTold)
+{
+  plant(folder.path(), calibration_case(paper), {1., 20., 200.}, 100, 1e-4, 5);
+  const Calibration found =
+    calibrate(fitting({{"Friction/softening/Kinetic coefficient", "0.03"},
+                       {"Calibration/Starts", "1"},
+                       {"Calibration/Parameters",
+                        "Friction/Static coefficient from 0.05 to 0.2"}}));
+  EXPECT_TRUE(std::any_of(found.warnings.begin(),
+                          found.warnings.end(),
+                          [](const std::string &warning) {
+                            return warning.find("does not describe these "
+                                                "tests") != std::string::npos;
+                          }));
 }
 
 

@@ -14,8 +14,9 @@ namespace
 {
   std::vector<FitParameter> read(const std::string &list)
   {
-    return read_fit_parameters(
-      calibration_case({{"Calibration/Parameters", list}}));
+    return read_fit_parameters(calibration_case(
+      {{"Friction/Effects", "subloading, overstress, softening, anisotropy"},
+       {"Calibration/Parameters", list}}));
   }
 
   std::string refusal(const std::string &list)
@@ -99,6 +100,9 @@ TEST(FitParameter, WhatIsWrongIsSaid)
 {
   expect_refusal("Friction/Softening/Rate from 0.1 to 1",
                  {"did you mean Friction/softening/Rate?"});
+  // Not that its start is out of bounds.
+  expect_refusal("Friction/healing/Rate from 0.1 to 0.3",
+                 {"this effect is off: add it to Friction/Effects"});
   expect_refusal("Friction/softening/Rate from 0,1 to 1",
                  {"from = 0,1: decimals begin with a point: 0.1; allowed"});
   expect_refusal("", {"at least one parameter"});
