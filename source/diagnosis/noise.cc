@@ -100,8 +100,8 @@ namespace SlipStep
 
   // The steps of a Kalman filter with two states, the drift (an
   // Ornstein-Uhlenbeck process in time) and what a row keeps of the one before
-  // (AR(1) in rows): each row less what those before it predict, in units of the
-  // deviation of that, is white. (R. E. Kalman, J. Basic Eng. 82, 1960.)
+  // (AR(1) in rows): each row less what those before it predict, in units of
+  // the deviation of that, is white. (R. E. Kalman, J. Basic Eng. 82, 1960.)
   void Whitener::add_steps(const Series &series,
                            const double  level,
                            const Noise  &noise)

@@ -118,9 +118,11 @@ namespace
           if (run.outcome() == -SIGKILL)
             {
               ++n_killed;
-              // What is there can be read.
+              // What is there can be read, unless the kernel was stopped within
+              // a row.
               for (const std::string &member : victim.members)
-                if (lines("results/victim/" + member) > 3)
+                if (lines("results/victim/" + member) > 3 &&
+                    history("results/victim/" + member).back() == '\n')
                   read_history(path("results/victim/" + member) /
                                "history.csv");
             }
