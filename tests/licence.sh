@@ -11,10 +11,10 @@ missing=$(find run .ci/run include source tests doc cmake -type f \
                   -o -name '*.py' -o -name '*.awk' -o -name '*.cmake' \
                   -o -name '*.js' -o -name '*.css' \
                   -o -name run \) -exec \
-  awk 'FNR == 1 {said = 0}
+  awk 'FNR == 1 {if (name && !said) print name; name = FILENAME; said = 0}
        FNR <= 2 && /SPDX-License-Identifier: LGPL-2.1-or-later/ {said = 1}
-       FNR == 2 && !said {print FILENAME}
-       FNR == 2 {nextfile}' {} + | sort)
+       FNR == 2 {nextfile}
+       END {if (name && !said) print name}' {} + | sort)
 if [ -n "$missing" ]; then
   printf 'No line "SPDX-License-Identifier: LGPL-2.1-or-later":\n%s\n' "$missing"
   exit 1

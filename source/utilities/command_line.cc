@@ -147,7 +147,8 @@ namespace SlipStep
        "joint (two that nearly cancel each other), other_formula and\n"
        "third_formula (of an effect of the catalogue), outside (the\n"
        "catalogue), ablated (the case lacks overstress or softening), narrow\n"
-       "(one, but the tests hardly tell effects apart). The same class and seed give the same tests.\n",
+       "(one, but the tests hardly tell effects apart). The same class and\n"
+       "seed give the same tests.\n",
        0,
        1,
        {"class",

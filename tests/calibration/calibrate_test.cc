@@ -101,8 +101,6 @@ TEST_F(Planted, WithoutNoiseTheTruth)
 
 
 
-// 100 repetitions with other noise, white and such that 0.8 of a row is what
-// the row before it had.
 // Of few and noisy rows the fits of a profile fall from one optimum of the
 // other parameters to another one: that is no end of an interval.
 TEST_F(Planted, IntervalsDoNotEndAtAJump)
@@ -149,6 +147,8 @@ TEST_F(Planted, IntervalsDoNotEndAtAJump)
 
 
 
+// 100 repetitions with other noise, white and such that 0.8 of a row is what
+// the row before it had.
 class IntervalsCover : public Planted
 {};
 
