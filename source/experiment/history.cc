@@ -181,7 +181,9 @@ namespace SlipStep
     others.insert(others.end(), probes.begin(), probes.end());
     for (const ContactMemory &memory : contact_memories())
       others.emplace_back(memory.name);
-    const CsvTable table(file, names, others);
+    CsvFormat format;
+    format.may_be_cut = true;
+    const CsvTable table(file, names, others, format);
 
     std::vector<HistoryRow> history(table.size());
     for (const std::string &probe : probes)

@@ -156,8 +156,9 @@ namespace SlipStep
 
   CsvTable::CsvTable(const std::filesystem::path    &file,
                      const std::vector<std::string> &required,
-                     const std::vector<std::string> &optional)
-    : CsvTable(file, CsvFormat())
+                     const std::vector<std::string> &optional,
+                     const CsvFormat                &format)
+    : CsvTable(file, format)
   {
     std::map<std::string, std::size_t> wanted;
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -362,9 +363,11 @@ namespace SlipStep
     for (std::size_t i = 0; i < columns.size(); ++i)
       index_of_column[columns[i].name] = i;
 
-    std::string_view line;
+    const char *const end = text->data() + text->size();
+    std::string_view  line;
     while (next_line(line))
-      read_row(line);
+      if (!format.may_be_cut || line.data() + line.size() != end)
+        read_row(line);
   }
 
 

@@ -107,6 +107,23 @@ TEST(History, OnlyMemoriesThatTheLawUsesAreColumns)
 
 
 
+// The kernel may be stopped within a write; what is there of a number may look
+// like a number.
+TEST(History, ARowThatAKillCutOffIsNone)
+{
+  HistoryWriter writer(history_file());
+  writer.write(sample_row());
+  const auto one_row = writer.bytes();
+  writer.write(sample_row());
+  for (auto bytes = writer.bytes() - 1; bytes >= one_row; bytes -= 7)
+    {
+      std::filesystem::resize_file(history_file(), bytes);
+      EXPECT_EQ(read_history(history_file()).size(), 1u) << bytes;
+    }
+}
+
+
+
 TEST(History, RowsReadBackExactly)
 {
   const HistoryRow row = sample_row();

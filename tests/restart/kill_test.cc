@@ -118,11 +118,8 @@ namespace
           if (run.outcome() == -SIGKILL)
             {
               ++n_killed;
-              // What is there can be read, unless the kernel was stopped within
-              // a row.
               for (const std::string &member : victim.members)
-                if (lines("results/victim/" + member) > 3 &&
-                    history("results/victim/" + member).back() == '\n')
+                if (lines("results/victim/" + member) > 3)
                   read_history(path("results/victim/" + member) /
                                "history.csv");
             }

@@ -107,7 +107,8 @@ namespace SlipStep
     std::uintmax_t             size = 0; ///< of the file, all complete rows
   };
 
-  /// Read a history.csv back. @throws InputError naming file:line
+  /// Read a history.csv back, without a last row that a kill cut off.
+  /// @throws InputError naming file:line
   std::vector<HistoryRow> read_history(const std::filesystem::path &file);
 } // namespace SlipStep
 

@@ -44,6 +44,10 @@ namespace SlipStep
     /// Whether an empty cell (or NaN, NA, n/a, null, none, -, --) is read as a
     /// quiet NaN instead of being refused.
     bool may_have_gaps = false;
+
+    /// Whether a last line without a line end is left out: the row that a
+    /// killed program was about to write.
+    bool may_be_cut = false;
   };
 
 
@@ -61,7 +65,8 @@ namespace SlipStep
     /// number of cells than the header, or a cell is not a number
     CsvTable(const std::filesystem::path    &file,
              const std::vector<std::string> &required,
-             const std::vector<std::string> &optional = {});
+             const std::vector<std::string> &optional = {},
+             const CsvFormat                &format   = {});
 
     /// Read the header only, so that columns can be chosen by looking at it.
     CsvTable(const std::filesystem::path &file, const CsvFormat &format);
