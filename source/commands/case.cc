@@ -16,7 +16,7 @@
 #include <slipstep/solid/face_probes.h>
 #include <slipstep/solid/point_lines.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/sweep.h>
+#include <slipstep/utilities/variants.h>
 
 #include <unistd.h>
 

@@ -9,7 +9,7 @@
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/report/import_report.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/sweep.h>
+#include <slipstep/utilities/variants.h>
 #include <slipstep/utilities/home_folder.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/machine.h>
-#include <slipstep/experiment/pushed_contact.h>
+#include <slipstep/experiment/contact_under_load.h>
 #include <slipstep/utilities/pattern_words.h>
 
 #include <slipstep/utilities/units.h>

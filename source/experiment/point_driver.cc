@@ -2,7 +2,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/experiment/point_driver.h>
-#include <slipstep/experiment/pushed_contact.h>
+#include <slipstep/experiment/contact_under_load.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/path_from.h>
 

@@ -5,7 +5,7 @@
 
 #include <slipstep/report/diagnosis_figures.h>
 #include <slipstep/report/diagnosis_text.h>
-#include <slipstep/report/profile_curves.h>
+#include <slipstep/report/likelihood_profiles.h>
 
 #include <boost/math/distributions/normal.hpp>
 

@@ -2,7 +2,7 @@
 #include <slipstep/solid/block_output.h>
 
 #include <slipstep/solid/attempt_together.h>
-#include <slipstep/solid/block_surface.h>
+#include <slipstep/solid/surface_output.h>
 #include <slipstep/solid/error_indicator.h>
 #include <slipstep/solid/stress.h>
 #include <slipstep/utilities/text.h>
@@ -100,7 +100,7 @@ namespace SlipStep
     };
 
     std::vector<FaceField> face_fields(const FrictionLaw    &law,
-                                       const ContactSurface &surface)
+                                       const GapAndStrength &surface)
     {
       using State                   = ContactState;
       std::vector<FaceField> fields = {
@@ -146,7 +146,7 @@ namespace SlipStep
     {
     public:
       ContactPatches(const ContactFace<dim>       &contact,
-                     const ContactSurface         &surface,
+                     const GapAndStrength         &surface,
                      const dealii::Vector<double> &squared_errors)
         : names({"slips", squared_error})
       {

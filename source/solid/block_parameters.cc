@@ -272,7 +272,7 @@ namespace SlipStep
       std::vector<unsigned int> axes;
       for (unsigned int i = 0; i + 1 < block.dimension; ++i)
         axes.push_back(block.tangential_axis(i));
-      block.surface = ContactSurface(parameters,
+      block.surface = GapAndStrength(parameters,
                                      axes,
                                      block.size,
                                      !block.is_held_along_normal());
@@ -411,7 +411,7 @@ namespace SlipStep
                        "Iterations after which the time step is cut. 2 or "
                        "more.");
     FieldSchedule::declare_parameters(parameters);
-    ContactSurface::declare_parameters(parameters);
+    GapAndStrength::declare_parameters(parameters);
   }
 
 

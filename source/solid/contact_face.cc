@@ -50,7 +50,7 @@ namespace SlipStep
             {
               QuadraturePoint point;
               point.position                    = fe_values.quadrature_point(q);
-              const ContactSurface::Place place = place_of(point.position);
+              const GapAndStrength::Place place = place_of(point.position);
               point.gap                         = parameters.surface.gap(place);
               ContactState state                = law.initial_state();
               state.strength_factor = parameters.surface.strength(place);
@@ -285,10 +285,10 @@ namespace SlipStep
 
 
   template <int dim>
-  ContactSurface::Place
+  GapAndStrength::Place
   ContactFace<dim>::place_of(const Point<dim> &point) const
   {
-    ContactSurface::Place place;
+    GapAndStrength::Place place;
     for (unsigned int i = 0; i < dim - 1; ++i)
       place.push_back(point[parameters.tangential_axis(i)]);
     return place;

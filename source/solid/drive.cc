@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/drive.h>
 
-#include <slipstep/experiment/pushed_contact.h>
+#include <slipstep/experiment/contact_under_load.h>
 
 #include <algorithm>
 #include <sstream>

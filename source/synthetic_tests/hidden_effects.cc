@@ -34,9 +34,9 @@ namespace SlipStep
     {
       static const std::map<Formula, std::vector<HiddenEffectKind>> effects = {
         {Formula::catalogue, catalogue_effects()},
-        {Formula::alternative, alternative_effects()},
+        {Formula::alternative, other_formulas()},
         {Formula::outside, outside_effects()},
-        {Formula::third, third_effects()},
+        {Formula::third, third_formulas()},
         {Formula::joint, joint_effects()}};
       return effects.at(formula);
     }

@@ -7,7 +7,7 @@
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/parameter_reader.h>
 #include <slipstep/utilities/pattern_words.h>
-#include <slipstep/utilities/sweep.h>
+#include <slipstep/utilities/variants.h>
 
 #include <algorithm>
 
@@ -136,7 +136,7 @@ namespace SlipStep
     {
       FileState state;
       state.file                   = file;
-      const auto        statements = scan_prm_file(file);
+      const auto        statements = read_prm_statements(file);
       const auto        canonical  = std::filesystem::canonical(file);
       const std::size_t n_before   = errors.size();
       open_files.push_back(canonical);

@@ -9,7 +9,7 @@
 #include <slipstep/utilities/parameter_reader.h>
 #include <slipstep/utilities/parameters.h>
 #include <slipstep/utilities/pattern_words.h>
-#include <slipstep/utilities/sweep.h>
+#include <slipstep/utilities/variants.h>
 #include <slipstep/utilities/text.h>
 
 #include <boost/algorithm/string/predicate.hpp>

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <slipstep/experiment/pushed_contact.h>
+#include <slipstep/experiment/contact_under_load.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <slipstep/experiment/programme.h>
-#include <slipstep/solid/contact_surface.h>
+#include <slipstep/solid/gap_and_strength.h>
 #include <slipstep/solid/field_schedule.h>
 #include <slipstep/solid/loads.h>
 #include <slipstep/solid/refinement_parameters.h>
@@ -86,7 +86,7 @@ namespace SlipStep
     /// right, bottom, top in 2-D.
     std::array<FaceConditions, 6> faces;
     unsigned int                  contact_face = 0;
-    ContactSurface                surface; ///< of that face
+    GapAndStrength                surface; ///< of that face
     SolverType                    solver = SolverType::automatic;
     double                        newton_tolerance;
     unsigned int                  newton_iterations;

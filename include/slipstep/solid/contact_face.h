@@ -42,7 +42,7 @@ namespace SlipStep
   /// its history at every quadrature point.
   ///
   /// The plane lies where the face is in the undeformed block, or as far from
-  /// it as the ContactSurface says. A point pushed into it by g gives the
+  /// it as the GapAndStrength says. A point pushed into it by g gives the
   /// normal traction f_n = alpha_n g; its slip is its displacement along the
   /// plane plus that of the frame that moves with the drive, since it touches.
   template <int dim>
@@ -188,7 +188,7 @@ namespace SlipStep
                                   const dealii::Tensor<1, 2> &slip,
                                   const double                time_step);
     void                  begin_first_stage();
-    ContactSurface::Place place_of(const dealii::Point<dim> &point) const;
+    GapAndStrength::Place place_of(const dealii::Point<dim> &point) const;
 
     /// Forces of the points of a face of a cell, tested.
     void add_tested(const std::vector<dealii::types::global_dof_index> &dofs,

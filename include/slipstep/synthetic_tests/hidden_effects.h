@@ -13,9 +13,9 @@ namespace SlipStep
     /// @name The effects, file by file.
     ///@{
     std::vector<HiddenEffectKind> catalogue_effects();
-    std::vector<HiddenEffectKind> alternative_effects();
+    std::vector<HiddenEffectKind> other_formulas();
     std::vector<HiddenEffectKind> outside_effects();
-    std::vector<HiddenEffectKind> third_effects();
+    std::vector<HiddenEffectKind> third_formulas();
     std::vector<HiddenEffectKind> joint_effects();
     ///@}
 

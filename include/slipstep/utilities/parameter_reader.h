@@ -33,7 +33,8 @@ namespace SlipStep
   /// Split a .prm file into statements, without knowing any key.
   /// @throws InputError if it cannot be read, is not named *.prm, or is not
   /// text.
-  std::vector<PrmStatement> scan_prm_file(const std::filesystem::path &file);
+  std::vector<PrmStatement>
+  read_prm_statements(const std::filesystem::path &file);
 
   /// A value with the place it was written in.
   struct Assignment

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef slipstep_utilities_sweep_h
-#define slipstep_utilities_sweep_h
+#ifndef slipstep_utilities_variants_h
+#define slipstep_utilities_variants_h
 
 #include <slipstep/utilities/parameters.h>
 

@@ -185,7 +185,7 @@ namespace SlipStep
 
 
 
-    std::vector<HiddenEffectKind> third_effects()
+    std::vector<HiddenEffectKind> third_formulas()
     {
       return {
         {"overstress", "r = r_s + A ln(1 + lambda / V_0)", &Third::overstress},

@@ -126,7 +126,8 @@ namespace SlipStep
 
 
 
-  std::vector<PrmStatement> scan_prm_file(const std::filesystem::path &file)
+  std::vector<PrmStatement>
+  read_prm_statements(const std::filesystem::path &file)
   {
     if (std::filesystem::is_directory(file))
       throw InputError(file.string() + " is a folder, not a .prm file");

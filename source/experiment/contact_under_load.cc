@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/experiment/pushed_contact.h>
+#include <slipstep/experiment/contact_under_load.h>
 
 #include <boost/math/tools/roots.hpp>
 

@@ -258,7 +258,7 @@ namespace SlipStep
 
 
 
-    std::vector<HiddenEffectKind> alternative_effects()
+    std::vector<HiddenEffectKind> other_formulas()
     {
       return {{"overstress",
                "r = r_s + A asinh(lambda / V_0)",

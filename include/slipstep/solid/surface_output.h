@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef slipstep_solid_block_surface_h
-#define slipstep_solid_block_surface_h
+#ifndef slipstep_solid_surface_output_h
+#define slipstep_solid_surface_output_h
 
 #include <slipstep/solid/contact_face.h>
 

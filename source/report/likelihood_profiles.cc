@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/report/profile_curves.h>
+#include <slipstep/report/likelihood_profiles.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef slipstep_solid_contact_surface_h
-#define slipstep_solid_contact_surface_h
+#ifndef slipstep_solid_gap_and_strength_h
+#define slipstep_solid_gap_and_strength_h
 
 #include <slipstep/utilities/formula.h>
 #include <slipstep/utilities/parameters.h>
@@ -13,7 +13,7 @@ namespace SlipStep
 {
   /// What the contact face is made like before it is loaded, by formulas of the
   /// place on it: how far it is from the plane, and how strong it is.
-  class ContactSurface
+  class GapAndStrength
   {
   public:
     /// Coordinates along the axes of the contact plane [mm]; in 2-D one.
@@ -22,7 +22,7 @@ namespace SlipStep
     static void declare_parameters(Parameters &parameters);
 
     /// Flat and alike everywhere.
-    ContactSurface() = default;
+    GapAndStrength() = default;
 
     /// @param axes those of the contact plane, of 0, 1, 2
     /// @param size of the block [mm]
@@ -30,7 +30,7 @@ namespace SlipStep
     ///   it stands on the plane before it is loaded
     /// @throws InputError if a formula cannot be read, or is not finite, or a
     ///   gap is negative, or a strength is not positive
-    ContactSurface(const Parameters                &parameters,
+    GapAndStrength(const Parameters                &parameters,
                    const std::vector<unsigned int> &axes,
                    const std::array<double, 3>     &size,
                    const bool                       falls);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/solid/contact_surface.h>
+#include <slipstep/solid/gap_and_strength.h>
 
 #include <slipstep/utilities/exceptions.h>
 
@@ -49,14 +49,14 @@ namespace SlipStep
     // Dense enough for what meshes resolve, and with both ends.
     void at_many_places(
       const PlaceNames                                         &face,
-      const std::function<void(const ContactSurface::Place &)> &visit)
+      const std::function<void(const GapAndStrength::Place &)> &visit)
     {
       const bool         is_line = face.names.size() == 1;
       const unsigned int n       = is_line ? 2000 : 200;
       for (unsigned int j = 0; j <= (is_line ? 0 : n); ++j)
         for (unsigned int i = 0; i <= n; ++i)
           {
-            ContactSurface::Place place = {face.lengths[0] * i / n};
+            GapAndStrength::Place place = {face.lengths[0] * i / n};
             if (!is_line)
               place.push_back(face.lengths[1] * j / n);
             visit(place);
@@ -68,7 +68,7 @@ namespace SlipStep
     [[noreturn]] void reject_value(const Parameters            &parameters,
                                    const std::string           &key,
                                    const PlaceNames            &face,
-                                   const ContactSurface::Place &place,
+                                   const GapAndStrength::Place &place,
                                    const double                 value,
                                    const std::string           &allowed)
     {
@@ -83,7 +83,7 @@ namespace SlipStep
 
 
 
-  void ContactSurface::declare_parameters(Parameters &parameters)
+  void GapAndStrength::declare_parameters(Parameters &parameters)
   {
     parameters.declare(
       gap_key,
@@ -106,7 +106,7 @@ namespace SlipStep
 
 
 
-  ContactSurface::ContactSurface(const Parameters                &parameters,
+  GapAndStrength::GapAndStrength(const Parameters                &parameters,
                                  const std::vector<unsigned int> &axes,
                                  const std::array<double, 3>     &size,
                                  const bool                       falls)

@@ -2,7 +2,7 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
-#include <slipstep/utilities/sweep.h>
+#include <slipstep/utilities/variants.h>
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef slipstep_experiment_pushed_contact_h
-#define slipstep_experiment_pushed_contact_h
+#ifndef slipstep_experiment_contact_under_load_h
+#define slipstep_experiment_contact_under_load_h
 
 #include <slipstep/friction/contact_point.h>
 

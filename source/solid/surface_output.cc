@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/solid/block_surface.h>
+#include <slipstep/solid/surface_output.h>
 
 #include <slipstep/solid/stress.h>
 #include <slipstep/utilities/text.h>

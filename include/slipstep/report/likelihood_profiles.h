@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef slipstep_report_profile_curves_h
-#define slipstep_report_profile_curves_h
+#ifndef slipstep_report_likelihood_profiles_h
+#define slipstep_report_likelihood_profiles_h
 
 #include <slipstep/report/gallery.h>
 
