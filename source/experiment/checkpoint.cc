@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/checkpoint.h>
 
-#include <slipstep/experiment/point_driver.h>
-#include <slipstep/experiment/step_control.h>
 #include <slipstep/experiment/summary.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/version.h>
 #include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/write_file.h>
 
-#include <deal.II/base/utilities.h>
 
-#include <boost/algorithm/string/erase.hpp>
 #include <boost/crc.hpp>
 
 #include <nlohmann/json.hpp>
@@ -35,104 +31,15 @@ namespace SlipStep
 
 
 
-    const char *const remedy =
-      "; run without --resume to start anew, or give another folder with "
-      "--output";
-
-
-
     // A checkpoint, or a part of it, is not what it was when it was written.
     class Damage : public std::runtime_error
     {
     public:
       using std::runtime_error::runtime_error;
     };
-
-
-
-    bool begins_with(const std::string &text, const std::string &beginning)
-    {
-      return text.compare(0, beginning.size(), beginning) == 0;
-    }
-
-
-
-    // Quantities have columns in the history.
-    bool has_a_say_in_history(const std::string &path,
-                              const Parameters  &parameters,
-                              const std::string &command)
-    {
-      const std::vector<std::string> idle = StepControl::idle_keys(parameters);
-      if (std::find(idle.begin(), idle.end(), path) != idle.end())
-        return false;
-      return begins_with(path, "Loading/") ||
-             begins_with(path, "Time stepping/") ||
-             begins_with(path, "Friction/") || path == "Output/Quantities" ||
-             (command == "run" &&
-              (begins_with(path, "Block/") || begins_with(path, "Contact/")));
-    }
-
-
-
-    std::uint32_t checksum_of(const Programme &programme)
-    {
-      boost::crc_32_type crc;
-      const auto         add = [&crc](const double number) {
-        crc.process_bytes(&number, sizeof(number));
-      };
-      for (const Segment &segment : programme.segments())
-        {
-          for (const auto &end :
-               {std::make_pair(segment.start_time, segment.start),
-                std::make_pair(segment.end_time, segment.end)})
-            {
-              add(end.first);
-              add(end.second.pressure);
-              for (unsigned int i = 0; i < 2; ++i)
-                add(end.second.displacement[i]);
-            }
-          if (segment.pushes)
-            for (unsigned int i = 0; i < 2; ++i)
-              add(segment.push[i]);
-        }
-      return crc.checksum();
-    }
-
-
-
-    // These are compared as a whole, by what they say.
-    bool is_in_programme(const std::string &path)
-    {
-      return path == "Loading/Programme" || path == "Loading/Speed";
-    }
-
-
-
-    // "1 cm" is "10 mm", "0.10" is "0.1", "a, b" is "a,b".
-    bool is_same_value(const dealii::Patterns::PatternBase *pattern,
-                       const std::string                   &value,
-                       const std::string                   &other)
-    {
-      const auto without_blanks = [](std::string text) {
-        boost::erase_all(text, " ");
-        return text;
-      };
-      if (without_blanks(value) == without_blanks(other))
-        return true;
-      if (const auto *quantity = dynamic_cast<const Quantity *>(pattern))
-        return quantity->match(other) &&
-               quantity->value(value) == quantity->value(other);
-      return dynamic_cast<const dealii::Patterns::Double *>(pattern) !=
-               nullptr &&
-             pattern->match(other) &&
-             dealii::Utilities::string_to_double(value) ==
-               dealii::Utilities::string_to_double(other);
-    }
   } // namespace
 
 
-
-  // ------------------------------------------------------------------- case
 
   void declare_checkpoint_parameters(Parameters &parameters)
   {
@@ -151,69 +58,6 @@ namespace SlipStep
   {
     const double period = parameters.number("Checkpoint/Every");
     return period > 0. ? period : std::numeric_limits<double>::infinity();
-  }
-
-
-
-  CaseIdentity::CaseIdentity(const Parameters  &parameters,
-                             const std::string &command)
-    : programme(checksum_of(parse_programme(parameters)))
-  {
-    for (const std::string &path : parameters.paths())
-      if (has_a_say_in_history(path, parameters, command))
-        values.emplace_back(path, parameters.text(path));
-  }
-
-
-
-  void CaseIdentity::require_same(const Parameters  &parameters,
-                                  const std::string &owner) const
-  {
-    const auto refuse = [&](const std::string &path, const std::string &value) {
-      parameters.reject(path, owner + " has '" + value + "'" + remedy);
-    };
-
-    // These are compared as a whole, by what they say.
-    std::string programme_text, speed;
-    for (const auto &value : values)
-      if (value.first == "Loading/Programme")
-        programme_text = value.second;
-      else if (value.first == "Loading/Speed")
-        speed = value.second;
-      else if (!is_same_value(parameters.entry(value.first).pattern.get(),
-                              parameters.text(value.first),
-                              value.second))
-        refuse(value.first, value.second);
-
-    if (checksum_of(parse_programme(parameters)) == programme)
-      return;
-    if (parameters.text("Loading/Speed") != speed)
-      refuse("Loading/Speed", speed);
-    if (parameters.text("Loading/Programme") != programme_text)
-      refuse("Loading/Programme", programme_text);
-    parameters.reject("Loading/Programme",
-                      "a test that it follows has changed since " + owner +
-                        " was made" + remedy);
-  }
-
-
-
-  bool CaseIdentity::is_same(const CaseIdentity &other,
-                             const Parameters   &declared) const
-  {
-    return programme == other.programme &&
-           std::equal(
-             values.begin(),
-             values.end(),
-             other.values.begin(),
-             other.values.end(),
-             [&](const auto &one, const auto &another) {
-               return one.first == another.first &&
-                      (is_in_programme(one.first) ||
-                       is_same_value(declared.entry(one.first).pattern.get(),
-                                     one.second,
-                                     another.second));
-             });
   }
 
 
@@ -551,7 +395,8 @@ namespace SlipStep
       catch (const InputError &error)
         {
           throw InputError(std::string(error.what()) + ": whether " + owner +
-                           " is of this case cannot be told" + remedy);
+                           " is of this case cannot be told" +
+                           anew_or_elsewhere);
         }
       // Left out is what the run had no use for.
       for (const std::string &path : used.paths())

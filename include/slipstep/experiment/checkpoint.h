@@ -2,7 +2,7 @@
 #ifndef slipstep_experiment_checkpoint_h
 #define slipstep_experiment_checkpoint_h
 
-#include <slipstep/utilities/parameters.h>
+#include <slipstep/experiment/case_identity.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -20,33 +20,6 @@ namespace SlipStep
   /// Wall-clock time between two checkpoints [s]; infinite if none is written
   /// at times.
   double checkpoint_period(const Parameters &parameters);
-
-  /// What makes two cases the same as far as the histories of a command go: the
-  /// programme with the tests that it follows, and the parameters that the
-  /// command uses. What another command uses may change.
-  struct CaseIdentity
-  {
-    CaseIdentity() = default;
-
-    /// @param command "run" or "point"
-    explicit CaseIdentity(const Parameters  &parameters,
-                          const std::string &command = "run");
-
-    /// Refuse a case that differs in anything.
-    /// @param owner whose identity this is, "the checkpoint in output/case"
-    /// @throws InputError naming the first key that differs, and both values
-    void require_same(const Parameters  &parameters,
-                      const std::string &owner) const;
-
-    /// Whether another case differs in nothing.
-    /// @param declared with the patterns of the keys
-    bool is_same(const CaseIdentity &other, const Parameters &declared) const;
-
-    /// Pairs (path of a parameter, value), in declared order.
-    std::vector<std::pair<std::string, std::string>> values;
-    /// Checksum of the segments of the programme.
-    std::uint32_t programme = 0;
-  };
 
   /// What a file was when it was complete.
   struct SealedFile
