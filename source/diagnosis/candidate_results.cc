@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/candidate_results.h>
 #include <slipstep/diagnosis/next_test.h>
+#include <slipstep/diagnosis/rules.h>
 #include <slipstep/utilities/process.h>
 
 #include <algorithm>

@@ -2,6 +2,9 @@
 #include <slipstep/diagnosis/correction.h>
 #include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/ingest.h>
+#include <slipstep/diagnosis/left_out.h>
+#include <slipstep/diagnosis/refits.h>
+#include <slipstep/diagnosis/rules.h>
 
 namespace SlipStep
 {

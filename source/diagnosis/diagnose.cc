@@ -11,6 +11,7 @@
 #include <slipstep/diagnosis/intervals.h>
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/localisation.h>
+#include <slipstep/diagnosis/refits.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/findings.h>
+#include <slipstep/diagnosis/left_out.h>
+#include <slipstep/diagnosis/refits.h>
+#include <slipstep/diagnosis/intervals.h>
 
 #include <boost/crc.hpp>
 

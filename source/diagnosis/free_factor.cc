@@ -2,6 +2,7 @@
 #include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/score_test.h>
 #include <slipstep/diagnosis/search.h>
+#include <slipstep/diagnosis/rules.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/uncertainty.h>
 #include <slipstep/diagnosis/intervals.h>
+#include <slipstep/diagnosis/refits.h>
 
 #include <Eigen/Dense>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/diagnosis/search.h>
+#include <slipstep/diagnosis/left_out.h>
 
 #include <Eigen/Dense>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/advice.h>
 #include <slipstep/diagnosis/next_test.h>
+#include <slipstep/diagnosis/rules.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 

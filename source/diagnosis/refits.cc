@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/diagnosis/search.h>
+#include <slipstep/diagnosis/refits.h>
+#include <slipstep/diagnosis/rules.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,9 @@
 #include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/search.h>
+#include <slipstep/diagnosis/left_out.h>
+#include <slipstep/diagnosis/refits.h>
+#include <slipstep/diagnosis/rules.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <Eigen/Dense>

@@ -2,6 +2,9 @@
 #include <slipstep/diagnosis/outlying_rows.h>
 #include <slipstep/diagnosis/verdict.h>
 #include <slipstep/diagnosis/ingest.h>
+#include <slipstep/diagnosis/left_out.h>
+#include <slipstep/diagnosis/refits.h>
+#include <slipstep/diagnosis/rules.h>
 
 #include <algorithm>
 #include <numeric>

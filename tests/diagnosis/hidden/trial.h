@@ -4,6 +4,7 @@
 
 #include <slipstep/calibration/advice.h>
 #include <slipstep/diagnosis/findings.h>
+#include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
 #include <slipstep/diagnosis/intervals.h>
 #include <slipstep/diagnosis/next_test.h>

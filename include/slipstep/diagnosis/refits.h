@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef slipstep_diagnosis_refits_h
+#define slipstep_diagnosis_refits_h
+
+#include <slipstep/diagnosis/candidate_scores.h>
+
+#include <optional>
+
+namespace SlipStep
+{
+  /// A model with one more effect, fitted, by the formula that does best; none
+  /// if it cannot be simulated.
+  std::optional<Model> refit_with(Workspace           &workspace,
+                                  const Model         &model,
+                                  const CandidateView &view);
+
+  /// A model with both effects of a pair, fitted.
+  std::optional<Model> refit_with_pair(Workspace             &workspace,
+                                       const Model           &model,
+                                       const View            &view,
+                                       const ScoreTest::Pair &pair);
+
+  /// The same without one of its parts, and what corrects that, fitted again.
+  std::optional<Model> refit_without(Workspace        &workspace,
+                                     const Model      &model,
+                                     const std::size_t part);
+
+  /// The better of a model and itself fitted again from other starts.
+  Model refit_from_starts(Workspace &workspace, const Model &model);
+
+  /// Whether a parameter of what was added ends at a bound that makes no sense.
+  bool is_at_bound(const Model &model);
+
+  /// Fit a model once more with time steps of its own, the error of which is
+  /// taken out.
+  void settle(const Workspace &workspace, Model &model);
+
+  /// The objective with the price of the parameters.
+  double penalised(const Model &model);
+} // namespace SlipStep
+
+#endif
