@@ -162,7 +162,7 @@ TEST(RateAndState, pressure_memory_after_a_step_of_pressure)
   const auto   law   = stiff_law({{"Effects", "pressure_memory"},
                                   {"pressure_memory/Change", "0.3"},
                                   {"pressure_memory/Slip length", "0.1"}});
-  ContactState state = go_on(*law, law->initial_state(), p, 0.5, 1., 100);
+  ContactState state = go_on(*law, law->initial_state(), p, 0.5, 3., 300);
   EXPECT_NEAR(state.traction[0], p * mu, 1e-9);
   for (const double pressure : {10., 2.})
     {
@@ -186,6 +186,25 @@ TEST(RateAndState, pressure_memory_after_a_step_of_pressure)
   EXPECT_NEAR((next.traction[0] / small - mu) / std::log(1.01),
               -0.3 * mu,
               0.005 * 0.3 * mu);
+  // A fresh contact has adapted to the pressure at which it slips, however it
+  // was pressed.
+  for (const unsigned int n : {1, 7, 300})
+    {
+      ContactState fresh = law->initial_state(), after;
+      for (unsigned int i = 1; i <= n; ++i, fresh = after)
+        law->update(fresh, vector(0.), i * p / n, 1. / n, after);
+      fresh = go_on(*law, fresh, p, 0.5, 0.01 * length, 20);
+      EXPECT_NEAR(fresh.traction[0], p * mu, 1e-9) << n;
+    }
+  // One that slips while the pressure grows like the slip to s, to
+  // ln p_m = ln p - 1 where s is short: the mean over the slip.
+  for (const unsigned int n : {400, 800})
+    {
+      ContactState fresh = law->initial_state();
+      for (unsigned int i = 1; i <= n; ++i)
+        fresh = go_on(*law, fresh, i * p / n, 0.5, 1e-3 * length / n, 1);
+      EXPECT_NEAR(fresh.traction[0] / (p * mu), std::exp(-0.3), 3. / n) << n;
+    }
   // Open, it forgets.
   ContactState open, closed;
   law->update(next, vector(0.), -1., 1., open);

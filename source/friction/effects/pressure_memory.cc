@@ -7,22 +7,28 @@ namespace SlipStep
 {
   namespace
   {
-    /// The pressure to which the contact has adapted by slip; 0 until it has
-    /// closed.
+    /// The pressure to which the contact has adapted by slip, 0 until it has
+    /// slipped; and how much of that length it has slipped since it closed.
     const ContactMemory adapted_pressure =
       register_memory({"adapted_pressure_MPa"});
+    const ContactMemory adapted_share =
+      register_memory({"adapted_share", 0., 0., 1.});
 
     /// A change of pressure acts on the coefficient of friction at once, and
     /// slip makes it forgotten:
     /// \f[ G = \left(\frac{p_m}{f_n}\right)^\alpha, \qquad
-    ///     \frac{d \ln p_m}{d\lambda} = \frac{\ln f_n - \ln p_m}{L}. \f]
+    ///     \frac{d \ln p_m}{d\lambda} = \frac{\ln f_n - \ln p_m}{w L}, \qquad
+    ///     \frac{d w}{d\lambda} = \frac{1 - w}{L}, \f]
+    /// \f$w = 1 - e^{-s/L}\f$ after slip s since the contact closed: a fresh
+    /// one has adapted to the pressure at which it first slips, whatever it was
+    /// pressed from. A contact that has slipped some L has w = 1:
     /// Linker and Dieterich (1992), J. Geophys. Res. 97, 4923: a change of
     /// normal stress changes the state of rate-and-state friction by
     /// \f$d\theta = -\alpha_{LD}\theta/(b f_n)\,df_n\f$. With the slip law,
     /// d ln theta/d lambda = -ln(lambda theta/D_c)/D_c, that is linear in
     /// ln theta, so what pressure adds to the state has the equation of its own
-    /// above, \f$b\,\Delta\ln\theta = -\alpha_{LD}\ln(f_n/p_m)\f$, with
-    /// L = D_c and \f$\alpha_{LD} = \alpha\f$ times the coefficient of
+    /// above, with w = 1, \f$b\,\Delta\ln\theta = -\alpha_{LD}\ln(f_n/p_m)\f$,
+    /// with L = D_c and \f$\alpha_{LD} = \alpha\f$ times the coefficient of
     /// friction. The power instead of \f$1 - \alpha\ln(f_n/p_m)\f$, its first
     /// two terms, is chosen: it is positive for every pressure. \f$\alpha <
     /// 1\f$: the strength grows with pressure at once, by \f$f_n^{1-\alpha}\f$.
@@ -36,43 +42,49 @@ namespace SlipStep
 
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
-        const double decay = std::exp(-step.slip / L);
-        const double away  = log_ratio(step);
+        const double kept = share_kept(step), away = log_ratio(step);
         Strength     factor;
-        factor.value  = std::exp(alpha * decay * away);
-        factor.d_slip = -factor.value * alpha * decay * away / L;
-        if (step.start[adapted_pressure] > 0. && step.normal_traction > 0.)
-          factor.d_normal =
-            -factor.value * alpha * decay / step.normal_traction;
+        factor.value = std::exp(alpha * kept * away);
+        if (kept > 0. && step.normal_traction > 0.)
+          {
+            factor.d_slip =
+              -factor.value * alpha * kept * away / (L * share(step));
+            factor.d_normal =
+              -factor.value * alpha * kept / step.normal_traction;
+          }
         return factor;
       }
 
       virtual void remember(const SlipStepData &step,
                             ContactState       &end) const override
       {
+        const bool has_slipped = step.normal_traction > 0. && share(step) > 0.;
+        end[adapted_share]     = has_slipped ? share(step) : 0.;
         end[adapted_pressure] =
-          step.normal_traction *
-          std::exp(std::exp(-step.slip / L) * log_ratio(step));
+          has_slipped ? step.normal_traction *
+                          std::exp(share_kept(step) * log_ratio(step)) :
+                        0.;
       }
 
       virtual std::vector<ContactMemory> memories() const override
       {
-        return {adapted_pressure};
+        return {adapted_pressure, adapted_share};
       }
 
       static EffectInfo info()
       {
         EffectInfo info;
-        info.name    = "pressure_memory";
-        info.words   = "a change of pressure to which friction adapts by slip";
-        info.formula = "G = (p_m/f_n)^alpha, d ln(p_m)/d lambda = (ln(f_n) - "
-                       "ln(p_m))/L";
-        info.latex   = "G = \\left(\\frac{p_m}{f_n}\\right)^\\alpha, \\quad "
-                       "\\frac{d \\ln p_m}{d\\lambda} = \\frac{\\ln f_n - \\ln "
-                       "p_m}{L}";
-        info.source  = "Linker and Dieterich (1992), J. Geophys. Res. 97, "
-                       "4923-4940; power chosen";
-        info.neutral = "Change = 0";
+        info.name  = "pressure_memory";
+        info.words = "a change of pressure to which friction adapts by slip";
+        info.formula =
+          "G = (p_m/f_n)^alpha, d ln(p_m)/d lambda = (ln(f_n) - "
+          "ln(p_m))/(w L), w = 1 - exp(-s/L), s: slip since closing";
+        info.latex      = "G = \\left(\\frac{p_m}{f_n}\\right)^\\alpha, \\quad "
+                          "\\frac{d \\ln p_m}{d\\lambda} = \\frac{\\ln f_n - \\ln "
+                          "p_m}{w L}, \\quad w = 1 - e^{-s/L}";
+        info.source     = "Linker and Dieterich (1992), J. Geophys. Res. 97, "
+                          "4923-4940; power chosen";
+        info.neutral    = "Change = 0";
         info.parameters = {
           {"Change",
            "alpha",
@@ -93,8 +105,23 @@ namespace SlipStep
       }
 
     private:
-      // ln(p_m / f_n) with p_m as at the beginning; a contact that closes has
-      // nothing to remember.
+      // w at the end.
+      double share(const SlipStepData &step) const
+      {
+        const double start = step.start[adapted_share];
+        return start - (1. - start) * std::expm1(-step.slip / L);
+      }
+
+      // Of ln(p_m / f_n), for a constant pressure.
+      double share_kept(const SlipStepData &step) const
+      {
+        const double end = share(step);
+        return end > 0. ?
+                 step.start[adapted_share] * std::exp(-step.slip / L) / end :
+                 0.;
+      }
+
+      // ln(p_m / f_n) with p_m as at the beginning.
       static double log_ratio(const SlipStepData &step)
       {
         const double before = step.start[adapted_pressure];
