@@ -54,6 +54,7 @@ namespace SlipStep
       rule(product.d_rate, f.d_rate);
       rule(product.d_coefficient, f.d_coefficient);
       rule(product.d_work, f.d_work);
+      rule(product.d_path, f.d_path);
       product.value *= f.value;
     }
 
@@ -68,6 +69,7 @@ namespace SlipStep
       sum.d_rate += c.d_rate;
       sum.d_coefficient += c.d_coefficient;
       sum.d_work += c.d_work;
+      sum.d_path += c.d_path;
     }
   } // namespace
 
@@ -125,13 +127,15 @@ namespace SlipStep
 
   SlipStepData FrictionLaw::step_data(const LocalSystem &local) const
   {
+    const Tensor<1, 2> direction = slip_direction(local.direction);
     return {local.start,
             local.time_step,
             local.normal_traction,
             local.slip,
-            slip_direction(local.direction),
+            direction,
             local.coefficient,
-            local.heat(has_core())};
+            local.heat(has_core()),
+            local.slip * path_per_slip(direction)};
   }
 
 
@@ -169,8 +173,10 @@ namespace SlipStep
         return;
       }
 
-    const Contributions all    = contributions(step_data(local));
+    const SlipStepData  step   = step_data(local);
+    const Contributions all    = contributions(step);
     const Strength     &factor = all.factor, &sum = all.sum;
+    const double        d_path = f_n * mu * factor.d_path + sum.d_path;
 
     local.strength = f_n * mu * factor.value + sum.value;
     d.d_normal = mu * factor.value + f_n * mu * factor.d_normal + sum.d_normal;
@@ -181,12 +187,20 @@ namespace SlipStep
                sum.d_slip +
                (f_n * mu * factor.d_coefficient + sum.d_coefficient) *
                  local.d_coefficient +
-               d.d_rate / local.time_step;
+               d.d_rate / local.time_step +
+               d_path * path_per_slip(step.direction);
     // With a core work depends on the strength, see core_change().
     if (!has_core())
       d.d_slip += d.d_work * (local.traction - alpha_t * local.slip);
     if (is_anisotropic)
-      d.d_direction = pull_back(d.d_direction, local.direction);
+      {
+        // Of 1 / |P e|, see path_per_slip().
+        const Tensor<1, 2> in_metric = cone * step.direction;
+        if (d_path != 0. && in_metric.norm() > 0.)
+          d.d_direction -=
+            d_path * step.path / in_metric.norm_square() * (cone * in_metric);
+        d.d_direction = pull_back(d.d_direction, local.direction);
+      }
   }
 
 
@@ -437,6 +451,16 @@ namespace SlipStep
 
 
 
+  // Slip e s is P e s in the metric in which the law is isotropic.
+  double FrictionLaw::path_per_slip(const Tensor<1, 2> &slip_direction) const
+  {
+    if (!is_anisotropic || slip_direction == Tensor<1, 2>())
+      return 1.;
+    return 1. / (cone * slip_direction).norm();
+  }
+
+
+
   // A gradient with respect to slip_direction(direction) becomes one with
   // respect to the direction.
   Tensor<1, 2> FrictionLaw::pull_back(const Tensor<1, 2> &gradient,
@@ -510,7 +534,7 @@ namespace SlipStep
                           local.normal_ratio.value :
                           std::min(local.normal_ratio.value, end.loading_ratio);
     end.coefficient   = local.coefficient;
-    end.slip_path     = start.slip_path + local.slip;
+    end.slip_path     = start.slip_path + step_data(local).path;
     end.slip_rate     = local.slip / time_step;
     end.dissipation   = start.dissipation + local.heat(has_core());
     end.memories      = start.memories;

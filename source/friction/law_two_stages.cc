@@ -43,13 +43,15 @@ namespace SlipStep
           std::max(isotropic_traction(end.traction) * normal * slip - taken,
                    0.);
       }
+    const Tensor<1, 2> direction = slip_direction(direction_of(end));
     return {start,
             time_step,
             end.normal_traction,
             slip,
-            slip_direction(direction_of(end)),
+            direction,
             end.coefficient,
-            work};
+            work,
+            slip * path_per_slip(direction)};
   }
 
 
@@ -92,7 +94,7 @@ namespace SlipStep
     if (has_core())
       core->remember_core(
         moved_core(first.end, first.end.strength, normal, more), state);
-    state.slip_path = first.end.slip_path + more;
+    state.slip_path = first.end.slip_path + rest.path;
     state.dissipation =
       TwoStages::carried(start.dissipation, first.end.dissipation);
     state.traction +=

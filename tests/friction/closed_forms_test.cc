@@ -284,9 +284,46 @@ TEST(ClosedForms, elliptic_cone)
                   first * std::sin(axis) + second * std::cos(axis),
                   1e-9);
       EXPECT_NEAR(state.slip_rate, V * stretch, 1e-9);
+      EXPECT_NEAR(state.slip_path - before.slip_path, 0.01 * V, 1e-9);
       EXPECT_NEAR(state.dissipation - before.dissipation,
                   0.01 * V * (state.traction * e),
                   1e-10);
+    }
+}
+
+
+
+// One surface told in two ways, an ellipse from its one axis and from the
+// other: the places that slip comes to are those on the plane.
+TEST(ClosedForms, path_over_an_anisotropic_plane)
+{
+  const double f_n = 5., way = 3.;
+  for (const bool from_the_other : {false, true})
+    {
+      const auto law = make_law(
+        {{"Effects", "anisotropy, subloading, texture, wear, run_in"},
+         {"Static coefficient", from_the_other ? "0.12" : "0.2"},
+         {"anisotropy/Ratio", from_the_other ? "1.66666666666666667" : "0.6"},
+         {"anisotropy/Angle", from_the_other ? "90 deg" : "0 deg"},
+         {"texture/Angle", "90 deg"},
+         {"texture/Wavelength", "2 mm"},
+         {"texture/Amplitude", "0.1"},
+         {"run_in/Length", "4 mm"},
+         {"run_in/Change", "0.5"},
+         {"wear/Specific rate", "1"}});
+      ContactState state = law->initial_state(), end;
+      for (unsigned int i = 0; i < 3000; ++i, state = end)
+        law->update(state, vector(0., way / 3000), f_n, 1e-3, end);
+      // Less what is elastic.
+      EXPECT_NEAR(state.slip_path, way, 1e-3);
+      EXPECT_NEAR(state[contact_memory("track_2_mm")], state.slip_path, 1e-12);
+      EXPECT_NEAR(state[contact_memory("worn_depth_mm")],
+                  1e-3 * f_n * state.slip_path,
+                  1e-12);
+      EXPECT_NEAR(state.traction[1],
+                  0.12 * f_n * (1. + 0.1 * std::sin(PI * state.slip_path)) *
+                    (1. - 0.5 * std::expm1(-state.slip_path / 4.)),
+                  1e-9);
     }
 }
 

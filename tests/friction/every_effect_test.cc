@@ -177,9 +177,9 @@ TEST_P(EveryEffect, tells_the_derivatives_of_its_strength)
     start[memory] = std::min(2., 0.5 * memory.greatest);
   start[contact_memory("temperature_rise_degC")] = 3.;
   const double angle                             = 0.8;
-  // slip, normal traction, angle, rate, coefficient, work
-  using Arguments              = std::array<double, 6>;
-  const Arguments base         = {{3e-3, 5., angle, 0.4, 0.1, 2e-2}};
+  // slip, normal traction, angle, rate, coefficient, work, path
+  using Arguments              = std::array<double, 7>;
+  const Arguments base         = {{3e-3, 5., angle, 0.4, 0.1, 2e-2, 4e-3}};
   const auto      strengths_at = [&](const Arguments &x) {
     // The rate is varied by the time step, so time enters as such: it belongs
     // to the rate only where the effect says that it depends on it.
@@ -189,22 +189,23 @@ TEST_P(EveryEffect, tells_the_derivatives_of_its_strength)
                             x[0],
                             vector(std::cos(x[2]), std::sin(x[2])),
                             x[4],
-                            x[5]};
+                            x[5],
+                            x[6]};
     return std::array<Strength, 2>{
       {strength->strength_factor(step), strength->additive_strength(step)}};
   };
   for (unsigned int kind = 0; kind < 2; ++kind)
     {
-      const Strength     s    = strengths_at(base)[kind];
-      const Tensor<1, 2> turn = vector(-std::sin(angle), std::cos(angle));
-      const std::array<double, 6> stated = {
-        {s.d_slip + s.d_rate / (base[0] / base[3]),
-         s.d_normal,
-         s.d_direction * turn,
-         0.,
-         s.d_coefficient,
-         s.d_work}};
-      for (const unsigned int i : {0, 1, 2, 4, 5})
+      const Strength     s      = strengths_at(base)[kind];
+      const Tensor<1, 2> turn   = vector(-std::sin(angle), std::cos(angle));
+      const Arguments    stated = {{s.d_slip + s.d_rate / (base[0] / base[3]),
+                                    s.d_normal,
+                                    s.d_direction * turn,
+                                    0.,
+                                    s.d_coefficient,
+                                    s.d_work,
+                                    s.d_path}};
+      for (const unsigned int i : {0, 1, 2, 4, 5, 6})
         {
           const double h  = 1e-3 * base[i];
           const auto   at = [&](const double t) {

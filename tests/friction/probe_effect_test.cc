@@ -31,15 +31,16 @@ namespace SlipStep
 
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
-        const double path   = step.start.slip_path + step.slip;
+        const double path   = step.start.slip_path + step.path;
         const double slip   = 1. + 0.2 * std::exp(-path);
         const double normal = std::pow(1. + step.normal_traction, -0.1);
         const double angle  = 1. + 0.1 * step.direction[0] * step.direction[1];
         Strength     result{slip * normal * angle,
-                        -0.2 * std::exp(-path) * normal * angle,
+                        0.,
                         -0.1 * slip * normal * angle /
                           (1. + step.normal_traction),
                         {}};
+        result.d_path         = -0.2 * std::exp(-path) * normal * angle;
         result.d_direction[0] = slip * normal * 0.1 * step.direction[1];
         result.d_direction[1] = slip * normal * 0.1 * step.direction[0];
         return result;

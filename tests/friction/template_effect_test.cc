@@ -34,11 +34,11 @@ namespace SlipStep
       // it depends on. (MPa that are added instead: additive_strength().)
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
-        const double path = step.start.slip_path + step.slip;
+        const double path = step.start.slip_path + step.path;
         const double t    = std::tanh(path / L);
         Strength     factor;
         factor.value  = 1. + w * t;
-        factor.d_slip = w * (1. - t * t) / L;
+        factor.d_path = w * (1. - t * t) / L;
         return factor;
       }
 

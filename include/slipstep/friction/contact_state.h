@@ -53,7 +53,7 @@ namespace SlipStep
     double normal_ratio = 0.;
     /// Quasi-static coefficient of friction mu.
     double coefficient = 0.;
-    /// Viscoplastic slip path, the integral of lambda [mm].
+    /// Way that the contact has slipped over the plane [mm].
     double slip_path = 0.;
     /// Viscoplastic slip rate lambda at the end of the step [mm/s].
     double slip_rate = 0.;

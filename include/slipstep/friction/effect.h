@@ -28,6 +28,9 @@ namespace SlipStep
     dealii::Tensor<1, 2> direction;
     double               coefficient; ///< mu at the end
     double               work;        ///< |f_t| * slip, all of it heat [MPa mm]
+    /// Way that the contact slips over the plane [mm]; where anisotropy
+    /// measures slip in a metric of its own, not the same as that.
+    double path = slip;
 
     /// lambda, by backward Euler [mm/s].
     double slip_rate() const
@@ -51,10 +54,11 @@ namespace SlipStep
     double               value    = 0.;
     double               d_slip   = 0.;
     double               d_normal = 0.;
-    dealii::Tensor<1, 2> d_direction;
+    dealii::Tensor<1, 2> d_direction;        ///< with slip and path kept
     double               d_rate        = 0.; ///< with the slip kept
     double               d_coefficient = 0.;
     double               d_work        = 0.;
+    double               d_path        = 0.;
   };
 
   /// r_s after some slip, with derivatives.

@@ -32,9 +32,9 @@ namespace SlipStep
   /// the slip in the stage, bracketed by 0 and |f_trial| / alpha_t. Strength
   /// that falls with slip or speed gives it several roots; the one that goes on
   /// as the contact did before is taken. With Anisotropy this holds in the
-  /// metric of its ellipse, in which |f_t|, lambda and the slip path are then
-  /// measured, and alpha_t is the stiffness along the first axis. Immutable:
-  /// one law serves all points.
+  /// metric of its ellipse, in which |f_t| and lambda are then measured, and
+  /// alpha_t is the stiffness along the first axis; the slip path is that over
+  /// the plane. Immutable: one law serves all points.
   class FrictionLaw
   {
   public:
@@ -288,7 +288,8 @@ namespace SlipStep
     dealii::Tensor<1, 2> slip_normal(const ContactState &state) const;
 
     dealii::Tensor<1, 2>
-    slip_direction(const dealii::Tensor<1, 2> &direction) const;
+           slip_direction(const dealii::Tensor<1, 2> &direction) const;
+    double path_per_slip(const dealii::Tensor<1, 2> &slip_direction) const;
     dealii::Tensor<1, 2> pull_back(const dealii::Tensor<1, 2> &gradient,
                                    const dealii::Tensor<1, 2> &direction) const;
 

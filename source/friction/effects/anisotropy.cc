@@ -21,7 +21,7 @@ namespace SlipStep
     /// 259. That the tangential stiffness along the second axis is
     /// \f$\varrho^2\alpha_t\f$ is chosen: in the metric of the ellipse all is
     /// isotropic then, and f_1, f_2/rho, the slip s_1, rho s_2 do the same
-    /// work. lambda and the slip path are measured in it.
+    /// work. lambda is measured in it; the path over the plane is not.
     class AssociatedAnisotropy : public Effect
     {
     public:

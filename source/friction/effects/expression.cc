@@ -121,13 +121,17 @@ namespace SlipStep
             factor.value    = rate.value;
             factor.d_normal = rate.derivative;
           }
+        else if (covariate == "path")
+          {
+            const Rate rate = table(step.start.slip_path + step.path);
+            factor.value    = rate.value;
+            factor.d_path   = rate.derivative;
+          }
         else if (covariate == "temperature")
           factor.value = table(step.start[temperature]).value;
         else
           {
-            const Rate x    = (covariate == "path" ?
-                                 Rate{step.start.slip_path + step.slip, 1.} :
-                                 hold_time(step));
+            const Rate x    = hold_time(step);
             const Rate rate = table(x.value);
             factor.value    = rate.value;
             factor.d_slip   = rate.derivative * x.derivative;

@@ -23,10 +23,10 @@ namespace SlipStep
 
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
-        const double path = step.start.slip_path + step.slip;
+        const double path = step.start.slip_path + step.path;
         Strength     factor;
         factor.value  = 1. - w * std::expm1(-path / D_w);
-        factor.d_slip = w / D_w * std::exp(-path / D_w);
+        factor.d_path = w / D_w * std::exp(-path / D_w);
         return factor;
       }
 

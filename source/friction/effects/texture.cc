@@ -45,21 +45,21 @@ namespace SlipStep
         const double along = across * step.direction;
         const double argument =
           wave_number * (across[0] * step.start[track_1] +
-                         across[1] * step.start[track_2] + along * step.slip) +
+                         across[1] * step.start[track_2] + along * step.path) +
           phase;
         Strength factor;
         factor.value         = 1. + w * std::sin(argument);
         const double d_place = w * wave_number * std::cos(argument);
-        factor.d_slip        = d_place * along;
-        factor.d_direction   = d_place * step.slip * across;
+        factor.d_path        = d_place * along;
+        factor.d_direction   = d_place * step.path * across;
         return factor;
       }
 
       virtual void remember(const SlipStepData &step,
                             ContactState       &end) const override
       {
-        end[track_1] = step.start[track_1] + step.slip * step.direction[0];
-        end[track_2] = step.start[track_2] + step.slip * step.direction[1];
+        end[track_1] = step.start[track_1] + step.path * step.direction[0];
+        end[track_2] = step.start[track_2] + step.path * step.direction[1];
       }
 
       virtual std::vector<ContactMemory> memories() const override

@@ -30,7 +30,7 @@ namespace SlipStep
                             ContactState       &end) const override
       {
         end[worn_depth] =
-          step.start[worn_depth] + k * step.normal_traction * step.slip;
+          step.start[worn_depth] + k * step.normal_traction * step.path;
       }
 
       virtual std::vector<ContactMemory> memories() const override
