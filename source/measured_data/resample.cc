@@ -36,6 +36,8 @@ namespace SlipStep
     private:
       void keep_landmarks();
 
+      void keep_rests();
+
       void keep_extremes_of_friction(const std::size_t begin,
                                      const std::size_t end);
 
@@ -43,6 +45,7 @@ namespace SlipStep
                                               const std::size_t end) const;
 
       const MeasuredTest   &test;
+      const double          noise_multiple;
       std::vector<Series>   series;
       std::set<std::size_t> landmarks;
     };
@@ -52,6 +55,7 @@ namespace SlipStep
     Selection::Selection(const MeasuredTest    &test,
                          const ResampleOptions &options)
       : test(test)
+      , noise_multiple(options.noise_multiple)
     {
       for (const Channel &channel : channels())
         {
@@ -95,31 +99,71 @@ namespace SlipStep
 
 
 
+    // Friction answers to motion within micrometres, far less than what a
+    // position may be off: where rests begin and end is kept. Many rests are
+    // the stairs of a rounded record, or the jitter of a slow one; then those
+    // that are much longer are.
+    void Selection::keep_rests()
+    {
+      constexpr std::size_t few         = 20;
+      constexpr double      much_longer = 10.;
+
+      const std::size_t n = test.time.size();
+      std::vector<bool> moves(n, false);
+      for (const auto *position : {&test.displacement, &test.displacement_y})
+        if (!position->empty())
+          {
+            const std::vector<double> smooth =
+              without_jitter(*position,
+                             noise_multiple * noise_level(*position));
+            for (std::size_t i = 1; i < n; ++i)
+              moves[i] = moves[i] || smooth[i] != smooth[i - 1];
+          }
+      std::vector<std::pair<std::size_t, std::size_t>> rests;
+      std::vector<double>                              durations;
+      for (std::size_t begin = 0, end; begin < n; begin = end + 1)
+        {
+          for (end = begin; end + 1 < n && !moves[end + 1];)
+            ++end;
+          if (end == begin)
+            continue;
+          rests.emplace_back(begin, end);
+          durations.push_back(test.time[end] - test.time[begin]);
+        }
+      const double least =
+        rests.size() <= few ? 0. : much_longer * median(durations);
+      for (std::size_t i = 0; i < rests.size(); ++i)
+        if (i == 0 || durations[i] >= least)
+          {
+            landmarks.insert(rests[i].first);
+            landmarks.insert(rests[i].second);
+          }
+    }
+
+
+
     // A stroke ends at the farthest point before the displacement turns.
     void Selection::keep_landmarks()
     {
       const std::size_t n = test.time.size();
       landmarks           = {0, n - 1};
       keep_extremes_of_friction(0, n);
+      keep_rests();
 
-      const std::vector<double> &position = test.displacement;
-      const double               band =
-        std::max(least_stroke * range_of(position), tolerance(position));
-      const std::vector<double> smooth = without_jitter(position, band);
-      for (std::size_t i = 1; i < n; ++i)
-        if (smooth[i] != smooth[i - 1])
+      for (const auto *position : {&test.displacement, &test.displacement_y})
+        if (!position->empty())
           {
-            landmarks.insert(i - 1);
-            break;
+            const double band  = std::max(least_stroke * range_of(*position),
+                                         tolerance(*position));
+            std::size_t  start = 0;
+            for (const std::size_t turn : turning_rows(*position, band))
+              {
+                landmarks.insert(turn);
+                keep_extremes_of_friction(start, turn + 1);
+                start = turn;
+              }
+            keep_extremes_of_friction(start, n);
           }
-      std::size_t start = 0;
-      for (const std::size_t turn : turning_rows(position, band))
-        {
-          landmarks.insert(turn);
-          keep_extremes_of_friction(start, turn + 1);
-          start = turn;
-        }
-      keep_extremes_of_friction(start, n);
     }
 
 

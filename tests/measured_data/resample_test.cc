@@ -230,3 +230,51 @@ TEST(Resample, ACleanPressureIsKept)
   EXPECT_NEAR(result.pressure_tolerance, 0.012, 1e-9);
   EXPECT_LE(largest_distance(test, result, &MeasuredTest::pressure), 0.012);
 }
+
+
+
+// However long the track is: friction knows of the first micrometres.
+TEST(Resample, KeepsTheEndsOfRestsAlongBothAxes)
+{
+  for (const bool along_y : {false, true})
+    for (const double speed : {1e-4, 1., 50.})
+      {
+        MeasuredTest test;
+        double       position = 0.;
+        for (int i = 0; i < 600; ++i)
+          {
+            const bool rests = i <= 3 || (i > 300 && i <= 307);
+            position += rests ? 0. : speed * (i < 10 ? 1e-3 : 1.);
+            test.time.push_back(i);
+            test.displacement.push_back(along_y ? 0. : position);
+            test.displacement_y.push_back(along_y ? position : 0.);
+            test.pressure.push_back(5.);
+            test.friction.push_back(0.1);
+            test.friction_y.push_back(0.1);
+          }
+        const std::vector<std::size_t> rows = resample(test).rows;
+        for (const std::size_t row : {0, 3, 300, 307, 599})
+          EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), row))
+            << row << " at " << speed << (along_y ? " along y" : " along x");
+        EXPECT_LT(rows.size(), 20u);
+      }
+}
+
+
+
+// Stairs of a rounded record are no rests, unless one is much longer.
+TEST(Resample, TakesNoStairsForRests)
+{
+  MeasuredTest test;
+  for (int i = 0; i < 3000; ++i)
+    {
+      const double position = 1e-3 * (i < 1000 ? i :
+                                      i < 2000 ? 1000 :
+                                                 i - 1000);
+      test.time.push_back(i);
+      test.displacement.push_back(std::round(position / 0.01) * 0.01);
+      test.pressure.push_back(5.);
+      test.friction.push_back(0.1);
+    }
+  EXPECT_LT(resample(test).rows.size(), 60u);
+}

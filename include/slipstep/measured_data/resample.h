@@ -51,7 +51,7 @@ namespace SlipStep
   ///
   /// These rows are kept in any case: first and last, the extremes of friction,
   /// the reversals of the displacement, the extremes of friction in every
-  /// stroke, and the last row before the first motion. Peaks are therefore
+  /// stroke, and the ends of rests, along either axis. Peaks are therefore
   /// exact to the last bit, and the frictional work between any two rows kept
   /// differs by less than tolerance times path, work on the average of noise by
   /// much less.
