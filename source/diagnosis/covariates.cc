@@ -468,11 +468,19 @@ namespace SlipStep
     TestedRange         result;
     std::vector<double> moving, frictions;
     for (Eigen::Index k = 0; k < comparison.n_rows(); ++k)
-      {
-        if (covariates.speed(k) > 0. && covariates.phase[k] != Phase::hold)
-          moving.push_back(covariates.speed(k));
-        frictions.push_back(std::abs(covariates.friction(k)));
-      }
+      if (covariates.speed(k) > 0. && covariates.phase[k] != Phase::hold)
+        moving.push_back(covariates.speed(k));
+    // Of both axes together: one of them may idle.
+    for (const ComparedTest &test : comparison.tests)
+      for (std::size_t i = 0; i < test.n_bins(); ++i)
+        {
+          double square = 0.;
+          for (std::size_t s = 0; s < test.series.size(); ++s)
+            square +=
+              std::pow(covariates.friction(test.begin + s * test.n_bins() + i),
+                       2);
+          frictions.push_back(std::sqrt(square));
+        }
     std::sort(moving.begin(), moving.end());
     if (!moving.empty())
       {

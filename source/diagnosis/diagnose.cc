@@ -121,12 +121,6 @@ namespace SlipStep
       result.explained_share = judgement.explained_share;
       result.remainder_p     = judgement.remainder.p;
       final_model            = judgement.found.model;
-      result.is_cut_short    = judgement.found.is_cut_short;
-      if (result.is_cut_short)
-        result.warnings.push_back(
-          "Diagnosis/Most time = " + parameters.text("Diagnosis/Most time") +
-          " was over before the search was: what is proven so far stands; more "
-          "effects, or other ones, may be missing");
       const std::vector<double> &costs = judgement.found.costs;
       std::vector<std::size_t>   order(final_model.parts.size());
       std::iota(order.begin(), order.end(), 0);
@@ -362,6 +356,13 @@ namespace SlipStep
         }
       prove();
       show();
+      result.is_cut_short = ingested.workspace->was_late;
+      if (result.is_cut_short)
+        result.warnings.push_back(
+          "Diagnosis/Most time = " + parameters.text("Diagnosis/Most time") +
+          " was over before the search was: this is the best answer so far, "
+          "which was not tried against all others; with more time it may be "
+          "another one");
       const ResourceUsage end = ResourceUsage::now();
       result.wall_time        = end.wall_time - begin.wall_time;
       result.cpu_time         = end.cpu_time - begin.cpu_time;

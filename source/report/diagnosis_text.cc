@@ -241,21 +241,24 @@ namespace SlipStep
   {
     const bool        is_stated = diagnosis.n_replicate_pairs == 0;
     const std::string words     = verdict_words(diagnosis);
-    return (is_stated ?
+    return (diagnosis.is_cut_short ?
+              "Not decided, the search was cut short (Diagnosis/Most time). So "
+              "far: " :
+              "") +
+           (is_stated ?
               "If the stated noise is right (there are no replicates), " +
                 words :
               capitalised(words)) +
            completed_words(diagnosis) + remainder_words(diagnosis) +
-           outlier_words(diagnosis.outliers) + "." +
-           (diagnosis.is_cut_short ? " The search was cut short: not all was "
-                                     "tried (Diagnosis/Most time)." :
-                                     "");
+           outlier_words(diagnosis.outliers) + ".";
   }
 
 
 
   std::string short_verdict(const Diagnosis &diagnosis)
   {
+    if (diagnosis.is_cut_short)
+      return "not decided, time was over";
     switch (diagnosis.verdict)
       {
         case Verdict::named:

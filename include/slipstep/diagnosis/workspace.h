@@ -40,9 +40,14 @@ namespace SlipStep
     std::vector<double> wavelengths = {}; ///< of the last
     ///@}
 
-    bool is_late() const
+    /// Whether something was, or is to be, left undone since time is over.
+    bool was_late = false;
+
+    /// To be asked before work that an answer can do without.
+    bool is_late()
     {
-      return std::chrono::steady_clock::now() > deadline;
+      was_late = was_late || std::chrono::steady_clock::now() > deadline;
+      return was_late;
     }
   };
 } // namespace SlipStep
