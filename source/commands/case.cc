@@ -103,8 +103,12 @@ namespace SlipStep
     result.variants = result.parameters.variants();
     if (!line.variant.empty() && !is_swept_member)
       {
+        // Named as the case has it, or as what --set leaves of it.
+        Parameters with_settings = result.parameters;
         result.selected =
-          find_variant(as_written.variants(), line.variant, file);
+          with_settings.keep_variant(line.variant) ?
+            with_settings.variants().front() :
+            find_variant(as_written.variants(), line.variant, file);
         reject_void_variant(result.parameters, result.selected, line);
         result.parameters = as_written.with_variant(result.selected);
         apply_settings(line, result.parameters);

@@ -303,24 +303,7 @@ namespace SlipStep
     entry.origin = origin;
     entry.layer  = ++n_layers;
 
-    bool is_swept = false;
-    for (Variant &variant : variant_list)
-      {
-        auto      &overrides = variant.overrides;
-        const auto end       = std::remove_if(overrides.begin(),
-                                        overrides.end(),
-                                        [&](const Variant::Override &setting) {
-                                          return setting.path == path;
-                                        });
-        is_swept             = is_swept || end != overrides.end();
-        overrides.erase(end, overrides.end());
-      }
-    if (is_swept && std::all_of(variant_list.begin(),
-                                variant_list.end(),
-                                [](const Variant &variant) {
-                                  return variant.overrides.empty();
-                                }))
-      variant_list.clear();
+    variant_list = without_key(variant_list, path);
   }
 
 
@@ -487,6 +470,7 @@ namespace SlipStep
                          const std::string              &origin)
   {
     check_path(path, origin);
+    variant_list = without_key(variant_list, path, origin);
     const std::vector<Variant> more =
       variants_of_values(*this, path, values, origin, variant_list.empty());
     variant_list =

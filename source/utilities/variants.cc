@@ -4,6 +4,11 @@
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/variants.h>
 
+#include <boost/algorithm/string/find.hpp>
+#include <boost/algorithm/string/finder.hpp>
+#include <boost/algorithm/string/iter_find.hpp>
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <set>
@@ -121,6 +126,68 @@ namespace SlipStep
                                            other.overrides.end());
         }
     return variants;
+  }
+
+
+
+  namespace
+  {
+    // The label of combined values has a piece for each of them.
+    void take_out(Variant &variant, const std::size_t number)
+    {
+      std::vector<std::string> pieces;
+      boost::algorithm::iter_split(pieces,
+                                   variant.label,
+                                   boost::algorithm::first_finder(", "));
+      if (pieces.size() == variant.overrides.size() && pieces.size() > 1)
+        {
+          pieces.erase(pieces.begin() + number);
+          variant.label  = boost::algorithm::join(pieces, ", ");
+          variant.folder = folder_name(variant.label);
+        }
+      variant.overrides.erase(variant.overrides.begin() + number);
+    }
+  } // namespace
+
+
+
+  std::vector<Variant> without_key(const std::vector<Variant> &variants,
+                                   const std::string          &path,
+                                   const std::string          &but_those_from)
+  {
+    std::vector<Variant> result;
+    const auto says_the_same = [](const Variant &a, const Variant &b) {
+      return std::equal(a.overrides.begin(),
+                        a.overrides.end(),
+                        b.overrides.begin(),
+                        b.overrides.end(),
+                        [](const auto &one, const auto &other) {
+                          return one.path == other.path &&
+                                 one.value == other.value;
+                        });
+    };
+    for (Variant variant : variants)
+      {
+        bool has_changed = false;
+        for (std::size_t i = variant.overrides.size(); i-- > 0;)
+          if (variant.overrides[i].path == path &&
+              variant.overrides[i].origin != but_those_from)
+            {
+              take_out(variant, i);
+              has_changed = true;
+            }
+        const bool is_told =
+          has_changed &&
+          std::any_of(result.begin(), result.end(), [&](const Variant &other) {
+            return says_the_same(variant, other);
+          });
+        if (!is_told)
+          result.push_back(variant);
+      }
+    const bool says_nothing = result.size() == 1 &&
+                              result.front().overrides.empty() &&
+                              !variants.front().overrides.empty();
+    return says_nothing ? std::vector<Variant>() : result;
   }
 
 

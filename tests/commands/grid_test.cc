@@ -135,6 +135,30 @@ TEST_F(Grid, OfThreeKeysHasAllCombinations)
 
 
 
+// What the command line says of a key takes the place of what the case does.
+TEST_F(Grid, OfAKeyThatTheCaseSweepsTakesItsPlace)
+{
+  const auto check = [&](const std::vector<std::string> &options) {
+    std::vector<std::string> arguments = {"check", "grid.prm"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run(arguments).out;
+  };
+  EXPECT_EQ(check({"--sweep", "Loading/Speed=5 mm/s|6 mm/s|7 mm/s"}),
+            "grid.prm: OK, 6 variants\n");
+  EXPECT_EQ(check({"--set", "Loading/Speed=5 mm/s"}),
+            "grid.prm: OK, 2 variants\n");
+  run({"point",
+       "grid.prm",
+       "--quiet",
+       "--output",
+       "one",
+       "--set",
+       "Loading/Speed=5 mm/s"});
+  EXPECT_FALSE(contains(process.read("one/report.html"), "20 mm/min"));
+}
+
+
+
 TEST_F(Grid, MistakesAreRefused)
 {
   const auto refused = [&](const std::vector<std::string> &options,
@@ -143,7 +167,10 @@ TEST_F(Grid, MistakesAreRefused)
     arguments.insert(arguments.end(), options.begin(), options.end());
     expect_refusal(process.run(arguments), words);
   };
-  refused({"--sweep", "Loading/Speed=5 mm/s|6 mm/s"},
+  refused({"--sweep",
+           "Loading/Speed=5 mm/s|6 mm/s",
+           "--sweep",
+           "Loading/Speed=7 mm/s|8 mm/s"},
           {"Loading/Speed is swept twice"});
   refused({"--sweep", "Block/Degre=1|2"}, {"Block/Degre", "Block/Degree"});
   refused({"--sweep", "Block/Degree=1|"}, {"a value is missing"});

@@ -177,8 +177,10 @@ namespace SlipStep
     /// sweep.
     const std::vector<Variant> &variants() const;
 
-    /// Sweep one more key: every variant there is with each of these values.
-    /// @throws InputError for a key that is swept already, or wrong values
+    /// Sweep one more key: every variant there is with each of these values,
+    /// which take the place of those that it has from elsewhere.
+    /// @throws InputError for a key that @p origin sweeps already, or wrong
+    ///   values
     void sweep(const std::string              &path,
                const std::vector<std::string> &values,
                const std::string              &origin);

@@ -32,6 +32,13 @@ namespace SlipStep
                                const std::vector<Variant> &fast,
                                const std::string          &origin);
 
+  /// The variants without what they say of a key. Of those that then say the
+  /// same one is left, and none if that is nothing.
+  /// @param but_those_from origin of settings that stay
+  std::vector<Variant> without_key(const std::vector<Variant> &variants,
+                                   const std::string          &path,
+                                   const std::string &but_those_from = "");
+
   /// The variant of this label or folder.
   /// @throws InputError naming those that there are
   const Variant &find_variant(const std::vector<Variant>  &variants,
