@@ -137,7 +137,7 @@ namespace SlipStep
     };
     // As small as keeps the contact slipping.
     const double share =
-      std::min(1e-6,
+      std::min(1e-4,
                1e-2 * law.tangential_stiffness() * slip / steady.strength);
 
     const Complex                 shift(1., -omega * time_step);
@@ -183,21 +183,72 @@ namespace SlipStep
 
 
 
+  Complex SteadySliding::slip_stiffness(const double omega) const
+  {
+    return 1. / (1. / dynamic_stiffness(omega) - 1. / elastic_stiffness());
+  }
+
+
+
+  double SteadySliding::elastic_stiffness() const
+  {
+    return direction * (law.elastic_tangent() * direction);
+  }
+
+
+
+  double SteadySliding::resolution() const
+  {
+    return 1e-5 * elastic_stiffness();
+  }
+
+
+
+  // What feeds a disturbance does so in proportion to its speed where friction
+  // falls with speed at once, and less and less where that takes a time or a
+  // length.
+  bool SteadySliding::grows_at_once() const
+  {
+    if (!is_kept(time_of_quickest()))
+      return true;
+    const double quick = slip_stiffness(quickest()).imag();
+    return quick < -resolution() &&
+           quick < 2. * slip_stiffness(quickest() / 4.).imag();
+  }
+
+
+
+  // Nothing holds against quick disturbances: springs have to be stiffer than
+  // friction falls with slip, and with a mass what falls feeds every swing.
+  StabilityLimit
+  SteadySliding::limit_without_rate_effect(const double mass) const
+  {
+    // Slow enough to be no round-off, too quick for what the law remembers.
+    const double omega = 1e-2 * quickest();
+    if (slip_stiffness(omega).real() < -elastic_stiffness())
+      return {std::numeric_limits<double>::infinity(), 0.};
+    const double fall =
+      std::max(-dynamic_stiffness(omega).real(),
+               -dynamic_stiffness(quickest()).real() - resolution());
+    if (fall <= 1e-4 * resolution())
+      return {};
+    return {mass > 0. ? std::numeric_limits<double>::infinity() : fall, 0.};
+  }
+
+
+
   // Coming from stiff springs, the first frequency at which a disturbance
-  // neither grows nor fades sets the limit. A law that feeds even the quickest
-  // disturbances, which the contact bears elastically, is stable on no spring;
-  // a rate-independent one, without mass, on those stiffer than it weakens.
+  // neither grows nor fades sets the limit. A law that feeds quick disturbances
+  // the more is stable on no spring.
   StabilityLimit SteadySliding::limit(const double mass) const
   {
-    const double infinity = std::numeric_limits<double>::infinity();
     const double quickest = this->quickest();
     const double ratio    = std::pow(10., 0.04);
-    if (!is_kept(time_of_quickest()))
-      return {infinity, quickest};
+    if (grows_at_once())
+      return {std::numeric_limits<double>::infinity(), 0.};
     const Complex last = dynamic_stiffness(quickest);
-    if (last.imag() < 0.)
-      return {mass > 0. || last.real() > 0. ? infinity : -last.real(),
-              quickest};
+    if (last.imag() < resolution())
+      return limit_without_rate_effect(mass);
 
     StabilityLimit result;
     double         loss = last.imag();
@@ -318,6 +369,11 @@ namespace SlipStep
                << " MPa/mm is below the critical " << limit
                << ", so that it jumps. A stiffer machine or a machine mass "
                   "helps";
+        else if (machine.mass() > 0.)
+          text << " on a machine with a mass: friction falls"
+               << (effects.empty() ? "" : " (" + effects + ")")
+               << " and nothing damps, so that every swing grows. A viscosity "
+                  "(viscous, overstress) or no machine mass helps";
         else
           text << ": friction falls"
                << (effects.empty() ? "" : " (" + effects + ")")

@@ -210,6 +210,45 @@ TEST(Stability, without_rate_effect_any_mass_is_too_much)
 
 
 
+// Weakening that takes a slip or a time is held by every contact stiffer than
+// that; what has run in weakens no more.
+TEST(Stability, what_weakens_by_memory_does_not_grow_at_once)
+{
+  const double   V      = 0.03;
+  const Settings ageing = {{"Effects", "subloading, ageing"},
+                           {"ageing/Growth", "0.05"},
+                           {"ageing/Renewal length", "0.5"}};
+  const Settings run_in = {{"Effects", "subloading, run_in"},
+                           {"run_in/Change", "-0.5"},
+                           {"run_in/Length", "3"}};
+  for (const Settings &settings : {ageing,
+                                   run_in,
+                                   Settings{{"Effects", "subloading, heating"}},
+                                   Settings{{"Effects", "softening, healing"}},
+                                   Settings{{"Effects", "subloading"}}})
+    {
+      const std::string   effects = settings[0].second;
+      const auto          law     = make_law(settings);
+      const SteadySliding sliding(*law, vector(V), pressure);
+      ASSERT_TRUE(sliding.exists()) << effects;
+      EXPECT_FALSE(sliding.grows_at_once()) << effects;
+      EXPECT_TRUE(std::isfinite(sliding.limit(0.).stiffness)) << effects;
+      if (effects == "subloading, ageing")
+        {
+          // tau = f_n mu (1 + g ln(1 + theta/t_0)), theta = L/V at the steady
+          // state, of which quick slip takes d ln theta = -dx/L.
+          const double theta = 0.5 / V, t_0 = 1.;
+          const double fall = pressure * law->static_coefficient() * 0.05 *
+                              theta / (theta + t_0) / 0.5;
+          EXPECT_NEAR(sliding.limit(0.).stiffness, fall, 0.01 * fall);
+        }
+    }
+  const auto law = make_law({{"Effects", "subloading, run_in"}});
+  EXPECT_EQ(SteadySliding(*law, vector(V), pressure).limit(1e-3).stiffness, 0.);
+}
+
+
+
 TEST(Stability, friction_that_falls_with_speed_is_stable_on_no_spring)
 {
   const Settings law      = {{"Effects", "stribeck"},

@@ -74,16 +74,23 @@ namespace SlipStep
     /// @param mass per area [MPa s^2/mm]
     StabilityLimit limit(const double mass) const;
 
-    /// Whether even the quickest disturbances grow, which the contact bears
-    /// elastically: then no machine holds it.
-    bool grows_at_once() const
-    {
-      return !is_kept(time_of_quickest()) ||
-             dynamic_stiffness(quickest()).imag() < 0.;
-    }
+    /// Whether disturbances grow the more the quicker they are: then no machine
+    /// holds it, nor does the elastic contact.
+    bool grows_at_once() const;
 
   private:
     void find_steady_state();
+
+    /// Z of the slip alone, without the elastic part of the contact.
+    std::complex<double> slip_stiffness(const double omega) const;
+
+    /// Of the contact along the motion [MPa/mm].
+    double elastic_stiffness() const;
+
+    /// What is less in Z at the highest frequencies is round-off [MPa/mm].
+    double resolution() const;
+
+    StabilityLimit limit_without_rate_effect(const double mass) const;
 
     /// The largest angular frequency that matters [1/s].
     double quickest() const;
