@@ -167,7 +167,9 @@ namespace SlipStep
                         "sliding)");
             continue;
           }
-        if (!control.accept(machine.error(law, point, step).measure()))
+        const double weight =
+          programme.weight_of_error(control.time(), control.end_of_step());
+        if (!control.accept(weight * machine.error(law, point, step).measure()))
           continue;
 
         work += normal_energy(law, point.trial()) -

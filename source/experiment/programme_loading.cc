@@ -22,6 +22,16 @@ namespace SlipStep
 
 
 
+  double Programme::weight_of_error(const double begin, const double end) const
+  {
+    const Segment &segment = segment_at(end);
+    if (segment.end.pressure > 0. || !(segment.start.pressure > 0.))
+      return 1.;
+    return std::min(1., at(begin).pressure / segment.start.pressure);
+  }
+
+
+
   Loading Programme::at(const double time) const
   {
     const Segment &segment = segment_at(time);

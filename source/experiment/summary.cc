@@ -374,9 +374,13 @@ namespace SlipStep
     summary.kinetic    = last.kinetic_energy;
     summary.dissipated = last.dissipated_energy;
 
-    const double scale =
-      std::max(std::abs(summary.work),
-               std::abs(summary.stored) + std::abs(summary.dissipated));
+    // Of a closed elastic cycle only round-off is left at the end.
+    double scale = 0.;
+    for (const HistoryRow &row : history)
+      scale = std::max(
+        {scale,
+         std::abs(row.external_work),
+         std::abs(row.stored_energy) + std::abs(row.dissipated_energy)});
     const double gap      = summary.work - summary.stored - summary.dissipated;
     summary.balance_error = scale > 0. ? std::abs(gap) / scale : 0.;
   }

@@ -92,7 +92,9 @@ namespace SlipStep
         const double        pushed_path = drive.pushed_path();
         // On a new mesh the contact finds another equilibrium at once, however
         // short the step; the step's length was fine before.
-        double error = contact.step_error(communicator);
+        double error =
+          contact.step_error(communicator) *
+          programme.weight_of_error(control.time(), control.end_of_step());
         error =
           std::max({error,
                     drive.error(drive_springs, driven_mass, totals.limit_load),

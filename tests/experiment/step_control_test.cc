@@ -85,6 +85,26 @@ TEST(StepControl, WarnsBeforeSlidingThatNothingHolds)
 
 
 // A slide that goes on in a second statement is the slide in one.
+// A strength that is not proportional to the pressure, to the end.
+TEST(StepControl, UnloadsToZero)
+{
+  for (const char *effects : {"subloading, pressure",
+                              "subloading, adhesion",
+                              "overstress, pressure",
+                              "overstress, adhesion, healing"})
+    {
+      const auto history = point_history(point_parameters(
+        {{"Loading/Programme",
+          "press 5 MPa in 1 s; slide 1 mm/s for 0.05 mm; press 0 MPa in 1 s"},
+         {"Friction/Effects", effects}}));
+      EXPECT_EQ(history.back().time, 2.05) << effects;
+      EXPECT_EQ(history.back().friction, 0.) << effects;
+      EXPECT_LT(history.size(), 500u) << effects;
+    }
+}
+
+
+
 TEST(StepControl, TwoStatementsAreAsGoodAsOne)
 {
   Settings settings = {{"Friction/Effects", "subloading, overstress, stribeck"},

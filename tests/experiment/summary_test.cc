@@ -279,6 +279,20 @@ TEST(Summary, TheEnergyBalanceIsRelativeToTheWork)
 
 
 
+// What is left of a closed elastic cycle is round-off.
+TEST(Summary, TheEnergyBalanceOfAClosedCycleIsRelativeToWhatWentIn)
+{
+  const Parameters parameters = point_parameters(
+    {{"Loading/Programme", "press 5 MPa in 1 s; press 0 MPa in 1 s"}});
+  Summary summary;
+  summarise_history(point_history(parameters),
+                    parse_programme(parameters),
+                    summary);
+  EXPECT_LT(summary.balance_error, 1e-12);
+}
+
+
+
 TEST(Summary, AnUnfinishedHistoryGivesTheSlidesItReached)
 {
   const Programme programme("slide 1 mm/s for 10 mm; slide 2 mm/s for 10 mm; "

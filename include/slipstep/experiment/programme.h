@@ -87,6 +87,11 @@ namespace SlipStep
     /// The segment that at() takes.
     const Segment &segment_at(const double time) const;
 
+    /// By what the error of a step counts. It is relative to the strength that
+    /// is left; where the load goes to zero that would ask for ever shorter
+    /// steps, and what matters is relative to the load from which it went.
+    double weight_of_error(const double begin, const double end) const;
+
     double end_time() const
     {
       return segment_list.empty() ? 0. : segment_list.back().end_time;
