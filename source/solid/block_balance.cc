@@ -111,7 +111,8 @@ namespace SlipStep
     largest_normal_load = std::max(largest_normal_load, totals.normal_load);
     contact_share       = totals.area / parameters.nominal_contact_area();
     if (contact_share < smallest_contact_share &&
-        !parameters.surface.is_curved())
+        !parameters.surface.is_curved() &&
+        control.time() > parameters.time_of_first_wave())
       {
         smallest_contact_share = contact_share;
         time_of_opening        = control.time();
@@ -119,7 +120,9 @@ namespace SlipStep
     const bool has_yet_to_touch =
       parameters.surface.is_curved() && parameters.is_held_along_normal() &&
       largest_normal_load == 0. && !control.is_finished();
-    if (totals.normal_load <= 1e-6 * largest_normal_load && !has_yet_to_touch)
+    // With a density a block may come off the plane and return.
+    if (totals.normal_load <= 1e-6 * largest_normal_load && !has_yet_to_touch &&
+        !parameters.is_dynamic())
       {
         std::ostringstream message;
         message << "no contact pressure is left at t = " << control.time()

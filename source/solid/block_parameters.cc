@@ -627,4 +627,14 @@ namespace SlipStep
       area *= size[tangential_axis(i)];
     return area;
   }
+
+
+
+  double BlockParameters::time_of_first_wave() const
+  {
+    return is_dynamic() ?
+             size[normal_axis()] /
+               std::sqrt((lame_lambda() + 2. * shear_modulus()) / density) :
+             0.;
+  }
 } // namespace SlipStep

@@ -115,6 +115,10 @@ namespace SlipStep
       return density > 0.;
     }
 
+    /// When a load on the opposite face is felt on the plane at the earliest
+    /// [s]; at once without inertia.
+    double time_of_first_wave() const;
+
     /// Axis normal to the contact plane.
     unsigned int normal_axis() const
     {
