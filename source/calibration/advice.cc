@@ -428,6 +428,10 @@ namespace SlipStep
         const double deviation = std::min(optimum.direction_deviations(k), 1e9);
         if (deviation < weak_deviation)
           continue;
+        // Less of a direction is round-off, which a parameter without any
+        // influence makes large.
+        const double least =
+          1e-3 * optimum.directions.col(k).lpNorm<Eigen::Infinity>();
         WeakDirection weak;
         for (std::size_t i = 0; i < campaign.fitted.size(); ++i)
           {
@@ -439,7 +443,8 @@ namespace SlipStep
                 natural / optimum.size[i] *
                   (campaign.fitted[i].upper - campaign.fitted[i].lower));
             const double all = std::min(optimum.deviations(i), 1e9);
-            if (natural * natural > member_share * all * all)
+            if (std::abs(optimum.directions(i, k)) > least &&
+                natural * natural > member_share * all * all)
               weak.members.push_back(i);
           }
         // One of them has to be what is weak, and not only in company.

@@ -71,10 +71,16 @@ namespace SlipStep
       try
         {
           RunResults result;
-          result.label    = run.label;
-          result.folder   = run.folder;
-          result.summary  = read_summary(run.folder / "summary.json");
-          result.history  = read_history(run.folder / "history.csv");
+          result.label   = run.label;
+          result.folder  = run.folder;
+          result.summary = read_summary(run.folder / "summary.json");
+          result.history = read_history(run.folder / "history.csv");
+          if (result.history.size() < result.summary.steps)
+            warnings.push_back(
+              "run '" + run.label + "': history.csv has " +
+              std::to_string(result.history.size()) + " of the " +
+              std::to_string(result.summary.steps) +
+              " rows that it had when summary.json was written");
           const auto face = run.folder / "contact_face.csv";
           if (std::filesystem::exists(face))
             result.contact_face.emplace(face, face_columns);

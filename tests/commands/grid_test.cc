@@ -253,6 +253,12 @@ TEST_F(Grid, IsComparedWithOtherResults)
     arguments.insert(arguments.end(), names.begin(), names.end());
     expect_refusal(process.run(arguments), words);
   };
+  // A history that lost rows is told of.
+  const std::string history = process.read("one/history.csv");
+  process.write("one/history.csv",
+                history.substr(0, history.find('\n', history.size() / 2) + 1));
+  EXPECT_TRUE(contains(process.run({"compare", "one", "--output", "cut"}).err,
+                       "'one': history.csv has "));
   fs::create_directory(process.folder() / "empty");
   refused({"empty"}, {"empty: it holds no results"});
   refused({"one", "./one/"}, {"named twice"});
