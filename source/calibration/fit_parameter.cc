@@ -5,6 +5,9 @@
 #include <slipstep/friction/law.h>
 #include <slipstep/utilities/decimal_comma.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/trim.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -142,17 +145,21 @@ namespace SlipStep
 
     FitParameter Statement::read()
     {
+      // At the end, or before the start.
       std::string scale;
-      for (const std::string word : {"log", "linear"})
-        if (rest.size() > word.size() &&
-            rest.compare(rest.size() - word.size() - 1,
-                         std::string::npos,
-                         " " + word) == 0)
-          scale = word;
-      if (!scale.empty())
-        take(" " + scale);
+      const auto  take_scale = [&scale](std::string &text) {
+        for (const std::string word : {"log", "linear"})
+          if (boost::algorithm::iends_with(text, " " + word))
+            {
+              scale = word;
+              text  = boost::algorithm::trim_copy(
+                text.substr(0, text.size() - word.size()));
+            }
+      };
+      take_scale(rest);
       const std::string start = take(" start ");
-      const std::string upper = take(" to ");
+      std::string       upper = take(" to ");
+      take_scale(upper);
       const std::string lower = take(" from ");
       if (lower.empty() || upper.empty())
         reject("write it as: path from A to B [start C] [log|linear]");

@@ -182,6 +182,24 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // An axis along which nothing moves, and of which the friction is 0 to the
+    // last digit, was not measured.
+    void leave_out_idle_axis(MeasuredTest &test)
+    {
+      if (range_of(test.displacement_y) != 0. ||
+          std::any_of(test.friction_y.begin(),
+                      test.friction_y.end(),
+                      [](const double value) { return value != 0.; }))
+        return;
+      test.displacement_y.clear();
+      test.friction_y.clear();
+    }
+  } // namespace
+
+
+
   MeasuredTest read_measured_test(const std::filesystem::path &file)
   {
     CsvFormat format;
@@ -228,6 +246,7 @@ namespace SlipStep
                  table.reject(row, column(channel), why);
                },
                [&](const std::size_t row) { return table.line(row); }});
+    leave_out_idle_axis(test);
     return test;
   }
 

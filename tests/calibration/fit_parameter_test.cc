@@ -74,6 +74,11 @@ TEST(FitParameter, CapitalsDoNotMatterButInPaths)
     read("Friction/softening/Rate From 0.01 TO 0.05 Start 0.02 Log").front();
   EXPECT_EQ(one.start, 0.02);
   EXPECT_TRUE(one.is_logarithmic);
+  const auto other =
+    read("Friction/softening/Rate from 0.01 to 0.05 log start 0.02").front();
+  EXPECT_EQ(other.start, 0.02);
+  EXPECT_EQ(other.upper, 0.05);
+  EXPECT_TRUE(other.is_logarithmic);
 }
 
 

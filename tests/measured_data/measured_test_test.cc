@@ -248,6 +248,24 @@ TEST(MeasuredTest, TheFormatStays)
 
 
 
+// Columns of zeros were not measured.
+TEST(MeasuredTest, AnAxisThatIdlesIsLeftOut)
+{
+  const auto file = test_folder() / "idle.csv";
+  const auto read = [&](const std::string &y) {
+    std::ofstream(file) << "time_s,displacement_mm,pressure_MPa,friction,"
+                           "displacement_y_mm,friction_y\n"
+                           "0,0,2,0,0,0\n1,1,2,0.2,"
+                        << y << "\n2,2,2,0.2,0,0\n";
+    return read_measured_test(file);
+  };
+  EXPECT_TRUE(read("0,0").friction_y.empty());
+  EXPECT_FALSE(read("0,1e-6").friction_y.empty());
+  EXPECT_FALSE(read("0.1,0").friction_y.empty());
+}
+
+
+
 TEST(MeasuredTest, AMissingFileIsNamed)
 {
   EXPECT_THROW(read_measured_test("no_such_file.csv"), InputError);

@@ -466,8 +466,8 @@ namespace SlipStep::Testing
     rates[traction_x] = -f[0];
     rates[traction_y] = -f[1];
     rates[coefficient] = -kappa * std::expm1(a * (x[coefficient] - mu_k));
-    const Pair e       = product(inverse_cone,
-                           {{x[traction_x] / norm, x[traction_y] / norm}});
+    const Pair e =
+      product(inverse_cone, {{x[traction_x] / norm, x[traction_y] / norm}});
     rates[slip_path]   = std::hypot(e[0], e[1]);
     rates[temperature] = h * norm;
     rates[contact_age] = -x[contact_age] / renewal_length;
