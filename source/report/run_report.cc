@@ -227,7 +227,7 @@ namespace SlipStep
           if (with_kinetic)
             table.add("drop [%]", 2, &ResultRow::drop);
           table.add("peak after [mm]", [](const ResultRow &row) {
-            return row.has_peak ? short_text(row.slide.peak_displacement, 3) :
+            return row.has_peak ? short_text(row.slide.peak_displacement, 2) :
                                   "–";
           });
         }
