@@ -231,8 +231,9 @@ TEST(History, ItReadsAsAMeasuredTest)
   HistoryRow    row;
   row.pressure = 5.8;
   writer.write(row);
-  row.time     = 0.1;
-  row.friction = 0.1 / 3.;
+  row.time           = 0.1;
+  row.friction       = 0.1 / 3.;
+  row.displacement_y = 0.2;
   writer.write(row);
 
   const MeasuredTest test = read_measured_test(file);
