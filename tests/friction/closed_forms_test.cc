@@ -329,6 +329,46 @@ TEST(ClosedForms, path_over_an_anisotropic_plane)
 
 
 
+// Forth and back are the same places, along a slide at an angle those of its
+// component.
+TEST(ClosedForms, expression_of_position)
+{
+  for (const char *anisotropy : {"", ", anisotropy"})
+    for (const double angle : {0., 0.7})
+      {
+        const auto law =
+          make_law({{"Effects", std::string("expression") + anisotropy},
+                    {"Static coefficient", "0.1"},
+                    {"expression/Covariate", "position"},
+                    {"expression/Formula", "1 + 0.2 * x + 0.1 * sin(3 * x)"},
+                    {"expression/From", "-2"},
+                    {"expression/To", "3"}});
+        ContactState state = law->initial_state(), end;
+        double       place = 0.;
+        for (const double way : {2., -1.5, 0.8})
+          {
+            const auto e = vector(std::cos(angle), std::sin(angle));
+            for (unsigned int i = 0; i < 400; ++i, state = end)
+              law->update(state, way / 400. * e, 5., 0.1, end);
+            place              = state[contact_memory("position_mm")];
+            const double along = state.traction * e;
+            ContactState there;
+            law->update(state, 1e-3 * way * e, 5., 0.1, there);
+            const double next = there[contact_memory("position_mm")];
+            const auto   g    = [](const double x) {
+              return 1. + 0.2 * x + 0.1 * std::sin(3. * x);
+            };
+            EXPECT_NEAR(there.traction * e / along, g(next) / g(place), 1e-5);
+            if (std::string(anisotropy).empty())
+              EXPECT_NEAR(std::abs(along), 0.5 * g(place), 1e-4);
+          }
+        // Less what is elastic.
+        EXPECT_NEAR(place, 1.3 * std::cos(angle), 2e-3);
+      }
+}
+
+
+
 TEST(ClosedForms, memories_at_rest_and_off_the_plane)
 {
   const auto   law   = make_law({{"Effects", "heating, expression, ageing"},

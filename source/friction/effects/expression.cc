@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace SlipStep
@@ -54,13 +55,19 @@ namespace SlipStep
     /// The age of what now touches, with the renewal length of this effect.
     const ContactMemory hold_memory = register_memory({"hold_time_s"});
 
+    /// Where slip has brought the contact to, along the first axis.
+    const ContactMemory position_memory = register_memory(
+      {"position_mm", 0., -std::numeric_limits<double>::infinity()});
+
     /// A formula of the user's own, of one covariate x:
     /// \f[ G = g\left(\min(\max(x, x_0), x_1)\right). \f]
     /// x is the logarithm log10 of the slip rate [mm/s], the pressure [MPa],
-    /// the slip path [mm], the hold time as the age of the contact with renewal
-    /// length \f$D_c\f$ [s], the temperature rise at the beginning of the step
-    /// [degC] or the angle of slip [deg]. The formula is sampled when it is
-    /// read; the law uses a monotone cubic through 1001 values.
+    /// the slip path [mm], the position along the first axis, where slip has
+    /// brought the contact since it was first loaded [mm], the hold time as the
+    /// age of the contact with renewal length \f$D_c\f$ [s], the temperature
+    /// rise at the beginning of the step [degC] or the angle of slip [deg]. The
+    /// formula is sampled when it is read; the law uses a monotone cubic
+    /// through 1001 values.
     class Expression : public StrengthEffect
     {
     public:
@@ -127,6 +134,13 @@ namespace SlipStep
             factor.value    = rate.value;
             factor.d_path   = rate.derivative;
           }
+        else if (covariate == "position")
+          {
+            const Rate rate       = table(position(step));
+            factor.value          = rate.value;
+            factor.d_path         = rate.derivative * step.direction[0];
+            factor.d_direction[0] = rate.derivative * step.path;
+          }
         else if (covariate == "temperature")
           factor.value = table(step.start[temperature]).value;
         else
@@ -145,12 +159,16 @@ namespace SlipStep
         if (covariate == "hold time")
           end[hold_memory] =
             step.normal_traction > 0. ? hold_time(step).value : 0.;
+        if (covariate == "position")
+          end[position_memory] = position(step);
       }
 
       virtual std::vector<ContactMemory> memories() const override
       {
         if (covariate == "hold time")
           return {hold_memory};
+        if (covariate == "position")
+          return {position_memory};
         return {};
       }
 
@@ -169,9 +187,10 @@ namespace SlipStep
            "",
            "log10 speed",
            dealii::Patterns::Selection(
-             "log10 speed|pressure|path|hold time|temperature|angle"),
+             "log10 speed|pressure|path|position|hold time|temperature|angle"),
            "what x is: 'log10 speed' of the slip rate in mm/s, 'pressure' in "
-           "MPa, slip 'path' in mm, 'hold time' in s, 'temperature' rise in "
+           "MPa, slip 'path' in mm, 'position' along the first axis in mm, from "
+           "where the contact was first loaded, 'hold time' in s, 'temperature' rise in "
            "degC (needs effect heating) or 'angle' of slip in deg"},
           {"Formula",
            "g",
@@ -249,6 +268,11 @@ namespace SlipStep
             parameters.reject(key("Formula"), why.str());
           }
         return Table(xs, samples);
+      }
+
+      static double position(const SlipStepData &step)
+      {
+        return step.start[position_memory] + step.path * step.direction[0];
       }
 
       Rate hold_time(const SlipStepData &step) const
