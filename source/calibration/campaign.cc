@@ -208,11 +208,13 @@ namespace SlipStep
       for (std::size_t i = 1; i < rows.size(); ++i)
         distances.push_back(test.time[rows[i]] - test.time[rows[i - 1]]);
       std::sort(distances.begin(), distances.end());
-      const double row_distance = distances[distances.size() / 20];
+      const double    row_distance = distances[distances.size() / 20];
+      ResampleOptions options;
+      options.motion_step = step;
       CampaignTest result{test,
                           0.,
                           false,
-                          Replay(resample(test).test,
+                          Replay(resample(test, options).test,
                                  parameters.number("Calibration/Lead-in"),
                                  row_distance)};
       keep_rows(result.rows, rows);

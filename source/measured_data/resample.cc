@@ -45,7 +45,7 @@ namespace SlipStep
                                               const std::size_t end) const;
 
       const MeasuredTest   &test;
-      const double          noise_multiple;
+      const ResampleOptions options;
       std::vector<Series>   series;
       std::set<std::size_t> landmarks;
     };
@@ -55,7 +55,7 @@ namespace SlipStep
     Selection::Selection(const MeasuredTest    &test,
                          const ResampleOptions &options)
       : test(test)
-      , noise_multiple(options.noise_multiple)
+      , options(options)
     {
       for (const Channel &channel : channels())
         {
@@ -100,44 +100,44 @@ namespace SlipStep
 
 
     // Friction answers to motion within micrometres, far less than what a
-    // position may be off: where rests begin and end is kept. Many rests are
-    // the stairs of a rounded record, or the jitter of a slow one; then those
-    // that are much longer are.
+    // position may be off: where rests begin and end is kept. Of positions that
+    // tremble or are rounded that is not known to the row, and only when motion
+    // begins is.
     void Selection::keep_rests()
     {
-      constexpr std::size_t few         = 20;
-      constexpr double      much_longer = 10.;
+      constexpr double      steady = 1e-4; // of the track
+      constexpr std::size_t most   = 40;   // more are stairs
 
       const std::size_t n = test.time.size();
+      const double      track =
+        std::max(range_of(test.displacement), range_of(test.displacement_y));
+      bool is_precise = options.motion_step == 0.;
+      for (const auto *position : {&test.displacement, &test.displacement_y})
+        is_precise =
+          is_precise &&
+          (position->empty() ||
+           options.noise_multiple * noise_level(*position) <= steady * track);
       std::vector<bool> moves(n, false);
       for (const auto *position : {&test.displacement, &test.displacement_y})
-        if (!position->empty())
+        if (!position->empty() && range_of(*position) > 0.)
           {
-            const std::vector<double> smooth =
-              without_jitter(*position,
-                             noise_multiple * noise_level(*position));
+            const double band =
+              is_precise ? options.noise_multiple * noise_level(*position) :
+                           std::max(least_stroke * range_of(*position),
+                                    tolerance(*position));
+            const std::vector<double> smooth = without_jitter(*position, band);
             for (std::size_t i = 1; i < n; ++i)
               moves[i] = moves[i] || smooth[i] != smooth[i - 1];
           }
-      std::vector<std::pair<std::size_t, std::size_t>> rests;
-      std::vector<double>                              durations;
-      for (std::size_t begin = 0, end; begin < n; begin = end + 1)
-        {
-          for (end = begin; end + 1 < n && !moves[end + 1];)
-            ++end;
-          if (end == begin)
-            continue;
-          rests.emplace_back(begin, end);
-          durations.push_back(test.time[end] - test.time[begin]);
-        }
-      const double least =
-        rests.size() <= few ? 0. : much_longer * median(durations);
-      for (std::size_t i = 0; i < rests.size(); ++i)
-        if (i == 0 || durations[i] >= least)
-          {
-            landmarks.insert(rests[i].first);
-            landmarks.insert(rests[i].second);
-          }
+      std::vector<std::size_t> ends;
+      for (std::size_t i = 1; i < n; ++i)
+        if (moves[i] != moves[i - 1])
+          ends.push_back(i - 1);
+      if (ends.empty())
+        return;
+      landmarks.insert(ends.front());
+      if (is_precise && ends.size() <= most)
+        landmarks.insert(ends.begin(), ends.end());
     }
 
 

@@ -121,8 +121,9 @@ namespace SlipStep
       parameters.surface.is_curved() && parameters.is_held_along_normal() &&
       largest_normal_load == 0. && !control.is_finished();
     // With a density a block may come off the plane and return.
-    if (totals.normal_load <= 1e-6 * largest_normal_load && !has_yet_to_touch &&
-        !parameters.is_dynamic())
+    const bool is_off = totals.normal_load <= 1e-6 * largest_normal_load &&
+                        !has_yet_to_touch && !parameters.is_dynamic();
+    if (is_off || (control.is_finished() && largest_normal_load == 0.))
       {
         std::ostringstream message;
         message << "no contact pressure is left at t = " << control.time()

@@ -19,6 +19,10 @@ namespace SlipStep
     /// value for the pressure).
     double least_share = 0.001;
 
+    /// Positions are known to half of this step [mm]: when a rest begins and
+    /// ends is not known to the row then.
+    double motion_step = 0.;
+
     /// The tolerances grow until no more rows are left; rows that are kept in
     /// any case may be more.
     std::size_t most_rows = std::numeric_limits<std::size_t>::max();
