@@ -525,16 +525,17 @@ namespace SlipStep
                                            1e-6 * start.coefficient *
                                              normal_traction / alpha_t);
 
-    end.traction        = response.traction;
-    end.normal_traction = normal_traction;
-    end.strength        = local.strength;
+    const SlipStepData step = step_data(local);
+    end.traction            = response.traction;
+    end.normal_traction     = normal_traction;
+    end.strength            = local.strength;
     // Without round-off, which the bounds do not forgive.
     end.loading_ratio = std::min(local.ratio, flow->maximum_ratio());
     end.normal_ratio  = normal_ratio == &neutral ?
                           local.normal_ratio.value :
                           std::min(local.normal_ratio.value, end.loading_ratio);
     end.coefficient   = local.coefficient;
-    end.slip_path     = start.slip_path + step_data(local).path;
+    end.slip_path     = start.slip_path + step.path;
     end.slip_rate     = local.slip / time_step;
     end.dissipation   = start.dissipation + local.heat(has_core());
     end.memories      = start.memories;
@@ -548,7 +549,7 @@ namespace SlipStep
           moved_core(start, local.strength, local.normal, local.slip), end);
       }
     for (const StrengthEffect *effect : strength_effects)
-      effect->remember(step_data(local), end);
+      effect->remember(step, end);
     return response;
   }
 } // namespace SlipStep
