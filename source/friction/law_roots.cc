@@ -155,7 +155,9 @@ namespace SlipStep
       return local.flow.value;
     };
     const unsigned int most_iterations = 50;
-    constexpr double   tolerance       = 1e-6;
+    // Of the last correction: the next would be its square.
+    const int        digits    = 35;
+    constexpr double tolerance = 1e-6;
     try
       {
         boost::uintmax_t iterations = most_iterations;
@@ -167,7 +169,7 @@ namespace SlipStep
           guess,
           lower,
           upper,
-          45,
+          digits,
           iterations);
         if (iterations < most_iterations)
           {

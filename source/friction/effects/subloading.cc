@@ -130,10 +130,12 @@ namespace SlipStep
 
       NormalRatio cotangent(const double r_s0, const double slip) const
       {
+        if (r_s0 >= 1.)
+          return {1., 0., std::exp(-PI_2 * u * slip)};
         // 1 - cos^2 is formed without cancellation, so that small ratios keep
         // their digits.
         const double s0    = std::sin(PI_2 * r_s0);
-        const double c0    = (r_s0 < 1. ? std::cos(PI_2 * r_s0) : 0.);
+        const double c0    = std::cos(PI_2 * r_s0);
         const double loss  = std::expm1(-PI_2 * u * slip);
         const double decay = 1. + loss;
         const double s1    = std::sqrt(s0 * s0 - c0 * c0 * loss * (1. + decay));
