@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/base/parallel.h>
-
 #include <slipstep/calibration/campaign.h>
 #include <slipstep/measured_data/rounded_motion.h>
 #include <slipstep/measured_data/resample.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/pattern_words.h>
-#include <slipstep/utilities/process.h>
+#include <slipstep/utilities/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iomanip>
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 namespace SlipStep
 {
@@ -178,8 +176,29 @@ namespace SlipStep
 
 
 
+    // The first test that was led in the same way, as replicates on a good
+    // machine are.
+    std::size_t first_of_motion(const std::vector<MeasuredTest> &tests,
+                                const std::size_t                number)
+    {
+      const auto motion = [](const MeasuredTest &test) {
+        return std::tie(test.time,
+                        test.displacement,
+                        test.displacement_y,
+                        test.pressure);
+      };
+      std::size_t first = 0;
+      while (motion(tests[first]) != motion(tests[number]))
+        ++first;
+      return first;
+    }
+
+
+
+    // A replay of the same motion is taken as it is.
     CampaignTest prepare(const MeasuredTest &measured,
-                         const Parameters   &parameters)
+                         const Parameters   &parameters,
+                         const Replay       *of_same_motion)
     {
       // Stairs of more make the contact stick and slip in each; what is less is
       // not felt.
@@ -214,9 +233,11 @@ namespace SlipStep
       CampaignTest result{test,
                           0.,
                           false,
-                          Replay(resample(test, options).test,
-                                 parameters.number("Calibration/Lead-in"),
-                                 row_distance)};
+                          of_same_motion != nullptr ?
+                            *of_same_motion :
+                            Replay(resample(test, options).test,
+                                   parameters.number("Calibration/Lead-in"),
+                                   row_distance)};
       keep_rows(result.rows, rows);
       result.motion_step = step;
       const double noted = noted_noise(test);
@@ -267,7 +288,11 @@ namespace SlipStep
       {
         if (!files.insert(fs::canonical(test.file)).second)
           parameters.reject(tests_key, test.file.string() + " is listed twice");
-        tests.push_back(prepare(test, parameters));
+        const std::size_t like = first_of_motion(measured, tests.size());
+        tests.push_back(
+          prepare(test,
+                  parameters,
+                  like < tests.size() ? &tests[like].replay : nullptr));
       }
     keep_noise_visible(tests);
     return tests;
@@ -341,345 +366,5 @@ namespace SlipStep
                     test.rows.warnings.begin(),
                     test.rows.warnings.end());
     return result;
-  }
-
-
-
-  namespace
-  {
-    Replay::Curve at_rows(const Replay       &replay,
-                          const FrictionLaw  &law,
-                          const Machine      &machine,
-                          const CampaignTest &test)
-    {
-      Replay::Curve curve;
-      replay.simulate(law, machine, curve);
-      curve.friction = replay.at(curve.friction, test.rows.time);
-      if (test.has_two_axes())
-        curve.friction_y = replay.at(curve.friction_y, test.rows.time);
-      else
-        curve.friction_y.clear();
-      return curve;
-    }
-
-
-
-    void plan_test(Replay             &replay,
-                   const CampaignTest &test,
-                   const FrictionLaw  &law,
-                   const Machine      &machine,
-                   const double        tolerance,
-                   const std::size_t   most_steps = Replay::most_steps)
-    {
-      try
-        {
-          replay.plan(law, machine, tolerance, most_steps);
-        }
-      catch (const RunError &error)
-        {
-          throw RunError(test.rows.file.string() +
-                         " cannot be simulated: " + error.what());
-        }
-    }
-
-
-
-    // y = y + factor x
-    void add(const double               factor,
-             const std::vector<double> &x,
-             std::vector<double>       &y)
-    {
-      for (std::size_t i = 0; i < x.size(); ++i)
-        y[i] += factor * x[i];
-    }
-
-
-
-    void add(const double factor, const Replay::Curve &x, Replay::Curve &y)
-    {
-      add(factor, x.friction, y.friction);
-      add(factor, x.friction_y, y.friction_y);
-    }
-  } // namespace
-
-
-
-  void throw_if_stopped()
-  {
-    if (SignalGuard::caught() != 0)
-      throw RunError(SignalGuard::in_words() + "; nothing was written");
-  }
-
-
-
-  void side_by_side(const std::size_t                             n,
-                    const std::function<void(const std::size_t)> &work)
-  {
-    dealii::parallel::apply_to_subranges(
-      std::size_t(0),
-      n,
-      [&](const std::size_t begin, const std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-          {
-            throw_if_stopped();
-            try
-              {
-                work(i);
-              }
-            catch (const RunError &)
-              {
-                // A signal is no trouble of the test that it met.
-                throw_if_stopped();
-                throw;
-              }
-          }
-      },
-      1);
-  }
-
-
-
-  Simulator::Simulator(const Campaign &campaign)
-    : campaign(campaign)
-    , parameters(campaign.parameters)
-  {
-    for (const CampaignTest &test : campaign.tests)
-      replays.push_back(test.replay);
-  }
-
-
-
-  const Parameters &Simulator::with(const std::vector<double> &scaled)
-  {
-    for (std::size_t i = 0; i < scaled.size(); ++i)
-      {
-        const FitParameter &parameter = campaign.fitted[i];
-        parameters.set(parameter.path,
-                       parameter.text(parameter.from_scaled(scaled[i]), 17),
-                       "calibration");
-      }
-    apply_ties(campaign.derived, parameters);
-    return parameters;
-  }
-
-
-
-  namespace
-  {
-    // "calibration: path = value: must not ... (1.23)" without the numbers.
-    std::string condition_in(const std::string &refusal)
-    {
-      const std::size_t begin =
-        std::min(refusal.find(": ") + 2, refusal.size());
-      const std::size_t sign  = refusal.find(" = ", begin);
-      const std::size_t value = refusal.find(": ", sign);
-      if (sign == std::string::npos || value == std::string::npos)
-        return refusal;
-      std::string       why  = refusal.substr(value + 2);
-      const std::size_t open = why.find(" ("), close = why.find(')');
-      if (open < close && close != std::string::npos)
-        why.erase(open, close + 1 - open);
-      return refusal.substr(begin, sign - begin) + " " + why;
-    }
-  } // namespace
-
-
-
-  std::string Simulator::condition_beside(const std::vector<double> &scaled,
-                                          const std::size_t          parameter,
-                                          const double               direction)
-  {
-    constexpr double beside = 1e-4;
-
-    std::vector<double> other = scaled;
-    other[parameter] += direction * beside;
-    try
-      {
-        const FrictionLaw law(with(other));
-      }
-    catch (const InputError &error)
-      {
-        return condition_in(error.what());
-      }
-    return "";
-  }
-
-
-
-  void Simulator::plan(const std::vector<double> &scaled, const Simulator *like)
-  {
-    constexpr std::size_t times_more = 5, least = 500;
-
-    const FrictionLaw law(with(scaled));
-    const Machine     machine(parameters);
-    corrections.clear();
-    side_by_side(replays.size(), [&](const std::size_t i) {
-      plan_test(replays[i],
-                campaign.tests[i],
-                law,
-                machine,
-                campaign.search_tolerance,
-                like == nullptr ?
-                  std::numeric_limits<std::size_t>::max() :
-                  least + times_more * like->replays[i].n_steps());
-    });
-    ++n_done;
-  }
-
-
-
-  Replay::Curve Simulator::simulate(const std::vector<double> &scaled,
-                                    const std::size_t          test)
-  {
-    const FrictionLaw law(with(scaled));
-    Replay::Curve     curve =
-      at_rows(replays[test], law, Machine(parameters), campaign.tests[test]);
-    if (!corrections.empty())
-      add(1., corrections[test], curve);
-    return curve;
-  }
-
-
-
-  // Richardson's extrapolation from fine steps and halved fine steps.
-  void Simulator::correct(const std::vector<double> &scaled, const double share)
-  {
-    const FrictionLaw law(with(scaled));
-    const Machine     machine(parameters);
-    // The steps shrink with the root of the tolerance.
-    const double times_more = 10. / std::sqrt(share);
-    corrections.clear();
-    std::vector<Replay::Curve> found(replays.size());
-    side_by_side(replays.size(), [&](const std::size_t i) {
-      const CampaignTest &test = campaign.tests[i];
-      Replay              fine = replays[i];
-      plan_test(fine,
-                test,
-                law,
-                machine,
-                share * campaign.search_tolerance,
-                static_cast<std::size_t>(times_more *
-                                         (100. + replays[i].n_steps())));
-      found[i] = at_rows(fine.halved(), law, machine, test);
-      // Of second order: (4 halved - fine) / 3.
-      add(1. / 3., found[i], found[i]);
-      add(-1. / 3., at_rows(fine, law, machine, test), found[i]);
-      add(-1., at_rows(replays[i], law, machine, test), found[i]);
-    });
-    corrections = std::move(found);
-    ++n_done;
-  }
-
-
-
-  void Simulator::correct_by(Simulator                 &reference,
-                             const std::vector<double> &reference_scaled)
-  {
-    const Parameters &parameters = reference.with(reference_scaled);
-    const FrictionLaw law(parameters);
-    const Machine     machine(parameters);
-    corrections.resize(replays.size());
-    side_by_side(replays.size(), [&](const std::size_t i) {
-      const CampaignTest &test = campaign.tests[i];
-      corrections[i] = at_rows(reference.replays[i], law, machine, test);
-      if (!reference.corrections.empty())
-        add(1., reference.corrections[i], corrections[i]);
-      add(-1., at_rows(replays[i], law, machine, test), corrections[i]);
-    });
-    ++n_done;
-  }
-
-
-
-  void Simulator::leave_out(const std::vector<bool> &left_out)
-  {
-    is_left_out = left_out;
-  }
-
-
-
-  void Simulator::residuals(const std::vector<double> &scaled, double *result)
-  {
-    const FrictionLaw     law(with(scaled));
-    const Machine         machine(parameters);
-    std::vector<double *> place;
-    for (const CampaignTest &test : campaign.tests)
-      {
-        place.push_back(result);
-        result += test.n_residuals();
-      }
-    side_by_side(replays.size(), [&](const std::size_t i) {
-      const CampaignTest &test = campaign.tests[i];
-      if (!is_left_out.empty() && is_left_out[i])
-        {
-          std::fill_n(place[i], test.n_residuals(), 0.);
-          return;
-        }
-      Replay::Curve curve = at_rows(replays[i], law, machine, test);
-      if (!corrections.empty())
-        add(1., corrections[i], curve);
-      double *out = place[i];
-      for (std::size_t row = 0; row < curve.friction.size(); ++row)
-        *out++ = (curve.friction[row] - test.rows.friction[row]) / test.noise;
-      for (std::size_t row = 0; row < curve.friction_y.size(); ++row)
-        *out++ =
-          (curve.friction_y[row] - test.rows.friction_y[row]) / test.noise;
-    });
-    ++n_done;
-  }
-
-
-
-  double Simulator::misfit(const std::vector<double> &scaled)
-  {
-    std::vector<double> values(campaign.n_residuals());
-    residuals(scaled, values.data());
-    return std::inner_product(values.begin(), values.end(), values.begin(), 0.);
-  }
-
-
-
-  // To the side where there is room and the law takes the values.
-  void Simulator::derivatives(const std::vector<double>       &scaled,
-                              const std::vector<unsigned int> &columns,
-                              const double                    *at,
-                              double                          *result)
-  {
-    constexpr double  difference = 1e-5;
-    const std::size_t n          = campaign.n_residuals();
-    shifted.resize(n);
-    const auto shift = [&](const unsigned int column, const double step) {
-      std::vector<double> other = scaled;
-      other[column] += step;
-      residuals(other, shifted.data());
-    };
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      {
-        double step =
-          scaled[columns[c]] + difference > 1. ? -difference : difference;
-        try
-          {
-            shift(columns[c], step);
-          }
-        catch (const InputError &)
-          {
-            step = -step;
-            shift(columns[c], step);
-          }
-        for (std::size_t row = 0; row < n; ++row)
-          result[row * columns.size() + c] = (shifted[row] - at[row]) / step;
-      }
-  }
-
-
-
-  std::size_t Simulator::n_steps() const
-  {
-    return std::accumulate(replays.begin(),
-                           replays.end(),
-                           std::size_t(0),
-                           [](const std::size_t sum, const Replay &replay) {
-                             return sum + replay.n_steps();
-                           });
   }
 } // namespace SlipStep

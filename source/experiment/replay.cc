@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace SlipStep
 {
@@ -23,53 +24,67 @@ namespace SlipStep
         result[1] = test.displacement_y[row];
       return result;
     }
+
+
+
+    // A length in the direction of the first motion that is more than a
+    // tremble, and the time that takes with its speed.
+    std::pair<Tensor<1, 2>, double> first_motion(const MeasuredTest &test,
+                                                 const double        length)
+    {
+      double largest = 0.;
+      for (std::size_t i = 1; i < test.time.size(); ++i)
+        largest =
+          std::max(largest, (position(test, i) - position(test, 0)).norm());
+      for (std::size_t i = 1; i < test.time.size(); ++i)
+        {
+          const Tensor<1, 2> moved = position(test, i) - position(test, 0);
+          if (moved.norm() < 0.02 * largest || largest == 0.)
+            continue;
+          const double speed =
+            moved.norm() / (test.time[i] - test.time.front());
+          return {length / moved.norm() * moved, length / speed};
+        }
+      return {Tensor<1, 2>(), 0.};
+    }
   } // namespace
 
 
 
-  Replay::Replay(const MeasuredTest &motion,
+  Replay::Replay(const MeasuredTest &test,
                  const double        lead_in,
                  const double        row_distance)
-    : start_time(motion.time.front())
-    , row_distance(row_distance)
+    : motion(std::make_shared<Motion>(motion_of(test, lead_in, row_distance)))
   {
-    // Put on the plane, the contact takes the first pressure at once.
-    intervals.push_back({Tensor<1, 2>(), 0., motion.pressure.front(), 1.});
-    if (lead_in > 0.)
-      add_lead_in(motion, lead_in);
-    n_before = intervals.size();
-    for (std::size_t i = 1; i < motion.time.size(); ++i)
-      intervals.push_back({position(motion, i) - position(motion, i - 1),
-                           motion.pressure[i - 1],
-                           motion.pressure[i],
-                           motion.time[i] - motion.time[i - 1]});
-    for (std::size_t i = 0; i < intervals.size(); ++i)
+    for (std::size_t i = 0; i < motion->intervals.size(); ++i)
       steps.push_back({i, 0., 1.});
   }
 
 
 
-  // The first motion that is more than a tremble decides on direction and
-  // speed.
-  void Replay::add_lead_in(const MeasuredTest &motion, const double length)
+  Replay::Motion Replay::motion_of(const MeasuredTest &test,
+                                   const double        lead_in,
+                                   const double        row_distance)
   {
-    double largest = 0.;
-    for (std::size_t i = 1; i < motion.time.size(); ++i)
-      largest =
-        std::max(largest, (position(motion, i) - position(motion, 0)).norm());
-    for (std::size_t i = 1; i < motion.time.size(); ++i)
+    Motion result;
+    result.start_time   = test.time.front();
+    result.row_distance = row_distance;
+    // Put on the plane, the contact takes the first pressure at once.
+    const double pressure = test.pressure.front();
+    result.intervals.push_back({Tensor<1, 2>(), 0., pressure, 1.});
+    if (lead_in > 0.)
       {
-        const Tensor<1, 2> moved = position(motion, i) - position(motion, 0);
-        if (moved.norm() < 0.02 * largest || largest == 0.)
-          continue;
-        const double speed =
-          moved.norm() / (motion.time[i] - motion.time.front());
-        intervals.push_back({length / moved.norm() * moved,
-                             motion.pressure.front(),
-                             motion.pressure.front(),
-                             length / speed});
-        return;
+        const auto [length, duration] = first_motion(test, lead_in);
+        if (duration > 0.)
+          result.intervals.push_back({length, pressure, pressure, duration});
       }
+    result.n_before = result.intervals.size();
+    for (std::size_t i = 1; i < test.time.size(); ++i)
+      result.intervals.push_back({position(test, i) - position(test, i - 1),
+                                  test.pressure[i - 1],
+                                  test.pressure[i],
+                                  test.time[i] - test.time[i - 1]});
+    return result;
   }
 
 
@@ -80,7 +95,7 @@ namespace SlipStep
                            const Slider      &start,
                            ContactPoint      &point) const
   {
-    const Interval &interval = intervals[step.interval];
+    const Interval &interval = motion->intervals[step.interval];
     const double    share    = step.end - step.begin;
     return machine.step(law,
                         point,
@@ -115,12 +130,13 @@ namespace SlipStep
   {
     constexpr double first_slip = 0.1; // of the elastic one
 
-    const Interval    &now  = intervals[interval];
-    const Tensor<1, 2> rate = now.motion / now.duration;
-    const Tensor<1, 2> rate_before =
+    const std::vector<Interval> &intervals = motion->intervals;
+    const Interval              &now       = intervals[interval];
+    const Tensor<1, 2>           rate      = now.motion / now.duration;
+    const Tensor<1, 2>           rate_before =
       interval == 0 ?
-        Tensor<1, 2>() :
-        intervals[interval - 1].motion / intervals[interval - 1].duration;
+                  Tensor<1, 2>() :
+                  intervals[interval - 1].motion / intervals[interval - 1].duration;
     if (!is_abrupt(rate_before, rate))
       return std::numeric_limits<double>::infinity();
     const double traction =
@@ -148,10 +164,10 @@ namespace SlipStep
     // Least share of an interval: a jump of a soft machine takes no time.
     constexpr double least_share = 1e-9;
     const double     made =
-      (step.end - step.begin) * intervals[step.interval].duration;
+      (step.end - step.begin) * motion->intervals[step.interval].duration;
     const MachineStep tried = make(step, law, machine, slider, point);
     const bool        is_looked_at =
-      step.interval >= n_before && made > 1.5 * row_distance;
+      step.interval >= motion->n_before && made > 1.5 * motion->row_distance;
     const StepError estimate = machine.error(law, point, tried);
     const double    error = is_looked_at ? estimate.measure() : estimate.at_end;
     const double    factor =
@@ -180,11 +196,14 @@ namespace SlipStep
                     const double       tolerance,
                     const std::size_t  most_steps)
   {
-    ContactPoint point(law);
-    Slider       slider;
+    const std::vector<Interval> &intervals = motion->intervals;
+    const std::size_t            n_before  = motion->n_before;
+    ContactPoint                 point(law);
+    Slider                       slider;
     steps.clear();
-    time_list.assign(1, start_time);
-    double time = start_time, wanted_step = std::numeric_limits<double>::max();
+    time_list.assign(1, motion->start_time);
+    double time         = motion->start_time,
+           wanted_step  = std::numeric_limits<double>::max();
     std::size_t n_tried = 0;
     for (std::size_t i = 0; i < intervals.size(); ++i)
       {
@@ -228,7 +247,7 @@ namespace SlipStep
   {
     Replay result = *this;
     result.steps.clear();
-    result.time_list.assign(1, start_time);
+    result.time_list.assign(1, motion->start_time);
     for (std::size_t i = 0; i < steps.size(); ++i)
       {
         const double middle = (steps[i].begin + steps[i].end) / 2.;

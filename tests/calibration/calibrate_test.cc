@@ -502,6 +502,49 @@ TEST_F(Planted, TestsThatAreLeftOutAreNotSimulated)
 
 
 
+// Each is compared with its own rows, as if it were alone.
+TEST_F(Planted, TestsOfTheSameMotionAreSimulatedOnce)
+{
+  const auto values = [&](const std::vector<double> &speeds,
+                          const std::vector<bool>   &left_out,
+                          std::size_t               &n_steps) {
+    std::filesystem::remove_all(folder.path());
+    plant(folder.path(), calibration_case(paper), speeds, 200, 1e-3, 7);
+    const Campaign campaign(fitting(
+      {{"Calibration/Parameters", four}, {"Calibration/Noise", "0.001"}}));
+    Simulator      simulator(campaign);
+    simulator.plan(campaign.scaled_start());
+    simulator.correct(campaign.scaled_start());
+    simulator.leave_out(left_out);
+    n_steps = simulator.n_steps();
+    std::vector<double> result(campaign.n_residuals());
+    simulator.residuals(campaign.scaled_start(), result.data());
+    for (std::size_t i = 0; i < campaign.tests.size(); ++i)
+      if (left_out.empty())
+        EXPECT_NEAR(simulator.simulate(campaign.scaled_start(), i).friction[99],
+                    campaign.tests[i].rows.friction[99] +
+                      1e-3 * result[200 * i + 99],
+                    1e-14);
+    return result;
+  };
+  std::size_t once, with_copies, with_other;
+  // 20.001 draws the same noise as 20 and moves on its own.
+  const auto other  = values({20., 200., 20.001}, {}, with_other);
+  const auto copies = values({20., 200., 20.}, {}, with_copies);
+  const auto single = values({20., 200.}, {}, once);
+  EXPECT_EQ(with_copies, once);
+  EXPECT_GT(with_other, 1.2 * once);
+  for (std::size_t i = 0; i < 600; ++i)
+    EXPECT_NEAR(copies[i], other[i], 0.01);
+  for (std::size_t i = 0; i < 400; ++i)
+    EXPECT_EQ(copies[i], single[i]);
+  const auto third = values({20., 200., 20.}, {true, true, false}, once);
+  for (std::size_t i = 0; i < 600; ++i)
+    EXPECT_EQ(third[i], i < 400 ? 0. : copies[i]);
+}
+
+
+
 // Of a profile: where it ends the misfit has risen by the threshold, with all
 // others fitted again; asserted by an independent search.
 TEST_F(Planted, IntervalsEndWhereTheMisfitHasRisen)

@@ -3,7 +3,7 @@
 #define tests_calibration_planted_h
 
 #include <slipstep/calibration/calibrate.h>
-#include <slipstep/calibration/campaign.h>
+#include <slipstep/calibration/simulator.h>
 #include <slipstep/measured_data/measured_test.h>
 
 #include <cmath>

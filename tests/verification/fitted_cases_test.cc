@@ -4,7 +4,7 @@
 
 #include "../solid/block_test_tools.h"
 
-#include <slipstep/calibration/campaign.h>
+#include <slipstep/calibration/simulator.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #ifndef slipstep_calibration_fit_h
 #define slipstep_calibration_fit_h
 
-#include <slipstep/calibration/campaign.h>
+#include <slipstep/calibration/simulator.h>
 
 #include <limits>
 #include <string>

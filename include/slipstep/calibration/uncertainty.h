@@ -3,7 +3,7 @@
 #define slipstep_calibration_uncertainty_h
 
 #include <slipstep/calibration/calibration.h>
-#include <slipstep/calibration/campaign.h>
+#include <slipstep/calibration/simulator.h>
 
 #include <Eigen/Core>
 

@@ -2,7 +2,7 @@
 #ifndef slipstep_diagnosis_comparison_h
 #define slipstep_diagnosis_comparison_h
 
-#include <slipstep/calibration/campaign.h>
+#include <slipstep/calibration/simulator.h>
 #include <slipstep/diagnosis/candidates.h>
 #include <slipstep/diagnosis/noise.h>
 #include <slipstep/measured_data/row_noise.h>

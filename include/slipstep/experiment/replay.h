@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace SlipStep
@@ -21,16 +22,22 @@ namespace SlipStep
   class Replay
   {
   public:
-    /// @param motion its rows are the borders of steps, see resample()
+    /// @param test its rows are the borders of steps, see resample()
     /// @param lead_in length [mm] slid before the first row, in the direction
     ///   and with the speed of the first motion, under the first pressure: for
     ///   records that begin while the contact slides already
     /// @param row_distance time between neighbouring rows at which curves are
-    ///   wanted [s]; the rows of @p motion if not given
+    ///   wanted [s]; the rows of @p test if not given
     explicit Replay(
-      const MeasuredTest &motion,
+      const MeasuredTest &test,
       const double        lead_in      = 0.,
       const double        row_distance = std::numeric_limits<double>::max());
+
+    /// Whether one is a copy of the other, whatever steps are planned.
+    bool has_motion_of(const Replay &other) const
+    {
+      return motion == other.motion;
+    }
 
     /// Choose the steps such that the error which the law estimates for each
     /// is at most @p tolerance, relative to the friction at full slip, and that
@@ -103,7 +110,19 @@ namespace SlipStep
       double      end;
     };
 
-    void add_lead_in(const MeasuredTest &motion, const double length);
+    /// What the contact point is led through.
+    struct Motion
+    {
+      std::vector<Interval> intervals;
+      /// Intervals before the first row.
+      std::size_t n_before = 0;
+      double      start_time;
+      double      row_distance;
+    };
+
+    static Motion motion_of(const MeasuredTest &test,
+                            const double        lead_in,
+                            const double        row_distance);
 
     /// Time after which a step in this interval ends, infinite if the motion
     /// just goes on.
@@ -125,14 +144,10 @@ namespace SlipStep
                      const Slider      &start,
                      ContactPoint      &point) const;
 
-    std::vector<Interval> intervals;
-    /// Intervals before the first row.
-    std::size_t         n_before = 0;
-    double              start_time;
-    double              row_distance;
-    std::vector<Step>   steps;
-    std::size_t         first_compared = 0; ///< of the steps
-    std::vector<double> time_list;
+    std::shared_ptr<const Motion> motion;
+    std::vector<Step>             steps;
+    std::size_t                   first_compared = 0; ///< of the steps
+    std::vector<double>           time_list;
   };
 } // namespace SlipStep
 
