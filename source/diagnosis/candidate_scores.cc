@@ -48,15 +48,15 @@ namespace SlipStep
       const Values        own     = model.values();
       try
         {
-          Model trial =
-            make_model(workspace.start,
-                       with_part(model, candidate, formula_number),
-                       merged(own,
-                              formula.shapes[formula.shapes.size() / 2](1.)),
-                       workspace.tests,
-                       &model);
-          const Eigen::VectorXd base =
-            workspace.comparison.difference(*model.simulator, model.scaled);
+          const Values unity =
+            merged(own, formula.shapes[formula.shapes.size() / 2](1.));
+          const Model trial =
+            make_coarse_model(workspace.start,
+                              with_part(model, candidate, formula_number),
+                              unity,
+                              workspace.tests,
+                              &model);
+          trial.simulator->subtract(model.simulator->with(model.scaled));
           for (std::size_t s = 0; s < formula.shapes.size(); ++s)
             {
               const Values        values = merged(own, formula.shapes[s](1.));
@@ -69,7 +69,7 @@ namespace SlipStep
               if (there.size() == 0)
                 continue;
               Direction direction;
-              direction.friction     = there - base;
+              direction.friction     = there + workspace.comparison.measured;
               direction.is_one_sided = formula.is_one_sided;
               direction.candidate    = candidate_number;
               direction.formula      = formula_number;

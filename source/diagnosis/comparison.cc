@@ -508,11 +508,11 @@ namespace SlipStep
 
 
 
-  Model make_model(const Parameters                &start,
-                   const std::vector<Part>         &parts,
-                   const Values                    &values,
-                   const std::vector<CampaignTest> &tests,
-                   const Model                     *like)
+  Model make_coarse_model(const Parameters                &start,
+                          const std::vector<Part>         &parts,
+                          const Values                    &values,
+                          const std::vector<CampaignTest> &tests,
+                          const Model                     *like)
   {
     Model           model;
     const CaseToFit assembled = assemble(start, parts, values);
@@ -525,8 +525,19 @@ namespace SlipStep
         parameter.to_scaled(parameter.value_in(assembled.parameters)), 0., 1.));
     model.simulator->plan(model.scaled,
                           like == nullptr ? nullptr : like->simulator.get());
-    if (like != nullptr)
-      model.simulator->correct_by(*like->simulator, like->scaled);
+    return model;
+  }
+
+
+
+  Model make_model(const Parameters                &start,
+                   const std::vector<Part>         &parts,
+                   const Values                    &values,
+                   const std::vector<CampaignTest> &tests,
+                   const Model                     &like)
+  {
+    Model model = make_coarse_model(start, parts, values, tests, &like);
+    model.simulator->correct_by(*like.simulator, like.scaled);
     return model;
   }
 } // namespace SlipStep

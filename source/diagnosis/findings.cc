@@ -232,7 +232,7 @@ namespace SlipStep
                        {after.parts.begin(), after.parts.begin() + part + 1},
                        after.values(),
                        workspace.tests,
-                       &after);
+                       after);
           comparison.fit(so_far, 0.1);
           steps.push_back(step("with " + after.parts[part].name, so_far));
         }

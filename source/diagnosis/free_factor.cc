@@ -249,7 +249,7 @@ namespace SlipStep
          corrects});
       return if_possible([&]() -> std::optional<Model> {
         return make_model(
-          workspace.start, parts, now.values(), workspace.tests, &now);
+          workspace.start, parts, now.values(), workspace.tests, now);
       });
     }
 

@@ -266,7 +266,7 @@ namespace SlipStep
       Workspace &workspace = *result.workspace;
       workspace.comparison.set_noise(stated, workspace.comparison.measured);
       motion_factors.setOnes(workspace.comparison.n_rows());
-      result.base = make_model(start, {}, {}, tests);
+      result.base = make_coarse_model(start, {}, {}, tests);
       for (std::size_t i = 0; i < result.base.scaled.size(); ++i)
         result.base.scaled[i] = result.base.campaign->scaled_start()[i];
       result.base.simulator->plan(result.base.scaled);

@@ -199,7 +199,7 @@ namespace SlipStep
                      with_part(base, candidate, 0),
                      merged(base.values(), shape(worthwhile_strength)),
                      workspace.tests,
-                     &base);
+                     base);
         // The effect stays; what these tests show of it, the others take away
         // again.
         std::vector<bool> held;

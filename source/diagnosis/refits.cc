@@ -43,7 +43,7 @@ namespace SlipStep
                        with_part(model, candidate, direction.formula),
                        merged(values, shape(strength)),
                        workspace.tests,
-                       &model));
+                       model));
         });
       return result;
     }
@@ -164,7 +164,7 @@ namespace SlipStep
     return if_possible([&]() {
       return fitted(
         workspace,
-        make_model(workspace.start, parts, values, workspace.tests, &model));
+        make_model(workspace.start, parts, values, workspace.tests, model));
     });
   }
 
@@ -191,7 +191,7 @@ namespace SlipStep
                                             part.formula.shapes[shape](
                                               strength)),
                                      workspace.tests,
-                                     &model));
+                                     model));
           });
           if (tried.has_value() && !is_at_bound(*tried) &&
               tried->objective < best.objective - sure_gain)
@@ -246,7 +246,7 @@ namespace SlipStep
         parts.push_back(model.parts[i]);
     ++workspace.n_refits;
     return if_possible([&]() {
-      Model result = make_model(
+      Model result = make_coarse_model(
         workspace.start, parts, model.values(), workspace.tests, &model);
       // The model that it is compared with is not weak in what is missing
       // here.

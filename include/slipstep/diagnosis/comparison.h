@@ -132,15 +132,23 @@ namespace SlipStep
 
   /// The starting model with effects added, for tests that are ingested
   /// already; its search begins at the values of the case, with time steps
-  /// for those.
-  /// @param like a model that differs in weak effects only, by which the error
-  ///   of the time steps is taken out; that error stays if there is none
+  /// for those, whose error stays.
+  /// @param like a model that takes at most a few times fewer steps; none: any
+  ///   number
   /// @throws InputError, RunError if it cannot be simulated
+  Model make_coarse_model(const Parameters                &start,
+                          const std::vector<Part>         &parts,
+                          const Values                    &values,
+                          const std::vector<CampaignTest> &tests,
+                          const Model                     *like = nullptr);
+
+  /// The same without the error of the time steps, by a model that differs in
+  /// weak effects only.
   Model make_model(const Parameters                &start,
                    const std::vector<Part>         &parts,
                    const Values                    &values,
                    const std::vector<CampaignTest> &tests,
-                   const Model                     *like = nullptr);
+                   const Model                     &like);
 
   /// What @p attempt returns; nothing if it asks for a model that cannot be made
   /// or simulated.

@@ -149,7 +149,7 @@ namespace SlipStep
                                 const std::vector<std::string> &hidden)
     {
       Model model =
-        make_model(clean.start, {}, base.values(), clean.tests, &base);
+        make_model(clean.start, {}, base.values(), clean.tests, base);
       clean.comparison.fit(model, 0.1);
       double least = model.objective;
       if (hidden.size() < 2)
