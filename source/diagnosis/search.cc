@@ -86,8 +86,6 @@ namespace SlipStep
 
       bool examine(const std::size_t part);
 
-      bool is_out_of_time();
-
       bool try_rivals(const Model &less, const Part part, const double cost);
 
       void tell(const std::string &text) const
@@ -124,7 +122,7 @@ namespace SlipStep
         {
           if (!is_evident(seen, level) || n_tried == most_tried)
             continue;
-          if (is_out_of_time())
+          if (workspace.is_late())
             return {};
           ++n_tried;
           const std::optional<Model> tried =
@@ -166,7 +164,7 @@ namespace SlipStep
       for (const ScoreTest::Pair &pair : view.pairs)
         {
           if (pair.p > level || pair.gain < single + 2. * least_cost ||
-              n_tried == most_tried || is_out_of_time())
+              n_tried == most_tried || workspace.is_late())
             continue;
           const auto names =
             std::minmax(view.set.directions[pair.first].candidate,
@@ -206,7 +204,7 @@ namespace SlipStep
                        [](const Model &a, const Model &b) {
                          return penalised(a) < penalised(b);
                        });
-      if (is_out_of_time())
+      if (workspace.is_late())
         return false;
       const std::optional<FreeFactor> completed =
         complete_formula(workspace, result.model);
@@ -235,14 +233,6 @@ namespace SlipStep
       settle(workspace, result.model);
       tell("completed the " + result.model.parts.back().name);
       return true;
-    }
-
-
-
-    bool Searcher::is_out_of_time()
-    {
-      result.is_cut_short = result.is_cut_short || workspace.is_late();
-      return result.is_cut_short;
     }
 
 
@@ -304,7 +294,7 @@ namespace SlipStep
               n_tried == most_rivals ||
               (is_same && seen.candidate.formulas.size() < 2))
             continue;
-          if (is_out_of_time())
+          if (workspace.is_late())
             return false;
           ++n_tried;
           const std::optional<Model> tried = refit_with(workspace, less, seen);
@@ -337,7 +327,7 @@ namespace SlipStep
       result.costs.clear();
       result.left_out_gains.clear();
       for (std::size_t part = 0; part < result.model.parts.size(); ++part)
-        if (is_out_of_time())
+        if (workspace.is_late())
           return false;
         else if (examine(part))
           return true;
@@ -414,7 +404,7 @@ namespace SlipStep
           if (!add())
             break;
           prove();
-          if (is_out_of_time())
+          if (workspace.is_late())
             break;
           // What was added and taken away again would come back.
           if (result.model.parts.size() <= n)
@@ -423,22 +413,20 @@ namespace SlipStep
             break;
           proven = result;
         }
-      while (!result.is_cut_short && is_soaking_up(0))
+      while (!workspace.is_late() && is_soaking_up(0))
         {
           const std::size_t n = result.model.parts.size();
           drop_weakest();
           if (result.model.parts.size() == n)
             break;
           prove();
-          is_out_of_time();
         }
-      if (!result.is_cut_short)
+      if (!workspace.was_late)
         {
           refit_final();
           return result;
         }
-      proven.gains        = result.gains;
-      proven.is_cut_short = true;
+      proven.gains = result.gains;
       return proven;
     }
   } // namespace

@@ -45,12 +45,11 @@ namespace SlipStep
     /// The objective of single additions to the starting model, for those that
     /// were fitted.
     std::vector<std::pair<std::string, double>> gains;
-    /// Whether time was over before all was tried.
-    bool is_cut_short = false;
   };
 
   /// Add effects as long as they are needed, take away those that are not, and
-  /// exchange those for which another does better.
+  /// exchange those for which another does better. When time is over, what was
+  /// proven until then.
   SearchResult search(Workspace &workspace, const Model &base);
 } // namespace SlipStep
 

@@ -479,7 +479,7 @@ TEST_F(CampaignFolder, HasNoNameBeforeItIsProven)
   workspace.deadline      = past;
   const Judgement at_once = judge(workspace, ingested.base);
   EXPECT_EQ(name_of(at_once.verdict), name_of(Verdict::unnamed));
-  EXPECT_TRUE(at_once.found.is_cut_short);
+  EXPECT_TRUE(workspace.was_late);
   EXPECT_TRUE(at_once.found.gains.empty());
 
   workspace.deadline = std::chrono::steady_clock::time_point::max();
@@ -493,6 +493,6 @@ TEST_F(CampaignFolder, HasNoNameBeforeItIsProven)
   const Judgement half_way = judge(workspace, ingested.base);
   EXPECT_EQ(n_added, 1u);
   EXPECT_EQ(name_of(half_way.verdict), name_of(Verdict::unnamed));
-  EXPECT_TRUE(half_way.found.is_cut_short);
+  EXPECT_TRUE(workspace.was_late);
   EXPECT_FALSE(half_way.found.gains.empty());
 }
