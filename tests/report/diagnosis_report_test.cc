@@ -123,6 +123,27 @@ TEST(DiagnosisHeadline, WithoutReplicatesItIsToned)
 
 
 
+// Whatever was found until time was over.
+TEST(DiagnosisHeadline, WhatWasCutShortIsNotDecided)
+{
+  for (Diagnosis diagnosis : {SyntheticDiagnosis::named(),
+                              SyntheticDiagnosis::unnamed(),
+                              SyntheticDiagnosis::no_gap(),
+                              SyntheticDiagnosis::not_testable()})
+    {
+      const std::string decided = headline(diagnosis);
+      diagnosis.is_cut_short    = true;
+      EXPECT_EQ(headline(diagnosis),
+                "Not decided, the search was cut short (Diagnosis/Most time). "
+                "So far: " +
+                  decided);
+      EXPECT_TRUE(
+        contains(first_screen_of(diagnosis), "not decided, time was over"));
+    }
+}
+
+
+
 TEST(DiagnosisHeadline, RivalsStandBesideWhatTheyReplace)
 {
   Diagnosis diagnosis = SyntheticDiagnosis::ambiguous();
