@@ -114,15 +114,18 @@ namespace SlipStep
 
 
   double shown_order(const std::vector<double> &sizes,
-                     const std::vector<double> &values)
+                     const std::vector<double> &values,
+                     const double               highest)
   {
+    constexpr double tolerance = 0.15;
     if (values.size() < 4 || sizes.size() != values.size())
       return no_value;
     const double order = richardson(sizes, values).order;
     const double order_before =
       richardson(without_last(sizes), without_last(values)).order;
     return std::abs(order - order_before) <=
-               0.15 * std::max(order, order_before) ?
+                 tolerance * std::max(order, order_before) &&
+               order <= (1. + tolerance) * highest ?
              order :
              no_value;
   }
@@ -130,13 +133,14 @@ namespace SlipStep
 
 
   ReferenceValue extrapolated_reference(const std::vector<double> &sizes,
-                                        const std::vector<double> &values)
+                                        const std::vector<double> &values,
+                                        const double               highest)
   {
     const Extrapolation found = richardson(sizes, values);
     if (!std::isfinite(found.limit))
-      return finest_reference(sizes, values);
+      return finest_reference(sizes, values, highest);
     const double correction = std::abs(found.limit - values.back());
-    if (std::isnan(shown_order(sizes, values)))
+    if (std::isnan(shown_order(sizes, values, highest)))
       return with_round_off(
         {found.limit, uncertainty_of_last(sizes, values) + correction, true});
     const double limit_before =
@@ -150,14 +154,16 @@ namespace SlipStep
 
 
   ReferenceValue finest_reference(const std::vector<double> &sizes,
-                                  const std::vector<double> &values)
+                                  const std::vector<double> &values,
+                                  const double               highest)
   {
     if (values.empty() || sizes.size() != values.size())
       return {no_value, infinite, false};
     double uncertainty = uncertainty_of_last(sizes, values);
-    if (std::isfinite(shown_order(sizes, values)))
+    if (std::isfinite(shown_order(sizes, values, highest)))
       {
-        const ReferenceValue limit = extrapolated_reference(sizes, values);
+        const ReferenceValue limit =
+          extrapolated_reference(sizes, values, highest);
         uncertainty = std::abs(limit.value - values.back()) + limit.uncertainty;
       }
     return with_round_off({values.back(), uncertainty, false});

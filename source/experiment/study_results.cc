@@ -48,6 +48,12 @@ namespace SlipStep
                std::pow(summary.dofs, -1. / curve.dimension);
     }
 
+    /// Of stages in time two, of quadratic elements twice their degree.
+    double highest_order(const StudyCurve &curve)
+    {
+      return curve.kind == StudySequence::Kind::time_step ? 2. : 4.;
+    }
+
     const QuantityValue *find(const Summary &summary, const std::string &name)
     {
       for (const QuantityValue &quantity : summary.quantities)
@@ -111,9 +117,10 @@ namespace SlipStep
       // Solvers do not do better than that.
       if (n >= 2 && std::abs(values[n - 1] - values[n - 2]) <=
                       1e-9 * std::abs(values[n - 1]))
-        return {finest_reference(sizes, values),
+        return {finest_reference(sizes, values, highest_order(curve)),
                 finest + ", because the last two values agree"};
-      const ReferenceValue found = extrapolated_reference(sizes, values);
+      const ReferenceValue found =
+        extrapolated_reference(sizes, values, highest_order(curve));
       if (found.is_extrapolated)
         return {found, "Richardson"};
       return {found, finest + ", because the last three values show no order"};
@@ -136,7 +143,10 @@ namespace SlipStep
                               StudySequence::Kind::adaptive; // by unknowns
       complete.points.push_back({label, summary, value});
       const SeriesOfRuns series = series_of(complete, complete.points.size());
-      return {finest_reference(series.sizes, series.values), label};
+      return {finest_reference(series.sizes,
+                               series.values,
+                               highest_order(curve)),
+              label};
     }
 
     void compare(const NamedReference &reference, StudyCurve &curve)
@@ -156,7 +166,8 @@ namespace SlipStep
             point.error = difference / scale;
           point.error_bound         = (difference + curve.uncertainty) / scale;
           const SeriesOfRuns series = series_of(curve, i + 1);
-          curve.order = point.order = shown_order(series.sizes, series.values);
+          curve.order               = point.order =
+            shown_order(series.sizes, series.values, highest_order(curve));
         }
     }
 

@@ -129,6 +129,15 @@ TEST(ShownOrder, takes_three_monotone_differences)
   };
   for (const double order : {0.5, 1., 2.})
     EXPECT_NEAR(of(values(halved, 7., -2., order)), order, 1e-6);
+  // A peak between rough steps, which fine ones put at 12.468.
+  const std::vector<double> rough = {8.866742, 12.24421, 12.52599, 12.55302};
+  const std::vector<double> sizes(halved.begin(), halved.begin() + 4);
+  EXPECT_NEAR(of(rough), 3.38, 0.01);
+  EXPECT_TRUE(std::isnan(shown_order(sizes, rough, 2.)));
+  for (const auto &reference : {extrapolated_reference(sizes, rough, 2.),
+                                finest_reference(sizes, rough, 2.)})
+    EXPECT_GT(reference.uncertainty, std::abs(reference.value - 12.468));
+  EXPECT_NEAR(shown_order(sizes, values(sizes, 7., -2., 2.2), 2.), 2.2, 1e-6);
   // Two differences show an order, but nobody else has seen it.
   EXPECT_TRUE(std::isnan(of({1., 0.5, 0.25})));
   // The first difference goes the other way.

@@ -2,6 +2,7 @@
 #ifndef slipstep_experiment_convergence_h
 #define slipstep_experiment_convergence_h
 
+#include <limits>
 #include <vector>
 
 namespace SlipStep
@@ -25,9 +26,14 @@ namespace SlipStep
   /// The order that a sequence shows at its end: that of richardson(), if the
   /// last three differences are monotone and the first two of them show it as
   /// well, within 15 % of the larger of both. NaN else, for it takes two
-  /// differences to compute an order and a third one to see that there is one.
-  double shown_order(const std::vector<double> &sizes,
-                     const std::vector<double> &values);
+  /// differences to compute an order and a third one to see that there is one;
+  /// and NaN if it is more than 15 % above @p highest, for then differences
+  /// fall by accident that have not come to their order yet.
+  /// @param highest order that the method has for any quantity
+  double
+  shown_order(const std::vector<double> &sizes,
+              const std::vector<double> &values,
+              const double highest = std::numeric_limits<double>::infinity());
 
   /// Order p of errors C h^p between two members of a sequence; NaN if
   /// undefined.
@@ -62,13 +68,18 @@ namespace SlipStep
   /// because one may be small by accident. q is 1/2; if there are but three
   /// values, it is half the order of L, between 1/2 and 1. If differences have
   /// one sign and do not fall, no limit is in sight.
-  ReferenceValue extrapolated_reference(const std::vector<double> &sizes,
-                                        const std::vector<double> &values);
+  /// @param highest see shown_order()
+  ReferenceValue extrapolated_reference(
+    const std::vector<double> &sizes,
+    const std::vector<double> &values,
+    const double highest = std::numeric_limits<double>::infinity());
 
   /// The last value as reference for the others: within |v_n - L| + U of the
   /// limit if three differences show an order, else within U_n (see above).
-  ReferenceValue finest_reference(const std::vector<double> &sizes,
-                                  const std::vector<double> &values);
+  ReferenceValue finest_reference(
+    const std::vector<double> &sizes,
+    const std::vector<double> &values,
+    const double highest = std::numeric_limits<double>::infinity());
 } // namespace SlipStep
 
 #endif
