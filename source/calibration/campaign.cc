@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -176,10 +177,10 @@ namespace SlipStep
 
 
 
-    // The first test that was led in the same way, as replicates on a good
-    // machine are.
-    std::size_t first_of_motion(const std::vector<MeasuredTest> &tests,
-                                const std::size_t                number)
+    // Of the tests that were led in the same way, as replicates on a good
+    // machine are, one that does not depend on their names and order.
+    std::size_t leader_of_motion(const std::vector<MeasuredTest> &tests,
+                                 const std::size_t                number)
     {
       const auto motion = [](const MeasuredTest &test) {
         return std::tie(test.time,
@@ -187,10 +188,15 @@ namespace SlipStep
                         test.displacement_y,
                         test.pressure);
       };
-      std::size_t first = 0;
-      while (motion(tests[first]) != motion(tests[number]))
-        ++first;
-      return first;
+      const auto friction = [](const MeasuredTest &test) {
+        return std::tie(test.friction, test.friction_y);
+      };
+      std::size_t leader = number;
+      for (std::size_t i = 0; i < tests.size(); ++i)
+        if (motion(tests[i]) == motion(tests[number]) &&
+            friction(tests[i]) < friction(tests[leader]))
+          leader = i;
+      return leader;
     }
 
 
@@ -282,17 +288,18 @@ namespace SlipStep
         measured.push_back(read_measured_test(file));
     check_conditions(measured);
     warn_of_copies(measured);
-    std::vector<CampaignTest> tests;
-    std::set<fs::path>        files;
+    std::vector<CampaignTest>     tests;
+    std::map<std::size_t, Replay> replays;
+    std::set<fs::path>            files;
     for (const MeasuredTest &test : measured)
       {
         if (!files.insert(fs::canonical(test.file)).second)
           parameters.reject(tests_key, test.file.string() + " is listed twice");
-        const std::size_t like = first_of_motion(measured, tests.size());
-        tests.push_back(
-          prepare(test,
-                  parameters,
-                  like < tests.size() ? &tests[like].replay : nullptr));
+        const std::size_t leader = leader_of_motion(measured, tests.size());
+        if (replays.count(leader) == 0)
+          replays.emplace(
+            leader, prepare(measured[leader], parameters, nullptr).replay);
+        tests.push_back(prepare(test, parameters, &replays.at(leader)));
       }
     keep_noise_visible(tests);
     return tests;
