@@ -124,6 +124,58 @@ namespace SlipStep
 
 
 
+  std::optional<ContactResponse> pull_contact(const FrictionLaw  &law,
+                                              ContactPoint       &point,
+                                              const double        stiffness,
+                                              const Tensor<1, 2> &force,
+                                              const double  normal_traction,
+                                              const double  time_step,
+                                              Tensor<1, 2> &slip)
+  {
+    constexpr unsigned int most_iterations = 100;
+    constexpr double       accuracy = 1e-13, good_enough = 1e-10;
+
+    Tensor<2, 2> spring;
+    spring[0][0] = spring[1][1] = stiffness;
+    const Tensor<1, 2> old =
+      normal_traction > 0. ? point.stage_traction() : Tensor<1, 2>();
+    ContactResponse response;
+    const auto      missing = [&](const Tensor<1, 2> &s) {
+      response = point.update(law, s, normal_traction, time_step);
+      return force - response.traction - spring * s;
+    };
+    // If nothing slipped.
+    slip = invert(spring + law.elastic_tangent()) * (force - old);
+    const double scale =
+      force.norm() + old.norm() + law.static_coefficient() * normal_traction;
+    Tensor<1, 2> left = missing(slip);
+    for (unsigned int n = 0; n < most_iterations; ++n)
+      {
+        if (left.norm() <= accuracy * scale)
+          return response;
+        const Tensor<1, 2> newton = invert(response.d_slip + spring) * left;
+        Tensor<1, 2>       tried;
+        double             share  = 1.;
+        bool               better = false;
+        for (; !better && share > 1e-12; share *= better ? 1. : 0.5)
+          {
+            const Tensor<1, 2> at = slip + share * newton;
+            tried                 = missing(at);
+            better                = tried.norm() < left.norm();
+            if (better)
+              slip = at;
+          }
+        if (!better)
+          break;
+        left = tried;
+      }
+    left = missing(slip);
+    return left.norm() <= good_enough * scale ? std::make_optional(response) :
+                                                std::nullopt;
+  }
+
+
+
   std::optional<ContactResponse> push_contact(const FrictionLaw  &law,
                                               ContactPoint       &point,
                                               const Tensor<1, 2> &load,
@@ -131,6 +183,9 @@ namespace SlipStep
                                               const double  time_step,
                                               Tensor<1, 2> &slip)
   {
+    if (law.has_core() && normal_traction > 0.)
+      return pull_contact(
+        law, point, 0., load, normal_traction, time_step, slip);
     if (load.norm_square() == 0.)
       {
         slip = Tensor<1, 2>();

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace SlipStep
 {
@@ -90,6 +91,7 @@ namespace SlipStep
         : law(law)
         , point(point)
         , compliance(compliance)
+        , motion(motion)
         , normal_traction(normal_traction)
         , time_step(time_step)
         , elastic(law.elastic_tangent())
@@ -112,6 +114,7 @@ namespace SlipStep
       const FrictionLaw &law;
       ContactPoint      &point;
       const double       compliance;
+      const Tensor<1, 2> motion;
       const double       normal_traction;
       const double       time_step;
       const Tensor<2, 2> elastic;
@@ -214,6 +217,22 @@ namespace SlipStep
 
     ContactResponse SpringStep::solve()
     {
+      if (law.has_core())
+        {
+          // What cannot be found makes the step shorter.
+          Tensor<1, 2> slip;
+          const auto   found = pull_contact(law,
+                                          point,
+                                          1. / compliance,
+                                          old + motion / compliance,
+                                          normal_traction,
+                                          time_step,
+                                          slip);
+          if (found)
+            return *found;
+          response.traction[0] = std::numeric_limits<double>::quiet_NaN();
+          return response;
+        }
       if (excess(1.) < -1e-14 && !solve_by_newton())
         solve_by_bisection();
       return response;
@@ -347,6 +366,10 @@ namespace SlipStep
                            const ContactPoint &point,
                            const MachineStep  &step) const
   {
+    StepError unknown;
+    unknown.at_end = std::numeric_limits<double>::infinity();
+    if (!std::isfinite((step.first.load + step.slider.load).norm()))
+      return unknown;
     const bool jumps =
       !is_rigid() && areal_mass == 0. && step.motion.norm() > 0. &&
       (step.slider.slip - step.start.slip).norm() > 1e3 * step.motion.norm();

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <sstream>
@@ -74,6 +75,47 @@ TEST(Machine, an_isotropic_contact_feels_a_softer_stick)
                   1e-6)
         << step;
     }
+}
+
+
+
+// With a core the traction may be beyond its elastic trial, and beside it.
+TEST(Machine, a_contact_with_a_core_feels_a_softer_stick)
+{
+  const double alpha_t = 1e4;
+  for (const std::string effects :
+       {"subloading, elastic_core", "subloading, elastic_core, overstress"})
+    for (const double k : {50., 1e4})
+      {
+        Settings settings = {
+          {"Friction/Effects", effects},
+          {"Friction/Static coefficient", "0.1"},
+          {"Friction/subloading/Elastic range", "0.2"},
+          {"Time stepping/Tolerance", "1e-4"},
+          {"Loading/Programme",
+           "press 5 MPa in 1 s; slide 0.045 mm/s for 1 s; slide 0.01 mm/s for "
+           "1 s at 90 deg; slide 0.01 mm/s for 1 s at 180 deg; slide 0.02 mm/s "
+           "for 1 s at -45 deg; slide -0.008 mm/s for 1 s"}};
+        Settings series = settings;
+        settings.push_back({"Loading/Machine stiffness", exact_text(k)});
+        series.push_back({"Friction/Tangential stiffness",
+                          exact_text(k * alpha_t / (k + alpha_t))});
+        const auto a = drive(settings), b = drive(series);
+        for (const double end : {2., 3., 4., 5., 6.})
+          {
+            const auto at = [end](const std::vector<HistoryRow> &rows) {
+              return *std::find_if(rows.begin(),
+                                   rows.end(),
+                                   [end](const HistoryRow &row) {
+                                     return std::abs(row.time - end) < 1e-9;
+                                   });
+            };
+            EXPECT_NEAR(at(a).friction, at(b).friction, 2e-5)
+              << effects << ", k = " << k << ", t = " << end;
+            EXPECT_NEAR(at(a).friction_y, at(b).friction_y, 2e-5)
+              << effects << ", k = " << k << ", t = " << end;
+          }
+      }
 }
 
 

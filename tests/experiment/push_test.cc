@@ -105,6 +105,50 @@ TEST(Push, ratchets_as_the_initial_subloading_surface_says)
 
 
 
+// To the load asked, back to nothing, and round, where slip goes backwards.
+TEST(Push, reaches_its_load_on_a_contact_with_a_core)
+{
+  for (const std::string effects :
+       {"subloading, elastic_core", "subloading, elastic_core, overstress"})
+    for (const std::string mass : {"", "1e-9"})
+      {
+        Settings settings = {
+          {"Friction/Effects", effects},
+          {"Friction/Static coefficient", "0.1"},
+          {"Loading/Programme",
+           "press 5 MPa in 1 s; push 0.45 MPa in 1 s; push 0.15 MPa in 1 s; "
+           "push 0.45 MPa in 1 s; push 0 MPa in 1 s; push 0.3 MPa in 1 s at 60 "
+           "deg; push 0.3 MPa in 1 s at 180 deg; push 0.3 MPa in 1 s at 300 "
+           "deg"}};
+        if (!mass.empty())
+          {
+            settings.push_back({"Loading/Machine stiffness", "10 MPa/mm"});
+            settings.push_back({"Loading/Machine mass", mass});
+          }
+        const double loads[][2] = {{0.45, 0.},
+                                   {0.15, 0.},
+                                   {0.45, 0.},
+                                   {0., 0.},
+                                   {0.15, 0.3 * std::sin(half_pi / 1.5)},
+                                   {-0.3, 0.},
+                                   {0.15, -0.3 * std::sin(half_pi / 1.5)}};
+        unsigned int n          = 0;
+        for (const HistoryRow &row : drive_pushed(settings))
+          if (n < 7 && std::abs(row.time - (n + 2.)) < 1e-9)
+            {
+              EXPECT_NEAR(5. * row.friction, loads[n][0], 2e-6)
+                << effects << ", mass " << mass << ", t = " << row.time;
+              EXPECT_NEAR(5. * row.friction_y, loads[n][1], 2e-6)
+                << effects << ", mass " << mass << ", t = " << row.time;
+              EXPECT_LT(std::abs(row.displacement), 0.2);
+              ++n;
+            }
+        EXPECT_EQ(n, 7u);
+      }
+}
+
+
+
 TEST(Push, goes_over_into_slides_and_rests)
 {
   // A slide goes on from where the load has moved the drive.

@@ -177,6 +177,13 @@ namespace SlipStep
     /// Sections of effects that are off, such as "Friction/healing".
     std::set<std::string> inactive_sections() const;
 
+    /// Whether there is an elastic core: then the traction may be beyond its
+    /// elastic trial, and beside it.
+    bool has_core() const
+    {
+      return core != &neutral;
+    }
+
   private:
     struct LocalSystem;
 
@@ -259,10 +266,6 @@ namespace SlipStep
     void            complete_with_core(ContactState &state) const;
     double          error_of_core(const ContactState &start,
                                   const StageRecord  &last) const;
-    bool            has_core() const
-    {
-      return core != &neutral;
-    }
 
     // A step of two stages.
     bool is_rate_dependent() const
