@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -50,6 +51,84 @@ namespace SlipStep
 
 
 
+    /// Samples of a formula for a Table: at equal distances, more where a
+    /// straight line between two of them is off.
+    class Sampler
+    {
+    public:
+      Sampler(std::function<double(double)> formula,
+              const double                  from,
+              const double                  to)
+        : formula(std::move(formula))
+        , from(from)
+        , to(to)
+      {}
+
+      /// @return false if the formula varies too quickly for any table
+      bool sample()
+      {
+        // Corners and jumps, not waves.
+        constexpr std::size_t most_places = 20, most_intervals = 64000;
+        for (std::size_t n = 1000; n <= most_intervals; n *= 4)
+          if (sample(n) <= most_places)
+            return true;
+        return false;
+      }
+
+      std::vector<double> x, values;
+
+    private:
+      // Returns how many intervals between n + 1 samples are not straight.
+      std::size_t sample(const std::size_t n)
+      {
+        x                  = {from};
+        values             = {formula(from)};
+        std::size_t n_bent = 0;
+        for (std::size_t i = 1; i <= n; ++i)
+          {
+            const double      share = i / static_cast<double>(n);
+            const double      end   = (1. - share) * from + share * to;
+            const std::size_t size  = x.size();
+            append(end, formula(end), 0);
+            n_bent += x.size() > size + 1;
+          }
+        return n_bent;
+      }
+
+      // Add a sample, and others before it if need be.
+      void
+      append(const double end, const double value, const unsigned int depth)
+      {
+        constexpr double       tolerance = 3e-4, sharpest = 1e-6;
+        constexpr unsigned int deepest = 60;
+
+        // Never at the same place of a wave.
+        place              = std::fmod(place + dealii::numbers::PI_2, 1.);
+        const double share = 0.2 + 0.6 * place;
+        const double begin = x.back(), before = values.back();
+        const double middle = (1. - share) * begin + share * end;
+        const double there  = formula(middle);
+        const double line   = (1. - share) * before + share * value;
+        const double width =
+          sharpest * std::max(std::abs(begin), std::abs(end));
+        if (depth < deepest && end - begin > width &&
+            !(std::abs(there - line) <= tolerance * std::abs(there)))
+          {
+            append(middle, there, depth + 1);
+            append(end, value, depth + 1);
+            return;
+          }
+        x.push_back(end);
+        values.push_back(value);
+      }
+
+      const std::function<double(double)> formula;
+      const double                        from, to;
+      double                              place = 0.;
+    };
+
+
+
     const char *const section = "Friction/expression/";
 
     /// The age of what now touches, with the renewal length of this effect.
@@ -67,7 +146,7 @@ namespace SlipStep
     /// age of the contact with renewal length \f$D_c\f$ [s], the temperature
     /// rise at the beginning of the step [degC] or the angle of slip [deg]. The
     /// formula is sampled when it is read; the law uses a monotone cubic
-    /// through 1001 values.
+    /// through 1001 values or more.
     class Expression : public StrengthEffect
     {
     public:
@@ -252,22 +331,23 @@ namespace SlipStep
         const double to   = parameters.number(key("To"));
         if (!(from < to))
           parameters.reject(key("To"), "must be greater than From");
-        std::vector<double> xs(1001), samples(xs.size());
         const ParsedFormula formula = read_formula(parameters);
-        for (unsigned int i = 0; i < samples.size(); ++i)
-          {
-            const double share = i / (samples.size() - 1.);
-            const double x     = (1. - share) * from + share * to;
-            xs[i]              = x;
-            samples[i]         = formula(x);
-            if (samples[i] >= 1e-6 && samples[i] <= 1e6)
-              continue;
-            std::ostringstream why;
-            why << "its value " << samples[i] << " at x = " << x
-                << " is not between 1e-6 and 1e6";
-            parameters.reject(key("Formula"), why.str());
-          }
-        return Table(xs, samples);
+        const auto          value   = [&](const double x) {
+          const double result = formula(x);
+          if (result >= 1e-6 && result <= 1e6)
+            return result;
+          std::ostringstream why;
+          why << "its value " << result << " at x = " << x
+              << " is not between 1e-6 and 1e6";
+          parameters.reject(key("Formula"), why.str());
+        };
+        Sampler sampler(value, from, to);
+        if (!sampler.sample())
+          parameters.reject(key("Formula"),
+                            "it varies too quickly between From and To: more "
+                            "than 64000 samples would be needed; state the "
+                            "range that the tests or the programme reach");
+        return Table(sampler.x, sampler.values);
       }
 
       static double position(const SlipStepData &step)
