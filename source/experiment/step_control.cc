@@ -197,11 +197,10 @@ namespace SlipStep
       return;
     std::ostringstream message;
     message << "Statement " << now.statement + 1
-            << " of the programme takes more than "
-            << most_steps + rows_of_statement << " time steps ("
-            << most_steps_key << "): at t = " << std::setprecision(6) << end
-            << " s they are " << std::setprecision(2) << step_size()
-            << " s long";
+            << " of the programme takes more than " << most_steps
+            << " time steps (" << most_steps_key
+            << "): at t = " << std::setprecision(6) << end << " s they are "
+            << std::setprecision(2) << step_size() << " s long";
     throw RunError(message.str());
   }
 

@@ -57,10 +57,12 @@ namespace SlipStep
     /// "the gap falls from 4.12 % to 1.05 % of friction ..."
     std::string shrink_words(const Shrink &shrink)
     {
-      std::string text =
-        "the gap to the measurements falls from " +
-        percent_text(shrink.fitted_before) + " to " +
-        percent_text(shrink.fitted_after) +
+      const std::string before = percent_text(shrink.fitted_before);
+      const std::string after  = percent_text(shrink.fitted_after);
+      std::string       text =
+        "the gap to the measurements " +
+        (before == after ? "stays " + before :
+                           "falls from " + before + " to " + after) +
         " of friction (noise alone: " + percent_text(shrink.noise_floor) +
         (shrink.systematic_before > 0. ?
            "; beyond it " + percent_text(shrink.systematic_before) + " → " +
@@ -68,23 +70,28 @@ namespace SlipStep
            "") +
         ")";
       if (shrink.left_out_before > 0.)
-        text += ", under conditions left out of the fit from " +
+        text += std::string(shrink.left_out_after > shrink.left_out_before ?
+                              ", but rises under conditions left out of the "
+                              "fit from " :
+                              ", under conditions left out of the fit from ") +
                 percent_text(shrink.left_out_before) + " to " +
                 percent_text(shrink.left_out_after);
       return text;
     }
 
     /// What is there before anything is added.
-    std::string gap_words(const Shrink &shrink)
+    std::string gap_words(const Diagnosis &diagnosis)
     {
-      const std::string text = "simulation and measurements differ by " +
+      const Shrink     &shrink = diagnosis.shrink;
+      const std::string text   = "simulation and measurements differ by " +
                                percent_text(shrink.fitted_before) +
                                " of friction, ";
       return shrink.noise_floor < shrink.fitted_before ?
                text + "of which noise alone makes " +
                  percent_text(shrink.noise_floor) :
                text + "no more than noise would (" +
-                 percent_text(shrink.noise_floor) + ")";
+                 percent_text(shrink.noise_floor) + ")" +
+                 (diagnosis.has_gap ? ", but not at random" : "");
     }
 
     /// " (p = 0.2)"
@@ -119,7 +126,7 @@ namespace SlipStep
     {
       std::string text = "something is missing that " +
                          nothing_explains(diagnosis) + ": " +
-                         gap_words(diagnosis.shrink) + gap_chance(diagnosis);
+                         gap_words(diagnosis) + gap_chance(diagnosis);
       if (!diagnosis.where.empty())
         text += ", most " + place_words(diagnosis.where[0]);
       if (!diagnosis.correction_covariate.empty())
@@ -142,10 +149,10 @@ namespace SlipStep
             return unnamed_words(diagnosis);
           case Verdict::no_gap:
             return "nothing is missing as far as these tests can tell: " +
-                   gap_words(diagnosis.shrink) + chance;
+                   gap_words(diagnosis) + chance;
           case Verdict::not_testable:
             return "these tests cannot tell whether anything is missing: " +
-                   gap_words(diagnosis.shrink) + chance +
+                   gap_words(diagnosis) + chance +
                    ", and no effect of the catalogue would have been seen";
         }
       return "";

@@ -144,6 +144,24 @@ TEST(DiagnosisHeadline, WhatWasCutShortIsNotDecided)
 
 
 
+TEST(DiagnosisHeadline, WhatRisesOrStaysIsNotSaidToFall)
+{
+  Diagnosis diagnosis             = SyntheticDiagnosis::named();
+  diagnosis.shrink.left_out_after = 0.0922;
+  EXPECT_TRUE(contains(headline(diagnosis),
+                       ", but rises under conditions left out of the fit from "
+                       "5.13 % to 9.22 %."));
+  diagnosis.shrink.fitted_after = diagnosis.shrink.fitted_before;
+  EXPECT_TRUE(contains(headline(diagnosis),
+                       "the gap to the measurements stays 4.91 % of friction"));
+
+  diagnosis                    = SyntheticDiagnosis::unnamed();
+  diagnosis.shrink.noise_floor = 2. * diagnosis.shrink.fitted_before;
+  EXPECT_TRUE(contains(headline(diagnosis), "), but not at random (p"));
+}
+
+
+
 TEST(DiagnosisHeadline, RivalsStandBesideWhatTheyReplace)
 {
   Diagnosis diagnosis = SyntheticDiagnosis::ambiguous();
