@@ -125,7 +125,7 @@ namespace SlipStep
       richardson(without_last(sizes), without_last(values)).order;
     return std::abs(order - order_before) <=
                  tolerance * std::max(order, order_before) &&
-               order <= (1. + tolerance) * highest ?
+               order <= highest + 1. ?
              order :
              no_value;
   }

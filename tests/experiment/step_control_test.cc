@@ -51,7 +51,7 @@ TEST(StepControl, EndsARunThatWouldHaveNone)
     {
       const std::string text = error.what();
       EXPECT_TRUE(contains(text,
-                           "Statement 2 of the programme takes more than 3001 "
+                           "Statement 2 of the programme takes more than 3000 "
                            "time steps (Time stepping/Most steps per "
                            "statement)"));
     }

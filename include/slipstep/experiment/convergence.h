@@ -27,8 +27,9 @@ namespace SlipStep
   /// last three differences are monotone and the first two of them show it as
   /// well, within 15 % of the larger of both. NaN else, for it takes two
   /// differences to compute an order and a third one to see that there is one;
-  /// and NaN if it is more than 15 % above @p highest, for then differences
-  /// fall by accident that have not come to their order yet.
+  /// and NaN if it is more than one above @p highest: the first error term may
+  /// be small, but differences that fall faster still have not come to their
+  /// order yet.
   /// @param highest order that the method has for any quantity
   double
   shown_order(const std::vector<double> &sizes,
