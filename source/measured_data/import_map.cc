@@ -147,8 +147,9 @@ namespace SlipStep
       map.declare("Selection/Most rows",
                   "0",
                   Integer(0),
-                  "Resample to about so many rows: peaks, reversals and the "
-                  "onset of motion are kept. 0: keep every row.");
+                  "Resample to so many rows, or fewer that tell the same: "
+                  "peaks, reversals and the onset of motion are kept, and the "
+                  "noise of the full record is noted. 0: keep every row.");
     }
 
     void declare_test(Parameters &map)

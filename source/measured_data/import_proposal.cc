@@ -471,10 +471,12 @@ namespace SlipStep
     void Observer::guess_loads()
     {
       if (!taken_as("Time"))
-        guess("Columns/Time",
-              "column 1 in s",
-              "no column of increasing numbers is called like a time",
-              true);
+        guess(
+          "Columns/Time",
+          "column 1 in s",
+          "no column of increasing numbers is called like a time (clock times "
+          "have to be made seconds before)",
+          true);
       if (!taken_as("Displacement"))
         guess("Constants/Speed",
               "1 mm/s",

@@ -423,7 +423,13 @@ namespace SlipStep
       if (most == 0 || n <= most)
         return;
       ResampleOptions options;
-      options.most_rows       = most;
+      options.most_rows = most;
+      // The few rows left no longer show it: peaks and bends look like noise.
+      double noise = noise_level(test.friction);
+      if (!test.friction_y.empty())
+        noise = std::max(noise, noise_level(test.friction_y));
+      if (noise > 0.)
+        test.notes.emplace("noise", rounded_text(noise, 3));
       const auto resampled    = resample(test, options);
       test                    = resampled.test;
       test.notes["resampled"] = std::to_string(test.time.size()) + " of " +

@@ -130,7 +130,11 @@ namespace SlipStep
               if (std::isinf(values[i]))
                 origin.reject(i,
                               channel->name,
-                              channel->name + " is not finite");
+                              channel->name + " is not finite" +
+                                (channel->name.rfind("friction", 0) == 0 ?
+                                   " (where it is a force over the normal "
+                                   "load: is that zero there?)" :
+                                   ""));
               has_gap[i] = has_gap[i] || std::isnan(values[i]);
             }
         }
@@ -249,7 +253,8 @@ namespace SlipStep
             origin.reject(kept[i],
                           "pressure",
                           "pressure is " + exact_text(pressure) +
-                            " MPa, but compression counts positive");
+                            " MPa, but compression counts positive (in a "
+                            "map for import: -1*{column})");
           if (pressure == 0. && slides)
             origin.reject(kept[i],
                           "pressure",

@@ -426,6 +426,10 @@ namespace SlipStep
         return std::string("; if '") + mark +
                "' parts thousands, a map of slipstep import says so: Raw "
                "file/Thousands mark";
+    if (cell.find_first_of("0123456789") < cell.find(':') &&
+        cell.find(':') != std::string_view::npos)
+      return "; clock times and dates are not read: write seconds from the "
+             "start instead";
     const bool has_letter =
       std::any_of(cell.begin(), cell.end(), [](const char c) {
         return std::isalpha(static_cast<unsigned char>(c)) != 0;

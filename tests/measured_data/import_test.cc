@@ -13,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "tests/file_text.h"
 #include "tests/temporary_folder.h"
@@ -194,6 +195,10 @@ TEST(Import, FaultsOfTheRecordAreLocated)
   EXPECT_TRUE(
     contains(message(map_of(simple), write("a.csv", head + "1,1,O.1\n")),
              "a.csv:3:5: 'O.1' is not a number"));
+  EXPECT_TRUE(contains(
+    message(map_of(simple), write("a.csv", head + "09:59:30,1,0.1\n")),
+    "a.csv:3:1: '09:59:30' is not a number (Time); clock times and dates are "
+    "not read: write seconds from the start instead"));
   EXPECT_TRUE(
     contains(message(map_of(simple), write("a.csv", head + "1,1,-0.1\n")),
              "a.csv:3:5: friction drives the motion"));
@@ -215,6 +220,27 @@ TEST(Import, LongRecordsCanBeResampled)
   EXPECT_LE(test.time.size(), 20u);
   EXPECT_EQ(*std::max_element(test.friction.begin(), test.friction.end()), 0.2);
   EXPECT_TRUE(contains(test.notes.at("resampled"), "of 1000 rows"));
+}
+
+
+
+// Few rows of a curve with noise look noisier than all of them.
+TEST(Import, ResampledRecordsKeepTheirNoise)
+{
+  std::mt19937                     random(1);
+  std::normal_distribution<double> noise(0., 1e-3);
+  std::string                      text = "t,x,mu\n";
+  for (int i = 0; i < 2000; ++i)
+    text +=
+      std::to_string(i) + ',' + std::to_string(i) + ',' +
+      std::to_string(0.1 * (1. - std::exp(-i / 100.)) + 0.01 + noise(random)) +
+      '\n';
+  const auto file = write("a.csv", text);
+  const auto test =
+    import_test(map_of(simple_with("Selection/Most rows", "60")), file);
+  EXPECT_LE(test.time.size(), 60u);
+  EXPECT_NEAR(std::stod(test.notes.at("noise")), 1e-3, 1e-4);
+  EXPECT_EQ(import_test(map_of(simple), file).notes.count("noise"), 0u);
 }
 
 

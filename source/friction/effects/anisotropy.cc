@@ -109,9 +109,10 @@ namespace SlipStep
            "",
            "associated",
            dealii::Patterns::Selection("associated|opposite"),
-           "'associated': slip is normal to the ellipse; 'opposite': friction "
-           "is as the ellipse says in the direction of slip, and opposite to "
-           "it"},
+           "'associated': slip is normal to the ellipse, and what depends on "
+           "the slip rate has that of the isotropic law, |P V|, which is rho "
+           "times V along the second axis; 'opposite': friction is as the "
+           "ellipse says in the direction of slip, and opposite to it"},
           {"Ratio",
            "rho",
            "0.8",
