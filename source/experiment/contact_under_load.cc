@@ -155,9 +155,8 @@ namespace SlipStep
           return response;
         const Tensor<1, 2> newton = invert(response.d_slip + spring) * left;
         Tensor<1, 2>       tried;
-        double             share  = 1.;
         bool               better = false;
-        for (; !better && share > 1e-12; share *= better ? 1. : 0.5)
+        for (double share = 1.; !better && share > 1e-12; share *= 0.5)
           {
             const Tensor<1, 2> at = slip + share * newton;
             tried                 = missing(at);
