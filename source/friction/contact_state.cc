@@ -66,5 +66,6 @@ namespace SlipStep
     : state(state)
     , path_start(state.traction)
     , path_base(state.traction)
+    , normal_traction(state.normal_traction)
   {}
 } // namespace SlipStep

@@ -475,9 +475,26 @@ namespace SlipStep
 
 
 
-  // Off the plane: mu goes on healing, the traction is lost.
-  void FrictionLaw::open(const LocalSystem &local, ContactState &end) const
+  // Off the plane: mu goes on healing, the traction is lost. Until then all
+  // slip that was elastic and all motion become slip, for a share s = f_0 /
+  // (f_0 - f_n) of the stage in which the normal traction changes from f_0 to
+  // f_n.
+  void FrictionLaw::open(const Tensor<1, 2> &slip_increment,
+                         const double        normal_traction,
+                         LocalSystem        &local,
+                         ContactState       &end) const
   {
+    const double base = local.stage.normal_traction;
+    if (base > 0.)
+      {
+        const double share = base / (base - normal_traction);
+        local.set_trial(local.start.traction +
+                        share * alpha_t * slip_increment);
+        local.slip = local.trial_norm / alpha_t;
+      }
+    evolve_coefficient(local);
+    const SlipStepData step = step_data(local);
+
     end                 = local.start;
     end.traction        = Tensor<1, 2>();
     end.coefficient     = local.coefficient;
@@ -487,8 +504,9 @@ namespace SlipStep
     end.dissipation += local.start.traction.norm_square() / (2. * alpha_t) +
                        std::max(local.core.energy, 0.);
     core->remember_core({{}, std::min(local.core.energy, 0.)}, end);
+    end.slip_path += step.path;
     for (const StrengthEffect *effect : strength_effects)
-      effect->remember(step_data(local), end);
+      effect->remember(step, end);
   }
 
 
@@ -506,17 +524,11 @@ namespace SlipStep
       local.core = core->core(start);
     if (normal_traction <= 0.)
       {
-        evolve_coefficient(local);
-        open(local, end);
+        open(slip_increment, normal_traction, local, end);
         return {};
       }
 
-    local.trial      = start.traction + alpha_t * slip_increment;
-    local.trial_norm = local.trial.norm();
-    if (local.trial_norm > 0.)
-      local.direction = local.trial / local.trial_norm;
-    local.reach = local.trial_norm;
-
+    local.set_trial(start.traction + alpha_t * slip_increment);
     find_slip(local);
 
     ContactResponse response = linearise(local);

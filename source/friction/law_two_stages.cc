@@ -103,6 +103,8 @@ namespace SlipStep
       state.normal_ratio =
         normal_ratio->normal_ratio_after_slip(state.normal_ratio, more).value;
     result.path_base = first.end.traction - alpha_t * more * cone * normal;
+    result.normal_traction =
+      TwoStages::carried(start.normal_traction, first.end.normal_traction);
     return result;
   }
 

@@ -240,6 +240,44 @@ TEST(TwoStages, estimate_sees_what_hides)
 
 
 
+// The pressure falls evenly through zero at a share of a step: until then all
+// motion is slip, and what was elastic becomes slip with it.
+TEST(TwoStages, slip_counts_until_the_contact_opens)
+{
+  for (const Settings &settings :
+       {Settings{{"Effects", ""}},
+        Settings{{"Effects", paper_effects + ", run_in"}},
+        Settings{{"Effects", "anisotropy, wear"},
+                 {"anisotropy/Ratio", "2"},
+                 {"wear/Specific rate", "1"}}})
+    {
+      const auto         law    = make_law(settings);
+      const ContactPoint start  = moved_point(*law, {vector(1.), 5., 1.}, 100);
+      const ContactState before = start.committed();
+      const double elastic  = before.traction[0] / law->tangential_stiffness();
+      const double duration = 0.1;
+      for (const double share : {0.05, 0.2, 0.29, 0.4, 0.6, 0.71, 0.9, 1.})
+        {
+          ContactPoint point = start;
+          make_step(
+            *law, {vector(1.), 5. - 5. / share, duration}, 5., 1., point);
+          const double slip      = point.trial().slip_path - before.slip_path;
+          const double true_slip = share * duration;
+          // Where only the second stage is open, and the place to which the
+          // first is carried on as well, that place counts.
+          const bool carried =
+            share > TwoStages::gamma && share < 1. - TwoStages::gamma;
+          EXPECT_NEAR(slip,
+                      carried ? (1. - TwoStages::gamma) * duration : true_slip,
+                      2. * elastic)
+            << settings.front().second << " " << share;
+          EXPECT_EQ(point.trial().traction.norm(), 0.);
+        }
+    }
+}
+
+
+
 // A law with two stable answers to the same traction: one that slides goes on,
 // whatever the steps, and one that sticks does not.
 TEST(TwoStages, sliding_goes_on_where_it_can)

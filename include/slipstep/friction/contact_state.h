@@ -131,6 +131,7 @@ namespace SlipStep
     /// [MPa], and what of the trial traction is counted from there: the
     /// traction, in the second stage less what slip will take.
     dealii::Tensor<1, 2> path_start, path_base;
+    double normal_traction = 0.; ///< from which that changes [MPa]
   };
 
   /// One stage that has been made.

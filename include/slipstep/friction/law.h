@@ -200,7 +200,10 @@ namespace SlipStep
                                      const double  normal_traction,
                                      const double  time_step,
                                      ContactState &end) const;
-    void            open(const LocalSystem &local, ContactState &end) const;
+    void            open(const dealii::Tensor<1, 2> &slip_increment,
+                         const double                normal_traction,
+                         LocalSystem                &local,
+                         ContactState               &end) const;
     SlipStepData    step_data(const LocalSystem &local) const;
     SlipStepData    step_data(const ContactState &start,
                               const ContactState &end,

@@ -62,6 +62,15 @@ namespace SlipStep
     double               along  = 0.;
     double               work   = 0.; // that becomes heat
 
+    void set_trial(const dealii::Tensor<1, 2> &traction)
+    {
+      trial      = traction;
+      trial_norm = trial.norm();
+      if (trial_norm > 0.)
+        direction = trial / trial_norm;
+      reach = trial_norm;
+    }
+
     double heat(const bool has_core) const
     {
       // Not negative but by round-off.
