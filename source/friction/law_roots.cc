@@ -32,9 +32,11 @@ namespace SlipStep
   {
     if (has_core())
       extend_reach(local);
-    stick(local);
     const bool slid = local.start.slip_rate > 0.;
-    if (slid && (depends_on_rate || !must_slip(local)))
+    if (slid && depends_on_rate && slide_on(local))
+      return;
+    stick(local);
+    if (slid && !depends_on_rate && !must_slip(local))
       {
         if (slide_on(local))
           return;
@@ -89,8 +91,10 @@ namespace SlipStep
     evaluate(local.reach - alpha_t * slip, local);
     if (local.flow.value > 0.)
       return follow_branch(local);
+    // The first step of Newton's method is known already.
     const double upper = local.traction;
-    solve(0., upper, std::min(local.ratio * local.strength, upper), local);
+    const double next  = upper + alpha_t * local.flow.value / local.d_residual;
+    solve(0., upper, next > 0. && next < upper ? next : upper, local);
     return true;
   }
 
