@@ -185,18 +185,72 @@ namespace SlipStep
 
   namespace
   {
+    using dealii::Tensor;
+
     /// The motion of one statement of the programme.
     struct Motion
     {
-      double               start_time = 0.;
-      double               end_time   = 0.;
-      dealii::Tensor<1, 2> start;
-      /// Unit vector from its first to its last position.
-      dealii::Tensor<1, 2> direction;
+      double       start_time = 0.;
+      double       end_time   = 0.;
+      Tensor<1, 2> start;
+      /// Unit vectors: of a straight motion both are that from its first to
+      /// its last position.
+      Tensor<1, 2> first_direction, last_direction;
+      bool         is_straight = false;
       /// Mean over the path, so that rests within a followed test do not count.
       double       speed     = 0.;
       unsigned int statement = 0; ///< counted from 1
     };
+
+    /// Whether all positions are in order along one direction and near its
+    /// line, but for some jitter: what turns round or goes in a circle has no
+    /// direction.
+    bool is_straight(const std::vector<Tensor<1, 2>> &positions)
+    {
+      const Tensor<1, 2> moved    = positions.back() - positions.front();
+      const double       length   = moved.norm();
+      double             farthest = 0., back = 0., aside = 0.;
+      for (const Tensor<1, 2> &position : positions)
+        {
+          const Tensor<1, 2> from = position - positions.front();
+          const double       way  = from * moved / length;
+          farthest                = std::max(farthest, way);
+          back                    = std::max(back, farthest - way);
+          aside = std::max(aside, (from - way / length * moved).norm());
+        }
+      return length > 0. && back <= 0.1 * length && aside <= 0.25 * length;
+    }
+
+    /// From the first position to one 5 % of the largest distance away: jitter
+    /// at rest does not count.
+    /// @return zero if nothing moves
+    Tensor<1, 2> beginning(const std::vector<Tensor<1, 2>> &positions)
+    {
+      double largest = 0.;
+      for (const Tensor<1, 2> &position : positions)
+        largest = std::max(largest, (position - positions.front()).norm());
+      for (const Tensor<1, 2> &position : positions)
+        {
+          const Tensor<1, 2> way = position - positions.front();
+          if (way.norm() > 0.05 * largest)
+            return way / way.norm();
+        }
+      return {};
+    }
+
+    void set_directions(std::vector<Tensor<1, 2>> positions, Motion &motion)
+    {
+      motion.is_straight = is_straight(positions);
+      if (motion.is_straight)
+        {
+          const Tensor<1, 2> moved = positions.back() - positions.front();
+          motion.first_direction = motion.last_direction = moved / moved.norm();
+          return;
+        }
+      motion.first_direction = beginning(positions);
+      std::reverse(positions.begin(), positions.end());
+      motion.last_direction = -beginning(positions);
+    }
 
     std::vector<Motion> motions(const Programme &programme)
     {
@@ -204,7 +258,8 @@ namespace SlipStep
       const std::vector<Segment> &all = programme.segments();
       for (std::size_t first = 0, last = 0; first < all.size(); first = last)
         {
-          double path = 0., speed_by_path = 0.;
+          std::vector<Tensor<1, 2>> positions{all[first].start.displacement};
+          double                    path = 0., speed_by_path = 0.;
           for (;
                last < all.size() && all[last].statement == all[first].statement;
                ++last)
@@ -214,23 +269,23 @@ namespace SlipStep
                 speed * (all[last].end_time - all[last].start_time);
               path += distance;
               speed_by_path += speed * distance;
+              positions.push_back(all[last].end.displacement);
             }
-          const auto moved =
-            all[last - 1].end.displacement - all[first].start.displacement;
-          // A test that comes back to where it began has no direction.
-          if (moved.norm() > 0.01 * path)
-            result.push_back({all[first].start_time,
-                              all[last - 1].end_time,
-                              all[first].start.displacement,
-                              moved / moved.norm(),
-                              speed_by_path / path,
-                              all[first].statement + 1});
+          if (path == 0.)
+            continue;
+          Motion motion;
+          motion.start_time = all[first].start_time;
+          motion.end_time   = all[last - 1].end_time;
+          motion.start      = positions.front();
+          motion.speed      = speed_by_path / path;
+          motion.statement  = all[first].statement + 1;
+          set_directions(positions, motion);
+          result.push_back(motion);
         }
       return result;
     }
 
-    double
-    along(const dealii::Tensor<1, 2> &direction, const double x, const double y)
+    double along(const Tensor<1, 2> &direction, const double x, const double y)
     {
       return direction[0] * x + direction[1] * y;
     }
@@ -244,27 +299,33 @@ namespace SlipStep
       // steps after a border can be as short as a microsecond.
       const double tolerance =
         4. * std::numeric_limits<double>::epsilon() * motion.end_time;
-      slide.speed = motion.speed;
+      const Tensor<1, 2> &direction = motion.first_direction;
+      slide.speed                   = motion.speed;
       // Adding zero turns -0, for which atan2 gives -pi, into +0.
-      slide.angle = std::atan2(motion.direction[1] + 0., motion.direction[0]);
-      slide.peak  = -std::numeric_limits<double>::infinity();
-      slide.dip   = std::numeric_limits<double>::infinity();
+      slide.angle     = std::atan2(direction[1] + 0., direction[0]);
+      slide.peak      = -std::numeric_limits<double>::infinity();
+      slide.dip       = std::numeric_limits<double>::infinity();
       slide.statement = motion.statement;
 
-      bool found        = false;
-      slide.is_complete = history.back().time >= motion.end_time - tolerance;
+      // What pushes have moved is in the history alone.
+      Tensor<1, 2> start = motion.start;
+      bool         found = false;
+      slide.is_complete  = history.back().time >= motion.end_time - tolerance;
       for (const HistoryRow &row : history)
         if (row.time <= motion.start_time + tolerance)
-          slide.before = along(motion.direction, row.friction, row.friction_y);
+          {
+            slide.before = along(direction, row.friction, row.friction_y);
+            start[0]     = row.displacement;
+            start[1]     = row.displacement_y;
+          }
         else if (row.time <= motion.end_time + tolerance)
           {
-            found = true;
-            slide.kinetic =
-              along(motion.direction, row.friction, row.friction_y);
-            slide.length        = along(motion.direction,
-                                 row.displacement - motion.start[0],
-                                 row.displacement_y - motion.start[1]);
-            slide.pressure      = row.pressure;
+            found          = true;
+            slide.kinetic  = along(direction, row.friction, row.friction_y);
+            slide.length   = along(direction,
+                                 row.displacement - start[0],
+                                 row.displacement_y - start[1]);
+            slide.pressure = row.pressure;
             slide.dynamic_ratio = row.loading_ratio.mean;
             slide.coefficient   = row.coefficient.mean;
             slide.slip_fraction = row.slip_fraction;
@@ -339,19 +400,21 @@ namespace SlipStep
     if (history.empty())
       return;
 
-    dealii::Tensor<1, 2> last_direction;
-    last_direction[0]             = 1.;
     const std::vector<Motion> all = motions(programme);
+    Tensor<1, 2>              first_direction, last_direction;
+    first_direction[0] = last_direction[0] = 1.;
+    if (!all.empty())
+      first_direction = all.front().first_direction;
     for (std::size_t i = 0; i < all.size(); ++i)
       {
-        const Motion &motion = all[i];
-        SlideSummary  slide;
+        SlideSummary slide;
         if (i > 0)
-          slide.rest = motion.start_time - all[i - 1].end_time;
-        if (summarise(motion, history, slide))
+          slide.rest = all[i].start_time - all[i - 1].end_time;
+        if (summarise(all[i], history, slide))
           {
-            summary.slides.push_back(slide);
-            last_direction = motion.direction;
+            last_direction = all[i].last_direction;
+            if (all[i].is_straight)
+              summary.slides.push_back(slide);
           }
       }
 
@@ -361,8 +424,9 @@ namespace SlipStep
         const double magnitude = std::hypot(row.friction, row.friction_y);
         if (magnitude > summary.peak_friction)
           {
-            summary.peak_friction     = magnitude;
-            summary.peak_displacement = row.displacement;
+            summary.peak_friction = magnitude;
+            summary.peak_displacement =
+              along(first_direction, row.displacement, row.displacement_y);
           }
       }
 

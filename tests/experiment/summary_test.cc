@@ -331,6 +331,61 @@ TEST(Summary, AFollowedTestIsOneSlideAtItsSpeed)
 
 
 
+// There and back along a line is two directions, as is a corner; jitter at rest
+// is none.
+TEST(Summary, AFollowedTestThatTurnsRoundIsNoSlide)
+{
+  const auto folder = test_folder();
+  const auto write  = [&](const std::string &rows) {
+    std::ofstream(folder / "followed.csv")
+      << "time_s,displacement_mm,displacement_y_mm,pressure_MPa,friction\n"
+      << rows;
+    const Programme programme("follow followed.csv", 0., folder);
+    Summary         summary;
+    summarise_history(sampled(programme, 10), programme, summary);
+    return summary;
+  };
+  const Summary back = write("0,0,0,1,0\n1,1,0,1,0\n2,0.2,0,1,0\n");
+  EXPECT_TRUE(back.slides.empty());
+  EXPECT_GT(back.final_friction, 0.);
+  EXPECT_TRUE(write("0,0,0,1,0\n1,1,0,1,0\n2,1,1,1,0\n").slides.empty());
+  EXPECT_TRUE(write("0,0,0,1,0\n1,1,0,1,0\n2,0,0,1,0\n").slides.empty());
+  const Summary jitter =
+    write("0,0,0,1,0\n1,1,0.01,1,0\n2,0.98,0,1,0\n3,2,0,1,0\n");
+  ASSERT_EQ(jitter.slides.size(), 1u);
+  EXPECT_NEAR(jitter.slides[0].length, 2., 1e-12);
+}
+
+
+
+// A load moves the drive by what the history alone knows.
+TEST(Summary, WhatAPushMovedIsNoPartOfASlide)
+{
+  for (const char *order : {"push 0.4 MPa in 1 s; slide 1 mm/s for 0.5 mm",
+                            "slide 1 mm/s for 0.5 mm; push -0.2 MPa in 1 s; "
+                            "slide -1 mm/s for 0.5 mm",
+                            "slide 1 mm/s for 0.5 mm at 90 deg"})
+    {
+      const Parameters parameters = point_parameters(
+        {{"Loading/Programme", std::string("press 5 MPa in 1 s; ") + order},
+         {"Loading/Machine stiffness", "1 MPa/mm"}});
+      Summary summary;
+      summarise_history(point_history(parameters),
+                        parse_programme(parameters),
+                        summary);
+      ASSERT_FALSE(summary.slides.empty());
+      for (const SlideSummary &slide : summary.slides)
+        {
+          EXPECT_NEAR(slide.length, 0.5, 1e-12) << order;
+          EXPECT_GE(slide.peak_displacement, 0.) << order;
+          EXPECT_LE(slide.peak_displacement, 0.5 + 1e-12) << order;
+        }
+      EXPECT_GT(std::abs(summary.peak_displacement), 0.1) << order;
+    }
+}
+
+
+
 // The first step of a slide can be a thousand times shorter than what a clock
 // after months of rest seems to resolve.
 TEST(Summary, SlidesAfterALongRestAreToldApart)

@@ -223,6 +223,15 @@ TEST(BlockProbes, opening_of_the_contact_is_told)
   ASSERT_FALSE(open.summary.warnings.empty());
   EXPECT_NE(open.summary.warnings[0].find("lifted off the plane"),
             std::string::npos);
+
+  // A gap, as small as it is, tells of what had touched before.
+  const auto gap = run_block_case<2>(
+    make_parameters(tall + Settings{{"Block/Subdivisions", "64, 4"},
+                                    {"Contact/Gap", "1e-12*x"}}));
+  EXPECT_NEAR(gap.summary.opening.share, open.summary.opening.share, 1e-9);
+  ASSERT_FALSE(gap.summary.warnings.empty());
+  EXPECT_NE(gap.summary.warnings[0].find("lifted off the plane"),
+            std::string::npos);
 }
 
 

@@ -102,7 +102,8 @@ namespace SlipStep
     double                   cpu_time    = 0.; ///< [s], all sessions and ranks
     double                   peak_memory = 0.; ///< [MB], all ranks
     double                   peak_friction = 0.; ///< largest magnitude
-    double peak_displacement               = 0.; ///< of the drive, there [mm]
+    double                   peak_displacement =
+      0.; ///< of the drive there, along its first direction [mm]
     double final_friction = 0.; ///< along the last direction of motion
     double work           = 0.; ///< [N mm]
     double stored         = 0.; ///< [N mm]
@@ -141,7 +142,8 @@ namespace SlipStep
   /// Fill peak, final, energy and slides from a history and its programme.
   ///
   /// Every statement that moves is a slide, seen along its own direction, so
-  /// that friction of a reverse slide is positive, too. A history that ends
+  /// that friction of a reverse slide is positive, too; a followed test that
+  /// turns round is none. A history that ends
   /// early gives the slides it reached.
   void summarise_history(const std::vector<HistoryRow> &history,
                          const Programme               &programme,

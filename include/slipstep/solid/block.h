@@ -94,10 +94,11 @@ namespace SlipStep
     {
       archive &control &old_step &n_newton_total &n_linear_total &external_work
         &largest_imbalance &largest_normal_load &contact_share
-          &smallest_contact_share &steps_since_check &most_cells_wanted
-            &largest_jump &mesh_changes &mesh_is_new &tolerance &solver_in_use
-              &n_solver_failures &first_solver_failure &time_of_opening &drive
-                &damped_energy;
+          &largest_contact_share &opening
+            .share &steps_since_check &most_cells_wanted &largest_jump
+              &mesh_changes &mesh_is_new &tolerance &solver_in_use
+                &n_solver_failures &first_solver_failure &opening
+            .time &drive                                 &damped_energy;
     }
 
     /// Cells, unknowns and iterations so far.
@@ -195,6 +196,7 @@ namespace SlipStep
     bool         take_next_solver(std::string &failures);
     void         begin_with_first_solver();
     std::string  warning_of_solver() const;
+    std::string  warning_of_opening() const;
 
     // Another mesh during the run.
     bool        adapt_to_trial(BlockOutput<dim> *output);
@@ -353,13 +355,13 @@ namespace SlipStep
     std::vector<MeshChange> mesh_changes;
 
     // Bookkeeping.
-    double external_work          = 0.;
-    double damped_energy          = 0.; // by the viscosity of the body
-    double largest_imbalance      = 0.;
-    double largest_normal_load    = 0.;
-    double contact_share          = 1.;
-    double smallest_contact_share = 1.;
-    double time_of_opening        = 0.; // when it was that small [s]
+    double         external_work         = 0.;
+    double         damped_energy         = 0.; // by the viscosity of the body
+    double         largest_imbalance     = 0.;
+    double         largest_normal_load   = 0.;
+    double         contact_share         = 1.;
+    double         largest_contact_share = 0.; // that of a flat face is 1
+    OpeningSummary opening;
   };
 } // namespace SlipStep
 
