@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/fit.h>
+#include <slipstep/calibration/profile_side.h>
 #include <slipstep/calibration/uncertainty.h>
 #include <slipstep/measured_data/resample.h>
 #include <slipstep/measured_data/row_noise.h>
@@ -269,276 +270,49 @@ namespace SlipStep
 
 
 
-  // The root of the rise is nearly linear in the distance, unless a parameter
-  // has no influence for a while: then the middle serves better.
-  RiseEnd follow_rise(const std::function<double(const double)> &rise,
-                      const double                               first_distance,
-                      const double                               room)
-  {
-    double lower = 0., lower_root = 0., upper = infinite, upper_root = 0.;
-    double distance = first_distance;
-    int    n_lower = 0, n_upper = 0; // in a row
-    bool   is_open = !(room > 0.);
-    for (unsigned int n = 0; n < 20 && !is_open; ++n)
-      {
-        const double value = rise(distance);
-        const double root  = std::sqrt(std::max(value, 0.));
-        if (std::abs(value - 1.) < 0.03 && (value >= 1. || distance < room))
-          {
-            // To the crossing, straight through the nearer neighbour: where an
-            // influence begins, the rise is far steeper than a parabola.
-            const bool is_upper_nearer =
-              upper_root < infinite && upper - distance < distance - lower;
-            const double x = is_upper_nearer ? upper : lower;
-            const double y = is_upper_nearer ? upper_root : lower_root;
-            const double part =
-              root == y ? 0. : std::clamp((1. - root) / (root - y), -0.5, 0.5);
-            return {distance + part * (distance - x), false};
-          }
-        if (value < 1.)
-          {
-            is_open    = distance >= room;
-            lower      = distance;
-            lower_root = root;
-            n_upper    = 0;
-            ++n_lower;
-          }
-        else
-          {
-            upper      = distance;
-            upper_root = root;
-            n_lower    = 0;
-            ++n_upper;
-          }
-        if (upper == infinite)
-          distance =
-            std::min(room,
-                     distance * std::clamp(1. / std::max(root, 1e-9), 1.3, 4.));
-        else if (upper_root == infinite || std::max(n_lower, n_upper) > 1)
-          distance = (lower + upper) / 2.;
-        else
-          distance =
-            lower + (upper - lower) *
-                      std::clamp((1. - lower_root) / (upper_root - lower_root),
-                                 0.05,
-                                 0.95);
-      }
-    // Contradicted is only what was simulated: where the law refuses what lies
-    // beyond, or the search ends, the interval is open at the last value.
-    const bool is_contradicted = upper < infinite && upper_root < infinite;
-    return {is_contradicted ? upper : lower, !is_contradicted};
-  }
-
-
-
-  namespace
-  {
-    /// One side of a profile.
-    class ProfileSide
-    {
-    public:
-      ProfileSide(const Simulator     &planned,
-                  const Linearisation &optimum,
-                  const unsigned int   parameter,
-                  const double         confidence,
-                  const int            sign);
-
-      void follow();
-
-      std::vector<std::pair<double, double>> points() const;
-
-      double              end     = 0.; ///< scaled
-      bool                is_open = false;
-      std::vector<double> better;
-
-    private:
-      double rise(const double distance);
-
-      FitResult fit_at(const double distance);
-
-      bool jumps_at_end() const;
-
-      double first_distance() const;
-
-      Simulator                 simulator;
-      const Linearisation      &optimum;
-      const unsigned int        parameter;
-      const int                 sign;
-      const double              threshold;
-      const double              start;
-      const double              room;
-      std::vector<unsigned int> others;
-      Eigen::VectorXd           slopes; ///< of the others, per distance
-      double                    least_rise = 0.;
-
-      struct Fitted
-      {
-        double              rise = 0.;
-        std::vector<double> scaled;
-      };
-      std::map<double, Fitted> fitted; ///< by distance
-    };
-
-
-
-    ProfileSide::ProfileSide(const Simulator     &planned,
-                             const Linearisation &optimum,
-                             const unsigned int   parameter,
-                             const double         confidence,
-                             const int            sign)
-      : simulator(planned)
-      , optimum(optimum)
-      , parameter(parameter)
-      , sign(sign)
-      , threshold(optimum.threshold(confidence))
-      , start(optimum.scaled[parameter])
-      , room(sign > 0 ? 1. - start : start)
-    {
-      for (unsigned int i = 0; i < optimum.scaled.size(); ++i)
-        if (i != parameter)
-          others.push_back(i);
-      // Where the others go to first order.
-      Eigen::MatrixXd columns(optimum.R.rows(), others.size());
-      for (std::size_t i = 0; i < others.size(); ++i)
-        columns.col(i) = optimum.R.col(others[i]) * optimum.size[others[i]];
-      if (!others.empty())
-        slopes = -columns.completeOrthogonalDecomposition().solve(
-          optimum.R.col(parameter) * optimum.size[parameter]);
-      fitted[0.] = {0., optimum.scaled};
-    }
-
-
-
-    // The others fitted: from where they go to first order, and, before that
-    // contradicts the distance, from where they are at the nearest one.
-    FitResult ProfileSide::fit_at(const double distance)
-    {
-      std::vector<double> scaled = optimum.scaled;
-      scaled[parameter]          = start + sign * distance;
-      for (std::size_t i = 0; i < others.size(); ++i)
-        scaled[others[i]] =
-          std::clamp(scaled[others[i]] + sign * distance * slopes(i), 0., 1.);
-      FitResult result = fit(simulator, scaled, others, 0);
-      if (result.misfit < optimum.misfit + threshold || others.empty())
-        return result;
-      const auto nearest = std::min_element(
-        fitted.begin(), fitted.end(), [&](const auto &a, const auto &b) {
-          return std::abs(a.first - distance) < std::abs(b.first - distance);
-        });
-      std::vector<double> again = nearest->second.scaled;
-      again[parameter]          = start + sign * distance;
-      const FitResult other     = fit(simulator, again, others, 0);
-      return other.misfit < result.misfit || !std::isfinite(result.misfit) ?
-               other :
-               result;
-    }
-
-
-
-    // Of the misfit, relative to the threshold, with all others fitted.
-    double ProfileSide::rise(const double distance)
-    {
-      const FitResult result = fit_at(distance);
-      const double    rise   = (result.misfit - optimum.misfit) / threshold;
-      if (!std::isfinite(rise))
-        return infinite;
-      fitted[distance] = {rise, result.scaled};
-      if (rise < std::min(-0.01, least_rise))
-        {
-          least_rise = rise;
-          better     = result.scaled;
-        }
-      for (std::size_t i = 0; i < others.size() && distance > 0.; ++i)
-        slopes(i) = sign *
-                    (result.scaled[others[i]] - optimum.scaled[others[i]]) /
-                    distance;
-      return rise;
-    }
-
-
-
-    double ProfileSide::first_distance() const
-    {
-      const double guess = optimum.deviations(parameter) /
-                           optimum.size[parameter] *
-                           std::sqrt(threshold / optimum.inflation);
-      return std::min(room, std::max(guess, 1e-9));
-    }
-
-
-
-    // Whether the search closed in on a jump from one optimum of the others to
-    // another one.
-    bool ProfileSide::jumps_at_end() const
-    {
-      constexpr double close = 1e-2, much = 0.3;
-
-      const auto beyond =
-        std::find_if(fitted.begin(), fitted.end(), [](const auto &point) {
-          return point.second.rise >= 1.;
-        });
-      if (beyond == fitted.end() || beyond == fitted.begin())
-        return false;
-      const auto before = std::prev(beyond);
-      return beyond->first - before->first < close * beyond->first &&
-             beyond->second.rise - before->second.rise > much;
-    }
-
-
-
-    // A jump is no end: what lies beyond is fitted again from this side of it.
-    // Where it jumps again and again nobody knows the end.
-    void ProfileSide::follow()
-    {
-      constexpr unsigned int most_attempts = 4;
-
-      double first = first_distance();
-      for (unsigned int n = 0; n < most_attempts; ++n)
-        {
-          const RiseEnd found =
-            follow_rise([this](
-                          const double distance) { return rise(distance); },
-                        first,
-                        room);
-          is_open = found.is_open;
-          end     = start + sign * found.distance;
-          if (!jumps_at_end())
-            return;
-          const auto beyond =
-            std::find_if(fitted.begin(), fitted.end(), [](const auto &point) {
-              return point.second.rise >= 1.;
-            });
-          first = std::min(room, 1.1 * beyond->first);
-          fitted.erase(beyond, fitted.end());
-        }
-      is_open = true;
-    }
-
-
-
-    std::vector<std::pair<double, double>> ProfileSide::points() const
-    {
-      std::vector<std::pair<double, double>> result;
-      for (const auto &[distance, point] : fitted)
-        if (distance > 0.)
-          result.emplace_back(start + sign * distance, point.rise);
-      return result;
-    }
-  } // namespace
-
-
-
   Profile profile(const Simulator     &planned,
                   const Linearisation &optimum,
                   const unsigned int   parameter,
                   const double         confidence)
   {
+    std::vector<unsigned int> others;
+    for (unsigned int i = 0; i < optimum.scaled.size(); ++i)
+      if (i != parameter)
+        others.push_back(i);
+    // Where the others go to first order.
+    Eigen::MatrixXd columns(optimum.R.rows(), others.size());
+    for (std::size_t i = 0; i < others.size(); ++i)
+      columns.col(i) = optimum.R.col(others[i]) * optimum.size[others[i]];
+    Eigen::VectorXd slopes = Eigen::VectorXd::Zero(optimum.scaled.size());
+    if (!others.empty())
+      {
+        const Eigen::VectorXd found =
+          -columns.completeOrthogonalDecomposition().solve(
+            optimum.R.col(parameter) * optimum.size[parameter]);
+        for (std::size_t i = 0; i < others.size(); ++i)
+          slopes(others[i]) = found(i);
+      }
+    const double threshold      = optimum.threshold(confidence);
+    const double first_distance = optimum.deviations(parameter) /
+                                  optimum.size[parameter] *
+                                  std::sqrt(threshold / optimum.inflation);
+
     Profile result;
     result.points.emplace_back(optimum.scaled[parameter], 0.);
     for (const int sign : {-1, 1})
       {
-        ProfileSide side(planned, optimum, parameter, confidence, sign);
-        side.follow();
+        Simulator   simulator(planned);
+        ProfileSide side(
+          [&](const std::vector<double> &from) {
+            const FitResult fitted = fit(simulator, from, others, 0);
+            return ProfileSide::Fitted{fitted.misfit, fitted.scaled};
+          },
+          {optimum.misfit, optimum.scaled},
+          slopes,
+          parameter,
+          threshold,
+          sign);
+        side.follow(first_distance);
         (sign < 0 ? result.lower : result.upper)                 = side.end;
         (sign < 0 ? result.is_lower_open : result.is_upper_open) = side.is_open;
         for (const auto &point : side.points())

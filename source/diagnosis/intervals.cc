@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/calibration/uncertainty.h>
+#include <slipstep/calibration/profile_side.h>
 #include <slipstep/diagnosis/intervals.h>
 #include <slipstep/diagnosis/refits.h>
 
@@ -9,80 +9,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace SlipStep
 {
   namespace
   {
-    /// Follows one parameter away from the optimum.
-    class Follower
-    {
-    public:
-      Follower(const Workspace  &workspace,
-               const Model      &optimum,
-               const std::size_t parameter,
-               const double      threshold)
-        : workspace(workspace)
-        , optimum(optimum)
-        , parameter(parameter)
-        , threshold(threshold)
-        , held(optimum.scaled.size(), false)
-      {
-        held[parameter] = true;
-        // Where the others go to first order.
-        Eigen::MatrixXd others = optimum.derivatives;
-        others.col(parameter).setZero();
-        slopes = -others.completeOrthogonalDecomposition().solve(
-          optimum.derivatives.col(parameter));
-        slopes(parameter) = 1.;
-      }
-
-      RiseEnd follow(const int sign, const double deviation)
-      {
-        model              = optimum;
-        model.simulator    = std::make_shared<Simulator>(*optimum.simulator);
-        const double  at   = optimum.scaled[parameter];
-        const double  room = sign > 0 ? 1. - at : at;
-        const RiseEnd end  = follow_rise(
-          [&](const double distance) { return rise(at + sign * distance); },
-          std::min(room, std::max(1e-4, deviation * std::sqrt(threshold))),
-          room);
-        // So that the curve can be drawn.
-        for (const double share : {0.3, 0.6, 0.85})
-          rise(at + sign * share * end.distance);
-        return end;
-      }
-
-      std::vector<std::pair<double, double>> points; ///< scaled, objective
-
-    private:
-      double rise(const double scaled)
-      {
-        const double distance = scaled - optimum.scaled[parameter];
-        for (std::size_t i = 0; i < model.scaled.size(); ++i)
-          model.scaled[i] =
-            std::clamp(optimum.scaled[i] + distance * slopes(i), 0., 1.);
-        if (!workspace.comparison.fit(model, 0.005, {}, held))
-          {
-            model.scaled = optimum.scaled;
-            return std::numeric_limits<double>::infinity();
-          }
-        const double increase = model.objective - optimum.objective;
-        points.emplace_back(scaled, increase);
-        return std::max(0., increase / threshold);
-      }
-
-      const Workspace  &workspace;
-      const Model      &optimum;
-      Model             model;
-      const std::size_t parameter;
-      const double      threshold;
-      std::vector<bool> held;
-      Eigen::VectorXd   slopes; ///< of all, per distance
-    };
-
-
-
     /// How far noise moves the parameters, to first order.
     struct Scatter
     {
@@ -125,27 +57,59 @@ namespace SlipStep
 
 
 
+    // Where the others go to first order.
+    Eigen::VectorXd slopes_of(const Model &optimum, const std::size_t parameter)
+    {
+      Eigen::MatrixXd others = optimum.derivatives;
+      others.col(parameter).setZero();
+      return -others.completeOrthogonalDecomposition().solve(
+        optimum.derivatives.col(parameter));
+    }
+
+
+
     void follow_both_ways(const Workspace    &workspace,
-                          const Model        &model,
+                          const Model        &optimum,
                           const std::size_t   i,
                           const double        deviation,
                           const double        threshold,
                           DiagnosedParameter &result)
     {
-      const FitParameter &parameter = model.campaign->fitted[i];
-      Follower            follower(workspace, model, i, threshold);
-      const RiseEnd       below = follower.follow(-1, deviation);
-      const RiseEnd       above = follower.follow(1, deviation);
-      const auto          value = [&](const double scaled) {
+      const FitParameter &parameter = optimum.campaign->fitted[i];
+      const auto          value     = [&](const double scaled) {
         return parameter.in_unit(parameter.from_scaled(scaled));
       };
-      result.lower         = value(model.scaled[i] - below.distance);
-      result.upper         = value(model.scaled[i] + above.distance);
-      result.is_lower_open = below.is_open;
-      result.is_upper_open = above.is_open;
+      std::vector<bool> held(optimum.scaled.size(), false);
+      held[i] = true;
       result.profile.emplace_back(result.value, 0.);
-      for (const auto &point : follower.points)
-        result.profile.emplace_back(value(point.first), point.second);
+      for (const int sign : {-1, 1})
+        {
+          Model model     = optimum;
+          model.simulator = std::make_shared<Simulator>(*optimum.simulator);
+          ProfileSide side(
+            [&](const std::vector<double> &from) {
+              model.scaled = from;
+              const bool is_fitted =
+                workspace.comparison.fit(model, 0.005, {}, held);
+              return ProfileSide::Fitted{
+                is_fitted ? model.objective :
+                            std::numeric_limits<double>::infinity(),
+                model.scaled};
+            },
+            {optimum.objective, optimum.scaled},
+            slopes_of(optimum, i),
+            i,
+            threshold,
+            sign);
+          side.follow(std::max(1e-4, deviation * std::sqrt(threshold)));
+          side.look_at({0.3, 0.6, 0.85});
+          (sign < 0 ? result.lower : result.upper) = value(side.end);
+          (sign < 0 ? result.is_lower_open : result.is_upper_open) =
+            side.is_open;
+          for (const auto &point : side.points())
+            result.profile.emplace_back(value(point.first),
+                                        point.second * threshold);
+        }
       std::sort(result.profile.begin(), result.profile.end());
     }
   } // namespace

@@ -237,7 +237,7 @@ namespace SlipStep
 
 
 
-  bool StepControl::accept(const double error)
+  bool StepControl::accept(const double error, const std::string &remedy)
   {
     const double step  = step_size();
     const double ideal = 0.9 * std::sqrt(tolerance / std::max(error, 1e-30));
@@ -247,7 +247,7 @@ namespace SlipStep
           step * std::max(0.2, std::min(ideal, 0.7)),
           std::string(
             "the error allowed (Time stepping/Tolerance) asks for less than ") +
-            least_step_key + " or the clock's resolution");
+            least_step_key + " or the clock's resolution" + remedy);
         return false;
       }
 

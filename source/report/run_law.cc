@@ -101,8 +101,11 @@ namespace SlipStep
                  curves[i],
                  1.8,
                  is_first && is_named);
-      const Range  x = range_of(curves, 0), y = range_of(curves, 1);
-      const double margin = 0.06 * y.width();
+      const Range x = range_of(curves, 0), y = range_of(curves, 1);
+      // Of what does not change nothing but round-off would be drawn.
+      const double width =
+        std::max({y.width(), 1e-3 * std::abs(y.upper), 1e-9});
+      const double margin = 0.06 * width;
       figure.script()
         << axes_style << "set lmargin at screen 0.11\n"
         << (is_named ? legend_place.commands : "set rmargin at screen 0.98\n")
@@ -110,7 +113,7 @@ namespace SlipStep
         << (is_last ? 0.3 : 0.09) << "\nset xrange [" << x.lower << ":"
         << x.upper << "]\nset yrange [" << y.lower - margin << ":"
         << y.upper + margin << "]\nset ytics "
-        << round_up(y.width() / 3.)
+        << round_up(width / 3.)
         // These stand below each other, however wide the numbers are.
         << "\nset label 1 " << gnuplot_text(panel.label)
         << " at screen 0.02, graph 0.5 center rotate by 90\n"

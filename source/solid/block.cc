@@ -103,7 +103,7 @@ namespace SlipStep
           error = std::min(error, control.wanted_error());
         if (control.would_accept(error) && adapt_to_trial(output))
           continue;
-        if (!control.accept(error))
+        if (!control.accept(error, remedy_of_jumps()))
           {
             make_again();
             continue;

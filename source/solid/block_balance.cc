@@ -181,8 +181,23 @@ namespace SlipStep
     else if (drive.is_unknown() && drive.mass() == 0. && !inertia.exists())
       message << drive.reason_of_failure() << " (" << failure << ")";
     else
-      message << failure;
+      message << failure << remedy_of_jumps();
     return message.str();
+  }
+
+
+
+  // Between stick and slip there is no equilibrium then, however short the
+  // step.
+  template <int dim>
+  std::string Block<dim>::remedy_of_jumps() const
+  {
+    const Segment &now = programme.segment_at(control.end_of_step());
+    if (inertia.exists() || now.end.velocity.norm() == 0.)
+      return "";
+    return "; where friction falls with slip or speed a block this soft may "
+           "jump, which a Block/Density lets it do, or viscous friction "
+           "(effect viscous) slow down";
   }
 
 

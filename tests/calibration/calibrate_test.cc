@@ -4,6 +4,7 @@
 
 #include <slipstep/calibration/advice.h>
 #include <slipstep/calibration/fit.h>
+#include <slipstep/calibration/profile_side.h>
 #include <slipstep/calibration/uncertainty.h>
 
 #include <gtest/gtest.h>

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include <functional>
 #include <vector>
 
 namespace SlipStep
@@ -59,22 +58,6 @@ namespace SlipStep
   /// How many neighbouring values hang together: 1 + 2 sum of the
   /// autocorrelation as long as it is significantly positive.
   double correlation_length(const double *values, const std::size_t n);
-
-  /// Where a misfit that rises with the distance from its optimum reaches the
-  /// threshold.
-  struct RiseEnd
-  {
-    double distance = 0.;
-    /// It was not reached: the last distance at which there was a value.
-    bool is_open = false;
-  };
-
-  /// @param rise in units of the threshold, infinite where there is no value
-  /// @param first_distance a guess
-  /// @param room largest distance
-  RiseEnd follow_rise(const std::function<double(const double)> &rise,
-                      const double                               first_distance,
-                      const double                               room);
 
   /// What a profile was followed to, to become FittedParameter::profile.
   struct Profile

@@ -76,9 +76,10 @@ namespace SlipStep
     /// Judge a step by its estimated error, StepError::measure(): go on to the
     /// next and return true, or ask for the same again, smaller, and return
     /// false.
+    /// @param remedy to be said where no step is small enough
     /// @throws RunError if the statement takes too many steps, or too small
     /// ones
-    bool accept(const double error);
+    bool accept(const double error, const std::string &remedy = "");
 
     /// The step could not be made: try a smaller one.
     /// @throws RunError with @p reason if it is too small already

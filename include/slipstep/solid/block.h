@@ -197,6 +197,7 @@ namespace SlipStep
     void         begin_with_first_solver();
     std::string  warning_of_solver() const;
     std::string  warning_of_opening() const;
+    std::string  remedy_of_jumps() const;
 
     // Another mesh during the run.
     bool        adapt_to_trial(BlockOutput<dim> *output);
