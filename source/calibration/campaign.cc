@@ -287,7 +287,7 @@ namespace SlipStep
       else
         measured.push_back(read_measured_test(file));
     check_conditions(measured);
-    warn_of_copies(measured);
+    warn_of_oddities(measured);
     std::vector<CampaignTest>     tests;
     std::map<std::size_t, Replay> replays;
     std::set<fs::path>            files;

@@ -148,7 +148,7 @@ namespace SlipStep
         tests = read_test_set(file);
       else
         tests.push_back(read_measured_test(file));
-      warn_of_copies(tests);
+      warn_of_oddities(tests);
       for (const MeasuredTest &test : tests)
         {
           print_warnings(test.warnings);

@@ -277,7 +277,7 @@ namespace SlipStep
                     folder);
       }
     check_conditions(tests);
-    warn_of_copies(tests);
+    warn_of_oddities(tests);
 
     create_folder(folder);
     constexpr unsigned int n_digits = 7;

@@ -5,6 +5,7 @@
 #include <slipstep/utilities/process.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 namespace SlipStep
@@ -62,6 +63,7 @@ namespace SlipStep
     // What the search made of it.
     void add_found(const SearchResult                    &found,
                    const std::vector<DiagnosedParameter> &parameters,
+                   const double                           level,
                    CandidateResult                       &result)
     {
       for (const Rival &rival : found.rivals)
@@ -71,7 +73,11 @@ namespace SlipStep
         {
           if (found.model.parts[part].name != result.name)
             continue;
-          result.standing    = Standing::named;
+          result.standing = Standing::named;
+          // Seen beside another name only: the chance of what it does alone
+          // says nothing.
+          if (result.p > level)
+            result.p = std::numeric_limits<double>::quiet_NaN();
           result.is_testable = true;
           if (part < found.costs.size())
             {
@@ -105,7 +111,7 @@ namespace SlipStep
     side_by_side(results.size(), [&](const std::size_t c) {
       const CandidateView &seen = judgement.view.candidates[c];
       results[c]                = seen_result(seen, judgement, workspace.level);
-      add_found(judgement.found, parameters, results[c]);
+      add_found(judgement.found, parameters, workspace.level, results[c]);
       if (results[c].standing == Standing::not_testable &&
           !seen.candidate.formulas.empty())
         {

@@ -466,10 +466,24 @@ namespace SlipStep
                            const Covariates                &covariates)
   {
     TestedRange         result;
-    std::vector<double> moving, frictions;
+    std::vector<double> moving, angles, frictions;
     for (Eigen::Index k = 0; k < comparison.n_rows(); ++k)
       if (covariates.speed(k) > 0. && covariates.phase[k] != Phase::hold)
-        moving.push_back(covariates.speed(k));
+        {
+          moving.push_back(covariates.speed(k));
+          angles.push_back(covariates.angle(k));
+        }
+    // The few rows of a start or a stop do not count.
+    if (!angles.empty())
+      {
+        std::vector<double> turns;
+        for (const double angle : angles)
+          turns.push_back(
+            std::abs(std::sin(angle - angles[angles.size() / 2])));
+        std::sort(turns.begin(), turns.end());
+        result.widest_angle =
+          std::asin(std::min(1., turns[turns.size() - 1 - turns.size() / 50]));
+      }
     // Of both axes together: one of them may idle.
     for (const ComparedTest &test : comparison.tests)
       for (std::size_t i = 0; i < test.n_bins(); ++i)

@@ -196,6 +196,10 @@ namespace SlipStep
 
       void warn_of_rows();
 
+      double difference_of_replicates() const;
+
+      void warn_of_temperatures();
+
       const Stage      stage;
       const Parameters start;
       const Noise      stated;
@@ -531,6 +535,49 @@ namespace SlipStep
 
 
 
+    // Of one replicate, root mean square over friction; 0 without any.
+    double Preparer::difference_of_replicates() const
+    {
+      const Comparison &comparison = result.workspace->comparison;
+      double            squares    = 0.;
+      Eigen::Index      n          = 0;
+      for (const Contrast &contrast : comparison.contrasts(
+             comparison.difference(*result.base.simulator, result.base.scaled)))
+        {
+          squares +=
+            contrast.values.squaredNorm() / std::pow(contrast.level, 2);
+          n += contrast.values.size();
+        }
+      return n > 0 ? std::sqrt(squares / n) : 0.;
+    }
+
+
+
+    // Heating knows the rise that it makes, nothing reads what was measured.
+    void Preparer::warn_of_temperatures()
+    {
+      constexpr double noticed = 5.; // K
+
+      double lowest  = std::numeric_limits<double>::infinity();
+      double highest = -lowest;
+      for (const CampaignTest &test : result.workspace->tests)
+        for (const double temperature : test.rows.temperature)
+          {
+            lowest  = std::min(lowest, temperature);
+            highest = std::max(highest, temperature);
+          }
+      if (!(highest - lowest > noticed))
+        return;
+      std::ostringstream words;
+      words << std::setprecision(3) << "The measured temperature goes from "
+            << lowest << " to " << highest
+            << " degC: no effect reads it, so that what it does to friction "
+               "has no name here.";
+      result.warnings.push_back(words.str());
+    }
+
+
+
     void Preparer::warn()
     {
       const Workspace &workspace = *result.workspace;
@@ -562,8 +609,8 @@ namespace SlipStep
           result.warnings.push_back(words.str());
         }
       warn_of_rows();
-      const Noise &noise = workspace.noise.noise;
-      if (std::hypot(noise.gain, noise.offset, noise.drift) > rms)
+      warn_of_temperatures();
+      if (difference_of_replicates() > rms)
         result.warnings.push_back(
           "Replicates differ by more than the model does from the tests: they "
           "may not be repetitions, and little can be told.");

@@ -227,7 +227,9 @@ namespace SlipStep
             tell("added " + result.model.parts[part].name);
           return true;
         }
-      if (!completed.has_value() || !is_good(completed->model))
+      // What leaves nothing of an effect does not complete its formula.
+      if (!completed.has_value() || is_at_bound(completed->model) ||
+          !is_good(completed->model))
         return false;
       result.model = completed->model;
       settle(workspace, result.model);

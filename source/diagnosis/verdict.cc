@@ -152,7 +152,7 @@ namespace SlipStep
                             workspace.comparison.difference(*one.simulator,
                                                             one.scaled));
       };
-      if (rms(model) > rms(base) ||
+      if (is_at_bound(model) || rms(model) > rms(base) ||
           left_out_gain(workspace, base, model) <= 0. ||
           !explains_by_itself(workspace, judgement))
         return false;

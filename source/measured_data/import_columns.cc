@@ -136,8 +136,13 @@ namespace SlipStep
       if (heading == text) // "Stroke in mm" is its name
         name = text;
     Source source{"", find_column(path, name), {}};
-    if (is_bare || dimension == Dimension::number)
+    if (is_bare)
       return source;
+    if (dimension == Dimension::number)
+      {
+        source.conversion = conversion_of_share(path, name, unit, source);
+        return source;
+      }
     const bool is_told = !unit.empty();
     if (!is_told)
       unit = unit_in_file(source.position);
@@ -169,6 +174,49 @@ namespace SlipStep
 
 
 
+  // A coefficient is a plain number, or per cent.
+  UnitConversion
+  ImportColumns::conversion_of_share(const std::string &path,
+                                     const std::string &name,
+                                     const std::string &told,
+                                     const Source      &source)
+  {
+    const std::string in_file = unit_in_file(source.position);
+    const auto        is_none = [](const std::string &unit) {
+      return unit.empty() || unit == "-" || unit == "1";
+    };
+    if (!is_none(told) && told != "%")
+      map.reject(path,
+                 "a coefficient of friction has no unit \"" + told +
+                   "\": write '" + name + "', or '" + name +
+                   " in %'; a force is a tangential load");
+    if (told.empty() && dimension_of_unit(in_file).has_value())
+      add_contradiction(source.position, "as a plain number", in_file);
+    else if (!told.empty() && in_file == "%" && told != "%")
+      add_contradiction(source.position, "as a plain number", in_file);
+    UnitConversion percent;
+    percent.denominator = 100.;
+    return told == "%" || (told.empty() && in_file == "%") ? percent :
+                                                             UnitConversion{};
+  }
+
+
+
+  void ImportColumns::add_contradiction(const std::size_t  position,
+                                        const std::string &taken,
+                                        const std::string &in_file)
+  {
+    const std::string words = "column " + std::to_string(position + 1) +
+                              " is taken " + taken + ", the file says " +
+                              in_file;
+    if (std::count(contradicting_units.begin(),
+                   contradicting_units.end(),
+                   words) == 0)
+      contradicting_units.push_back(words);
+  }
+
+
+
   std::string ImportColumns::unit_in_file(const std::size_t position) const
   {
     const std::string &unit = table.units()[position];
@@ -184,17 +232,15 @@ namespace SlipStep
   {
     const std::string in_file = unit_in_file(position);
     const auto        known   = dimension_of_unit(in_file);
-    if (!known.has_value() ||
-        (*known == dimension && unit_conversion(in_file, dimension)(1.) ==
-                                  unit_conversion(unit, dimension)(1.)))
+    if (!known.has_value() ?
+          in_file.empty() || in_file == unit || in_file.size() > 3 :
+          *known == dimension && unit_conversion(in_file, dimension)(1.) ==
+                                   unit_conversion(unit, dimension)(1.))
       return;
-    const std::string words = "column " + std::to_string(position + 1) +
-                              " is taken in " + unit + ", the file says " +
-                              in_file;
-    if (std::count(contradicting_units.begin(),
-                   contradicting_units.end(),
-                   words) == 0)
-      contradicting_units.push_back(words);
+    add_contradiction(position,
+                      "in " + unit,
+                      in_file +
+                        (known.has_value() ? "" : ", no unit known here"));
   }
 
 

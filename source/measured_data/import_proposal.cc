@@ -169,6 +169,8 @@ namespace SlipStep
 
       void guess_shear_stress();
 
+      std::size_t first_column_left() const;
+
       void guess_loads();
 
       void guess_signs();
@@ -297,7 +299,8 @@ namespace SlipStep
       const auto known    = seen.unit.empty() ? std::optional<Dimension>() :
                                                 dimension_of_unit(seen.unit);
       const bool has_unit = !seen.unit.empty() && seen.unit != "-" &&
-                            seen.unit != "1" && seen.unit != "/";
+                            seen.unit != "1" && seen.unit != "/" &&
+                            seen.unit != "%";
       if (known.has_value() ? *known != dimension :
                               has_unit && dimension == Dimension::number)
         return 0;
@@ -323,8 +326,8 @@ namespace SlipStep
         }
       if (words.key == "Displacement" && !varies)
         return 0;
-      if (words.key == "Friction" && !finite[column].empty() &&
-          median(finite[column]) > 3.) // a percentage, or a force
+      if (words.key == "Friction" && seen.unit != "%" &&
+          !finite[column].empty() && median(finite[column]) > 3.) // a percentage, or a force
         return 0;
       return points;
     }
@@ -467,6 +470,20 @@ namespace SlipStep
 
 
 
+    std::size_t Observer::first_column_left() const
+    {
+      // The first is the time, if none is called so.
+      for (std::size_t i = taken_as("Time") ? 0 : 1;
+           i < proposal.columns.size();
+           ++i)
+        if (proposal.columns[i].has_numbers &&
+            proposal.columns[i].taken_as.empty())
+          return i;
+      return proposal.columns.size() - 1;
+    }
+
+
+
     // What only a notebook knows.
     void Observer::guess_loads()
     {
@@ -485,7 +502,7 @@ namespace SlipStep
               true);
       if (!taken_as("Friction") && !taken_as("Tangential load"))
         guess("Columns/Friction",
-              "column 2",
+              "column " + std::to_string(first_column_left() + 1),
               "no column is called like a coefficient or a tangential load",
               true);
       const bool has_load = taken_as("Normal load");

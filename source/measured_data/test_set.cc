@@ -90,7 +90,60 @@ namespace SlipStep
                        rounded_text(a, 3) + " " + unit +
                        "; replicates are made alike, within 20 %");
     }
+
+
+    void warn_of_copies(std::vector<MeasuredTest> &tests)
+    {
+      std::map<std::vector<double>, std::vector<const MeasuredTest *>>
+        by_friction;
+      for (MeasuredTest &test : tests)
+        {
+          auto      &others = by_friction[test.friction];
+          const auto same =
+            std::find_if(others.begin(),
+                         others.end(),
+                         [&](const MeasuredTest *other) {
+                           return other->displacement == test.displacement &&
+                                  range_of(test.friction) > 0.;
+                         });
+          if (same == others.end())
+            others.push_back(&test);
+          else
+            test.warnings.push_back(
+              shown(test) + ": its rows are those of " + shown(**same) +
+              "; a copy is no second measurement, take it "
+              "out");
+        }
+    }
+
+
+
+    void warn_of_pressures(std::vector<MeasuredTest> &tests)
+    {
+      constexpr double far = 300.; // kPa for MPa, bar for Pa
+
+      std::vector<double> pressures;
+      for (const MeasuredTest &test : tests)
+        pressures.push_back(typical_pressure(test));
+      if (tests.size() < 3)
+        return;
+      const double usual = median(pressures);
+      for (std::size_t i = 0; i < tests.size(); ++i)
+        if (pressures[i] > far * usual || far * pressures[i] < usual)
+          tests[i].warnings.push_back(
+            shown(tests[i]) + ": its pressure is " +
+            rounded_text(pressures[i], 3) + " MPa, that of most tests " +
+            rounded_text(usual, 3) + " MPa: is its unit right?");
+    }
   } // namespace
+
+
+
+  void warn_of_oddities(std::vector<MeasuredTest> &tests)
+  {
+    warn_of_copies(tests);
+    warn_of_pressures(tests);
+  }
 
 
 
@@ -127,32 +180,6 @@ namespace SlipStep
           *first.emplace(test.condition, &test).first->second;
         compare(other, test, "pressure", "MPa", typical_pressure);
         compare(other, test, "mean speed", "mm/s", mean_speed);
-      }
-  }
-
-
-
-  void warn_of_copies(std::vector<MeasuredTest> &tests)
-  {
-    std::map<std::vector<double>, std::vector<const MeasuredTest *>>
-      by_friction;
-    for (MeasuredTest &test : tests)
-      {
-        auto      &others = by_friction[test.friction];
-        const auto same =
-          std::find_if(others.begin(),
-                       others.end(),
-                       [&](const MeasuredTest *other) {
-                         return other->displacement == test.displacement &&
-                                range_of(test.friction) > 0.;
-                       });
-        if (same == others.end())
-          others.push_back(&test);
-        else
-          test.warnings.push_back(shown(test) + ": its rows are those of " +
-                                  shown(**same) +
-                                  "; a copy is no second measurement, take it "
-                                  "out");
       }
   }
 

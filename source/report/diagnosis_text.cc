@@ -67,7 +67,7 @@ namespace SlipStep
         (shrink.systematic_before > 0. ?
            "; beyond it " + percent_text(shrink.systematic_before) + " → " +
              percent_text(shrink.systematic_after) :
-           "") +
+           ", so that its pattern tells of it, not its size") +
         ")";
       if (shrink.left_out_before > 0.)
         text += std::string(shrink.left_out_after > shrink.left_out_before ?
@@ -179,8 +179,10 @@ namespace SlipStep
           !diagnosis.is_incomplete)
         return "";
       std::string text = "; not all of it is explained";
+      if (!(diagnosis.shrink.systematic_after > 0.))
+        text += ", though what remains is no more than noise would be";
       if (diagnosis.remains.empty())
-        return text;
+      return text;
       const Localisation &where = diagnosis.remains[0];
       text += ": the rest is felt most " + place_words(where);
       if (!where.tests.empty())
@@ -322,6 +324,8 @@ namespace SlipStep
   std::string chance_text(const double p, const unsigned int n_draws)
   {
     // Two thirds of the chance belong to one statistic, see test_gap().
+    if (std::isnan(p))
+      return "–";
     const bool is_floor = n_draws > 0 && p < 1.51 / (n_draws + 1.);
     return (is_floor ? "≤ " : "") + short_text(p, 2);
   }

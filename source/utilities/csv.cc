@@ -437,6 +437,9 @@ namespace SlipStep
     if (begin_of_row.size() == 1 && has_letter && format.units_line == 0)
       return "; if this line has the units, a map of slipstep import says so: "
              "Raw file/Units line";
+    if (has_letter)
+      return "; if such lines are no rows, a map of slipstep import says what "
+             "they begin with: Raw file/Comment marks";
     return "";
   }
 

@@ -36,6 +36,7 @@ namespace
     range.longest_test     = 2000.;
     range.longest_slide    = 2000.;
     range.typical_friction = 0.1;
+    range.widest_angle     = 1.5;
     range.track_wave       = 2.;
     return range;
   }
@@ -200,6 +201,10 @@ TEST(Candidates, NeedWhatTheyShowIn)
       EXPECT_EQ(formula.texts.at("Friction/memory_length/Form"), "flow");
     }
   EXPECT_EQ(reason("", 1), "");
+  // Along one line nobody can tell an angle.
+  EXPECT_EQ(make_candidates(start, range).at(1).formulas.size(), 2u);
+  range.widest_angle = 0.;
+  EXPECT_EQ(make_candidates(start, range).at(1).formulas.size(), 1u);
   range.track_wave = 0.;
   EXPECT_EQ(reason("", 1), "there is no clear wave along the track");
 }

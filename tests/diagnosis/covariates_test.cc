@@ -84,6 +84,40 @@ TEST(Covariates, KnowTheHistoryOfEveryRow)
 
 
 
+// There and back, also along another line, is no second line.
+TEST(Covariates, TellLinesOfMotionApart)
+{
+  const auto widest_angle = [](const double of_first, const double of_second) {
+    MeasuredTest      test = slide_rest_return();
+    const std::size_t n    = test.time.size();
+    test.displacement_y.resize(n);
+    double x = 0., y = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+      {
+        const double moved = i == 0 ? 0. :
+                                      slide_rest_return().displacement[i] -
+                                        slide_rest_return().displacement[i - 1];
+        const double angle = i < n / 2 ? of_first : of_second;
+        x += moved * std::cos(angle);
+        y += moved * std::sin(angle);
+        test.displacement[i]   = x;
+        test.displacement_y[i] = y;
+      }
+    test.friction_y.assign(n, 0.);
+    Comparison       comparison({{test, 0.001, true, Replay(test)}}, 1000);
+    const Covariates covariates = covariates_of(test, comparison);
+    return tested_range(comparison,
+                        {{test, 0.001, true, Replay(test)}},
+                        covariates)
+      .widest_angle;
+  };
+  EXPECT_NEAR(widest_angle(0., 0.), 0., 1e-6);
+  EXPECT_NEAR(widest_angle(0.7, 0.7), 0., 1e-6);
+  EXPECT_NEAR(widest_angle(0.2, 0.7), 0.5, 1e-6);
+}
+
+
+
 // Pressure doubles within a second, and comes back.
 TEST(Covariates, RememberThePressure)
 {

@@ -242,6 +242,14 @@ namespace
     {"run #2*.csv",
      "t [s],d [mm],mu,p [MPa]\n0,0,0,5\n1,1,0.1,5\n2,2,0.1,5\n",
      {"Raw file/Name = run ?2?.csv"},
+     {}},
+    {"percent.csv",
+     "t [s],d [mm],Fn [N],COF [%]\n0,0,10,0\n1,1,10,20\n2,2,10,20\n",
+     {"Columns/Friction = COF [%]"},
+     {}},
+    {"nameless.csv",
+     "t [s],d [mm],p [MPa],signal\n0,0,10,0\n1,1,10,20\n2,2,10,20\n",
+     {"? Columns/Friction = column 4"},
      {}}};
 } // namespace
 

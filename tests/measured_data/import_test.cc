@@ -543,6 +543,50 @@ TEST(Import, UnitsThatContradictTheFileAreTold)
 
 
 
+TEST(Import, ACoefficientMayBeInPercent)
+{
+  const auto read = [&](const std::string &heading, const std::string &column) {
+    return import_test(map_of({{"Columns/Time", "t [s]"},
+                               {"Columns/Displacement", "x [mm]"},
+                               {"Columns/Friction", column},
+                               {"Constants/Pressure", "5 MPa"}}),
+                       write("raw.csv",
+                             "t [s],x [mm]," + heading + "\n0,0,0\n1,1,50\n"));
+  };
+  EXPECT_EQ(read("COF [%]", "COF [%]").friction[1], 0.5);
+  EXPECT_EQ(read("COF (%)", "COF (%) in %").friction[1], 0.5);
+  EXPECT_EQ(read("COF", "COF in %").friction[1], 0.5);
+  EXPECT_EQ(read("COF [-]", "COF [-]").friction[1], 50.);
+  const auto force = read("COF [N]", "COF [N]");
+  EXPECT_EQ(force.friction[1], 50.);
+  EXPECT_TRUE(contains(force.notes.at("units"),
+                       "column 3 is taken as a plain number, the file says N"));
+  EXPECT_TRUE(contains(read("COF [%]", "COF [%] in 1").notes.at("units"),
+                       "as a plain number, the file says %"));
+  EXPECT_THROW(read("COF", "COF in N"), InputError);
+  EXPECT_THROW(read("COF", "COF in furlong"), InputError);
+}
+
+
+
+TEST(Import, UnitsThatNobodyKnowsAreToldToo)
+{
+  const auto read = [&](const std::string &force) {
+    return import_test(
+      map_of({{"Columns/Time", "t [s]"},
+              {"Columns/Displacement", "x [mm]"},
+              {"Columns/Tangential load", force},
+              {"Constants/Normal load", "5 N"},
+              {"Constants/Area", "1 mm^2"}}),
+      write("raw.csv", "t [s],x [mm],F [lbs],F (left)\n0,0,0,0\n1,1,1,1\n"));
+  };
+  EXPECT_TRUE(contains(read("F [lbs] in N").notes.at("units"),
+                       "is taken in N, the file says lbs, no unit known here"));
+  EXPECT_TRUE(read("F (left) in N").notes.count("units") == 0);
+}
+
+
+
 TEST(Import, WhatIsAssumedIsSaid)
 {
   auto settings = of_strokes;

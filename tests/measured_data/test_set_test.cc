@@ -146,10 +146,39 @@ TEST(TestSet, ACopyIsTold)
   read_rows("b.csv", 0.31);
   read_rows("c.csv", 0.3);
   auto tests = read_test_set(test_folder());
-  warn_of_copies(tests);
+  warn_of_oddities(tests);
   ASSERT_EQ(tests.size(), 3u);
   EXPECT_TRUE(tests[0].warnings.empty());
   EXPECT_TRUE(tests[1].warnings.empty());
   ASSERT_EQ(tests[2].warnings.size(), 1u);
   EXPECT_TRUE(contains(tests[2].warnings[0], "c.csv: its rows are those of"));
+}
+
+
+
+TEST(TestSet, APressureInAnotherUnitIsTold)
+{
+  const auto read_rows = [](const std::string &name, const char *pressure) {
+    std::ofstream(test_folder() / name)
+      << header << "0,0," << pressure << ",0.1\n1,1," << pressure
+      << ",0.2\n2,2," << pressure << ",0.3" << name[0] - 'a' << '\n';
+  };
+  read_rows("a.csv", "2");
+  read_rows("b.csv", "20");
+  read_rows("c.csv", "2000");
+  auto tests = read_test_set(test_folder());
+  warn_of_oddities(tests);
+  EXPECT_TRUE(tests[0].warnings.empty());
+  EXPECT_TRUE(tests[1].warnings.empty());
+  EXPECT_TRUE(tests[2].warnings.empty());
+  read_rows("d.csv", "2.1");
+  tests = read_test_set(test_folder());
+  warn_of_oddities(tests);
+  ASSERT_EQ(tests[2].warnings.size(), 0u);
+  read_rows("c.csv", "9000");
+  tests = read_test_set(test_folder());
+  warn_of_oddities(tests);
+  ASSERT_EQ(tests[2].warnings.size(), 1u);
+  EXPECT_TRUE(
+    contains(tests[2].warnings[0], "c.csv: its pressure is 9000 MPa"));
 }

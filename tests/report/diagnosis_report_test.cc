@@ -162,6 +162,25 @@ TEST(DiagnosisHeadline, WhatRisesOrStaysIsNotSaidToFall)
 
 
 
+// Names and remainders that noise hides in size.
+TEST(DiagnosisHeadline, WhatIsSmallerThanNoiseIsSaidToBe)
+{
+  Diagnosis diagnosis                = SyntheticDiagnosis::incomplete();
+  diagnosis.shrink.systematic_before = 0.;
+  diagnosis.shrink.systematic_after  = 0.;
+  EXPECT_TRUE(contains(headline(diagnosis),
+                       "so that its pattern tells of it, not its size)"))
+    << headline(diagnosis);
+  EXPECT_TRUE(
+    contains(headline(diagnosis),
+             "; not all of it is explained, though what remains is no "
+             "more than noise would be"));
+  EXPECT_FALSE(contains(headline(SyntheticDiagnosis::incomplete()),
+                        "no more than noise would be"));
+}
+
+
+
 TEST(DiagnosisHeadline, RivalsStandBesideWhatTheyReplace)
 {
   Diagnosis diagnosis = SyntheticDiagnosis::ambiguous();

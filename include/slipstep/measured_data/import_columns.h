@@ -86,6 +86,15 @@ namespace SlipStep
     /// "" if it says none.
     std::string unit_in_file(const std::size_t position) const;
 
+    UnitConversion conversion_of_share(const std::string &path,
+                                       const std::string &name,
+                                       const std::string &told,
+                                       const Source      &source);
+
+    void add_contradiction(const std::size_t  position,
+                           const std::string &taken,
+                           const std::string &in_file);
+
     void compare_units(const std::size_t  position,
                        const std::string &unit,
                        const Dimension    dimension);

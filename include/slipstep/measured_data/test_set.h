@@ -21,9 +21,10 @@ namespace SlipStep
   /// @throws InputError naming both tests
   void check_conditions(const std::vector<MeasuredTest> &tests);
 
-  /// Warn of tests that have the rows of another one: a copy would count as
-  /// another measurement, and its noise as none.
-  void warn_of_copies(std::vector<MeasuredTest> &tests);
+  /// Warn of tests that have the rows of another one, since a copy would count
+  /// as another measurement and its noise as none; and of pressures so far from
+  /// those of most that the unit will be wrong.
+  void warn_of_oddities(std::vector<MeasuredTest> &tests);
 
   /// Median pressure while there is any [MPa].
   double typical_pressure(const MeasuredTest &test);

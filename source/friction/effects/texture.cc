@@ -116,10 +116,12 @@ namespace SlipStep
         return search_at(now, {0.});
       }
 
-      // Only tests across the track tell the angle.
+      // Along one line all that is known is the wavelength along it.
       static TrialFormula search_oblique(const Circumstances &now)
       {
         TrialFormula formula = search_at(now, {-PI / 4., PI / 4.});
+        if (formula.why_not.empty() && now.range.widest_angle < 0.1)
+          return TrialFormula::none("all tests move along one line");
         if (formula.why_not.empty())
           formula.parameters.push_back(
             {"Friction/texture/Angle", -0.45 * PI, 0.45 * PI, false});
