@@ -175,11 +175,10 @@ namespace SlipStep
 
 
   // A coefficient is a plain number, or per cent.
-  UnitConversion
-  ImportColumns::conversion_of_share(const std::string &path,
-                                     const std::string &name,
-                                     const std::string &told,
-                                     const Source      &source)
+  UnitConversion ImportColumns::conversion_of_share(const std::string &path,
+                                                    const std::string &name,
+                                                    const std::string &told,
+                                                    const Source      &source)
   {
     const std::string in_file = unit_in_file(source.position);
     const auto        is_none = [](const std::string &unit) {

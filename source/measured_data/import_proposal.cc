@@ -327,7 +327,8 @@ namespace SlipStep
       if (words.key == "Displacement" && !varies)
         return 0;
       if (words.key == "Friction" && seen.unit != "%" &&
-          !finite[column].empty() && median(finite[column]) > 3.) // a percentage, or a force
+          !finite[column].empty() &&
+          median(finite[column]) > 3.) // a percentage, or a force
         return 0;
       return points;
     }

@@ -182,7 +182,7 @@ namespace SlipStep
       if (!(diagnosis.shrink.systematic_after > 0.))
         text += ", though what remains is no more than noise would be";
       if (diagnosis.remains.empty())
-      return text;
+        return text;
       const Localisation &where = diagnosis.remains[0];
       text += ": the rest is felt most " + place_words(where);
       if (!where.tests.empty())
