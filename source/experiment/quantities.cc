@@ -127,6 +127,9 @@ namespace SlipStep
 
       double time_of(const double displacement, std::size_t &segment) const;
 
+      /// Path of the drive, with what pushes moved.
+      double path_of_row(const std::size_t row) const;
+
       /// Steps end at the borders of segments but for round-off.
       double round_off() const
       {
@@ -158,6 +161,24 @@ namespace SlipStep
         (displacement - before) / (path_after[segment] - before);
       return moving.start_time +
              std::min(share, 1.) * (moving.end_time - moving.start_time);
+    }
+
+
+
+    double HistoryReader::path_of_row(const std::size_t row) const
+    {
+      const auto &segments = programme.segments();
+      if (std::none_of(segments.begin(),
+                       segments.end(),
+                       [](const Segment &one) { return one.pushes; }))
+        return path.at(history[row].time);
+      double sum =
+        std::hypot(history[0].displacement, history[0].displacement_y);
+      for (std::size_t i = 1; i <= row; ++i)
+        sum +=
+          std::hypot(history[i].displacement - history[i - 1].displacement,
+                     history[i].displacement_y - history[i - 1].displacement_y);
+      return sum;
     }
 
 
@@ -209,14 +230,14 @@ namespace SlipStep
       if (i == history.size())
         return {QuantityOfInterest::undefined, QuantityOfInterest::undefined};
 
-      const double x1 = path.at(history[i].time), y1 = magnitude(history[i]);
+      const double x1 = path_of_row(i), y1 = magnitude(history[i]);
       if (i > 0 && i + 1 < history.size())
         for (const Segment &segment : programme.segments())
           if (history[i - 1].time >= segment.start_time - round_off() &&
               history[i + 1].time <= segment.end_time + round_off())
             {
-              const double h         = x1 - path.at(history[i - 1].time);
-              const double H         = path.at(history[i + 1].time) - x1;
+              const double h         = x1 - path_of_row(i - 1);
+              const double H         = path_of_row(i + 1) - x1;
               const double d         = (y1 - magnitude(history[i - 1])) / h;
               const double D         = (magnitude(history[i + 1]) - y1) / H;
               const double curvature = (D - d) / (h + H); // half of it

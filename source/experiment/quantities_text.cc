@@ -73,6 +73,9 @@ namespace SlipStep
       Reader(const Parameters &parameters, const Programme &programme)
         : parameters(parameters)
         , whole_path(SlidingPath(programme).whole())
+        , pushes(std::any_of(programme.segments().begin(),
+                             programme.segments().end(),
+                             [](const Segment &one) { return one.pushes; }))
       {}
 
       std::vector<QuantityOfInterest> read();
@@ -118,6 +121,7 @@ namespace SlipStep
 
       const Parameters               &parameters;
       const double                    whole_path;
+      const bool                      pushes;
       std::vector<QuantityOfInterest> quantities;
       std::string                     present_item, present_example;
     };
@@ -329,6 +333,9 @@ namespace SlipStep
       const std::string where        = "'" + present_item + "': ";
       if (!(displacement > 0.))
         fail(where + "the displacement must be above 0 mm");
+      if (pushes && whole_path > 0.)
+        fail(where + "how far a push moves the drive is known after the run "
+                     "only, so that no path of it can be named");
       if (displacement > whole_path * (1. + 1e-9))
         {
           std::ostringstream message;

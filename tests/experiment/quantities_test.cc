@@ -167,6 +167,44 @@ TEST(Quantities, wrong_ones_are_refused_in_words)
 
 
 
+// How far a push moves the drive is known after the run only.
+TEST(Quantities, count_what_pushes_move)
+{
+  const std::string pushed = "press 5 MPa in 1 s; push 0.1 MPa in 1 s; slide 1 "
+                             "mm/s for 0.1 mm";
+  const Parameters  parameters =
+    with_quantities("friction force at 0.01 mm", pushed);
+  try
+    {
+      parse_quantities(parameters, parse_programme(parameters));
+      ADD_FAILURE() << "not refused";
+    }
+  catch (const InputError &error)
+    {
+      EXPECT_TRUE(contains(error.what(), "how far a push moves the drive"));
+    }
+
+  const Parameters peak      = with_quantities("displacement at peak", pushed);
+  const Programme  programme = parse_programme(peak);
+  std::vector<HistoryRow> rows;
+  for (const double time : {0., 1., 2., 2.05, 2.1})
+    {
+      HistoryRow row;
+      row.time         = time;
+      row.displacement = time < 2. ? 0. : 0.3 + (time - 2.);
+      row.friction     = time > 2.01 && time < 2.09 ? 0.2 : 0.1;
+      rows.push_back(row);
+    }
+  EXPECT_NEAR(
+    evaluate_quantities(parse_quantities(peak, programme), programme, rows, 0)
+      .at(0)
+      .value,
+    0.35,
+    1e-12);
+}
+
+
+
 TEST(Quantities, do_not_depend_on_where_the_steps_fall)
 {
   const std::string all =
