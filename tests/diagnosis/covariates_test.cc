@@ -50,12 +50,9 @@ namespace
 
   Covariates covariates_of(const MeasuredTest &test, Comparison &comparison)
   {
-    Eigen::VectorXd friction(test.friction.size());
-    for (std::size_t i = 0; i < test.friction.size(); ++i)
-      friction(i) = test.friction[i];
     return find_covariates(comparison,
                            {{test, 0.001, true, Replay(test)}},
-                           friction,
+                           comparison.measured,
                            1e-3);
   }
 } // namespace
