@@ -488,3 +488,22 @@ TEST(ClosedForms, direction_that_acts_on_reversed_slip_only)
       EXPECT_NEAR(state.traction.norm(), p * 0.1 * (1. + 0.5 * c * c), 1e-9);
     }
 }
+
+
+
+// Lives of a coating after Weibull: half of it is gone after D_d ln(2)^(1/k).
+TEST(ClosedForms, coating_that_fails)
+{
+  const auto   law         = make_law({{"Effects", "damage"},
+                                       {"damage/Change", "-0.4"},
+                                       {"damage/Length", "20"},
+                                       {"damage/Sharpness", "6"},
+                                       {"Static coefficient", "0.2"}});
+  const double half        = 20. * std::pow(std::log(2.), 1. / 6.);
+  const double levels[][2] = {{2., 1.}, {half, 0.8}, {40., 0.6}};
+  for (const auto &level : levels)
+    EXPECT_NEAR(slide(*law, 5., 1., level[0], 400, {}).traction.norm() / 5.,
+                0.2 * level[1],
+                1e-6)
+      << level[0];
+}

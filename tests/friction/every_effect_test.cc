@@ -388,6 +388,8 @@ namespace
                                               2)));
       if (name == "run_in")
         return f * 0.6;
+      if (name == "damage")
+        return f * 1.3;
       if (name == "direction")
         return f * (1. + 0.25 * (1. - std::cos(dealii::numbers::PI / 9.)));
       if (name == "stribeck")

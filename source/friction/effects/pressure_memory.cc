@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/effect.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -89,9 +90,9 @@ namespace SlipStep
           {"Change",
            "alpha",
            "0",
-           Quantity(Dimension::number, 0., 0.99),
+           Quantity(Dimension::number, -0.99, 0.99),
            "fall of the coefficient per e-fold of the pressure, in shares of "
-           "it, before slip"},
+           "it, before slip; negative if it rises"},
           {"Slip length",
            "L",
            "0.1",
@@ -99,12 +100,34 @@ namespace SlipStep
            "slip over which a change of pressure is forgotten"}};
         info.neutral_settings = {{"Change", "0"}};
         info.typical_settings = {{"Change", "0.5"}, {"Slip length", "0.02 mm"}};
-        info.search.why_not   = "it shows in steps of pressure during sliding, "
-                                "which measured tests seldom have";
+        info.search           = {
+                    "a jump with every change of pressure that some slip takes back",
+                    search};
         return info;
       }
 
     private:
+      static TrialFormula search(const Circumstances &now)
+      {
+        const std::string  change = "Friction/pressure_memory/Change";
+        const std::string  length = "Friction/pressure_memory/Slip length";
+        const TestedRange &range  = now.range;
+        if (range.highest < 1.05 * range.lowest)
+          return TrialFormula::none("the pressure hardly varies");
+        TrialFormula formula;
+        const double path  = range.longest_path;
+        const double folds = std::log(range.highest / range.lowest);
+        formula.parameters = {{change, -0.95, 0.95, false},
+                              {length, 1e-3 * path, path, true}};
+        for (const double L : ladder(0.01 * path, 0.3 * path, 4))
+          formula.shapes.push_back([=](const double strength) {
+            return Values{
+              {change, std::clamp(just_noticed * strength / folds, -0.9, 0.9)},
+              {length, L}};
+          });
+        return formula;
+      }
+
       // w at the end.
       double share(const SlipStepData &step) const
       {

@@ -313,11 +313,12 @@ namespace SlipStep
       Trial trial;
       trial.cpu_time =
         static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-      // The workshop's memory of speed is the slip law of rate and state in
-      // other letters.
+      // What the workshop calls by other names: its memory of speed is the slip
+      // law of rate and state in other letters.
       for (const Planting::PlantedEffect &effect : campaign.hidden)
         trial.truth.push_back(effect.name == "memory_length" ? "slip_law" :
-                                                               effect.name);
+                              effect.name == "load_memory" ? "pressure_memory" :
+                                                             effect.name);
       trial.truth = candidates_of(trial.truth);
       trial.named = candidates_of(effect_names(judgement.found.model.parts));
       for (const Rival &rival : judgement.found.rivals)
