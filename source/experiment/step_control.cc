@@ -114,6 +114,14 @@ namespace SlipStep
 
 
 
+  void StepControl::plan_anew(const double step)
+  {
+    if (equal_steps == 0)
+      plan(step);
+  }
+
+
+
   bool StepControl::is_finished() const
   {
     return segment == programme.segments().size();

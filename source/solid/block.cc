@@ -48,6 +48,9 @@ namespace SlipStep
     make_grid();
     setup_system();
     old_solution.update_ghost_values();
+    if (is_put_down())
+      this->control.plan_anew(control.wanted_error() *
+                              programme.segments().front().end_time);
   }
 
 
@@ -92,13 +95,13 @@ namespace SlipStep
         const double        pushed_path = drive.pushed_path();
         // On a new mesh the contact finds another equilibrium at once, however
         // short the step; the step's length was fine before.
-        double error =
-          contact.step_error(communicator) *
-          programme.weight_of_error(control.time(), control.end_of_step());
-        error =
-          std::max({error,
-                    drive.error(drive_springs, driven_mass, totals.limit_load),
-                    error_of_motion(totals)});
+        double error = 0.;
+        if (!is_put_down())
+          error = std::max(
+            {contact.step_error(communicator) *
+               programme.weight_of_error(control.time(), control.end_of_step()),
+             drive.error(drive_springs, driven_mass, totals.limit_load),
+             error_of_motion(totals)});
         if (mesh_is_new)
           error = std::min(error, control.wanted_error());
         if (control.would_accept(error) && adapt_to_trial(output))
@@ -152,7 +155,6 @@ namespace SlipStep
   bool Block<dim>::make_step()
   {
     constexpr double gamma = TwoStages::gamma, carry = TwoStages::carry;
-    const double     begin = control.time(), step_size = control.step_size();
 
     contact.revert();
     is_given_up = false;
@@ -160,8 +162,11 @@ namespace SlipStep
     n_newton = n_linear = 0;
     stage_solution      = old_solution;
     stage_frame         = old_loading.displacement;
-    drive.begin_step(begin, control.is_first_of_segment());
+    drive.begin_step(control.time(), control.is_first_of_segment());
     inertia.begin_step();
+    if (is_put_down())
+      return settle();
+    const double begin = control.time(), step_size = control.step_size();
     begin_stage(begin + gamma * step_size, gamma * step_size);
     if (drive.is_unknown())
       begin_modes();
@@ -335,6 +340,8 @@ namespace SlipStep
         ++n_newton_total;
 
         norm = line_search(update, motion, norm);
+        if (bring_to_touch())
+          norm = compute_residual();
       }
   }
 

@@ -522,8 +522,9 @@ namespace SlipStep
         for (const auto &direction : {segment.end.velocity, segment.push})
           if (std::abs(direction[1]) > 1e-12 * direction.norm())
             parameters.reject("Loading/Programme",
-                              "a block in 2-D can slide and be pushed at 0 deg "
-                              "only");
+                              "a block in 2-D can slide and be pushed at 0 or "
+                              "180 deg only; other directions need "
+                              "Block/Dimension = 3, on one point, too");
 
     // A flat face must be free to move as a whole.
     for (unsigned int f = 0; f < names.size(); ++f)

@@ -10,6 +10,89 @@ namespace SlipStep
 
   // @sect3{First touch}
 
+  // A block that nothing holds up, whose face is not flat, stands on what
+  // touches first.
+  template <int dim>
+  bool Block<dim>::is_put_down() const
+  {
+    return control.time() == 0. && parameters.surface.is_curved() &&
+           !parameters.is_held_along_normal();
+  }
+
+
+
+  namespace
+  {
+    // Before anything slides.
+    double time_of_largest_load(const Programme &programme)
+    {
+      double pressure = 0., time = programme.segments().front().end_time;
+      for (const Segment &segment : programme.segments())
+        {
+          if (segment.pushes || segment.end.velocity.norm() > 0.)
+            break;
+          if (segment.end.pressure > pressure)
+            {
+              pressure = segment.end.pressure;
+              time     = segment.end_time;
+            }
+        }
+      return time;
+    }
+  } // namespace
+
+
+
+  // If that is not below its load it tips, by a finite angle however small the
+  // load, which no error of the step tells: so the first step is as short as
+  // the tolerance, and of one stage. Newton's method finds the way there from
+  // larger loads, which more of the face bears; where it loses it, the step is
+  // as short as it may be.
+  template <int dim>
+  bool Block<dim>::settle()
+  {
+    constexpr double less = 0.25;
+
+    const auto solve = [&](const LoadFactors &factors, const double time) {
+      begin_stage(control.end_of_step(), time);
+      load_factors = factors;
+      if (drive.is_unknown())
+        begin_modes();
+      impose_displacements();
+      return solve_stage();
+    };
+    const double      loading = time_of_largest_load(programme);
+    const LoadFactors largest = factors_at(loading);
+    LoadFactors       now     = factors_at(control.end_of_step());
+    Vector            guess   = old_solution;
+    double            borne   = 0.;
+    for (double share = 1.; share * largest[0] > now[0] && !is_given_up;
+         share *= less)
+      {
+        LoadFactors factors = largest;
+        for (double &factor : factors)
+          factor *= share;
+        solution = guess;
+        if (solve(factors, std::max(share * loading, control.step_size())))
+          {
+            guess = solution;
+            borne = share * largest[0];
+          }
+      }
+    solution = guess;
+    if (!is_given_up && !solve(now, control.step_size()) && borne > now[0] &&
+        control.n_rejected() == 0)
+      {
+        control.plan_anew(control.step_size() * borne / now[0]);
+        solution = guess;
+        now      = factors_at(control.end_of_step());
+        solve(now, control.step_size());
+      }
+    return !is_given_up && failure.empty() && finish_stage(1.);
+  }
+
+
+
   // A face that is not flat may touch nowhere yet, and a block that nothing
   // holds would fall for ever. It is put down as a rigid body until it bears
   // its load; Newton's method spreads it from there.
@@ -55,8 +138,12 @@ namespace SlipStep
 
 
 #ifndef SLIPSTEP_UNITY_BUILD
+  template bool   Block<2>::is_put_down() const;
+  template bool   Block<3>::is_put_down() const;
   template bool   Block<2>::bring_to_touch();
   template bool   Block<3>::bring_to_touch();
+  template bool   Block<2>::settle();
+  template bool   Block<3>::settle();
   template double Block<2>::least_force_scale() const;
   template double Block<3>::least_force_scale() const;
 #endif

@@ -89,8 +89,50 @@ TEST(Gap, AConstantMakesNoDifferenceToABlockThatFalls)
   const auto flat  = run_block_case<2>(make_parameters(settings));
   const auto above = run_block_case<2>(
     make_parameters(settings + Settings{{"Contact/Gap", "3"}}));
-  ASSERT_EQ(flat.history.size(), above.history.size());
-  EXPECT_DOUBLE_EQ(flat.history.back().friction, above.history.back().friction);
+  EXPECT_NEAR(flat.history.back().friction,
+              above.history.back().friction,
+              1e-5);
+}
+
+
+
+// A plane that leans against the block: that tips until it lies on it, at no
+// load, and is then pressed evenly, so that it feels no friction. A first step
+// of a tenth of the load held the block back by a tenth of the strength.
+TEST(Gap, BlocksTipAtNoLoad)
+{
+  const Settings settings =
+    coulomb_law + Settings{{"Loading/Programme", "press 5 MPa in 1 s"}};
+  const auto in_2d = run_block_case<2>(make_parameters(
+    settings + flat_2d + Settings{{"Contact/Gap", "0.0005*x"}}));
+  ASSERT_EQ(in_2d.failure, "");
+  EXPECT_LT(std::abs(in_2d.history.back().friction), 1e-3 * 0.1);
+  EXPECT_LT(in_2d.history.size(), 60);
+  const auto in_3d = run_block_case<3>(make_parameters(
+    settings + Settings{{"Block/Subdivisions", "2, 2, 2"},
+                        {"Contact/Gap", "0.0005*x + 0.0003*y"}}));
+  ASSERT_EQ(in_3d.failure, "");
+  EXPECT_LT(std::abs(in_3d.history.back().friction), 1e-3 * 0.1);
+}
+
+
+
+// On its edge, too: the less the first load, the nearer the way it goes.
+TEST(Gap, BlocksAreSetOnEdgesGently)
+{
+  const Settings settings =
+    coulomb_law + flat_2d +
+    Settings{{"Block/Young modulus", "10 GPa"},
+             {"Contact/Gap", "0.0005*abs(x - 3)"},
+             {"Loading/Programme", "press 5 MPa in 1 s"}};
+  const auto once  = run_block_case<2>(make_parameters(settings));
+  const auto twice = run_block_case<2>(make_parameters(
+    settings + Settings{{"Loading/Programme",
+                         "press 0.01 MPa in 1 s; press 5 MPa in 1 s"}}));
+  ASSERT_EQ(once.failure + twice.failure, "");
+  EXPECT_NEAR(once.history.back().friction,
+              twice.history.back().friction,
+              2e-3 * 0.1);
 }
 
 

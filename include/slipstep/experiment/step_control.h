@@ -35,6 +35,9 @@ namespace SlipStep
                 const Programme   &programme,
                 const FrictionLaw &law);
 
+    /// Try a step of another length, unless all of them shall be equal.
+    void plan_anew(const double step);
+
     bool is_finished() const;
 
     /// Time at the beginning of the step [s].

@@ -215,7 +215,9 @@ namespace SlipStep
     void        begin_stage(const double end_time, const double time_step);
     bool        finish_stage(const double weight);
     void        predict();
+    bool        is_put_down() const;
     bool        bring_to_touch();
+    bool        settle();
     void        add_loads(const double factor, Vector &vector) const;
     void        impose_displacements();
     bool        solve_stage();

@@ -20,6 +20,7 @@
 #include <Epetra_MultiVector.h>
 #include <Epetra_Vector.h>
 
+#include <iostream>
 #include <map>
 
 namespace SlipStep
@@ -98,8 +99,13 @@ namespace SlipStep
         own->FillComplete();
         problem.SetOperator(own.get());
         solver.reset(Amesos().Create("Amesos_Mumps", problem));
-        const int error = solver->SymbolicFactorization();
-        return error == 0 ? solver->NumericFactorization() : error;
+        // Of what an exception will tell, Amesos writes lines of its own.
+        std::streambuf *const written = std::cerr.rdbuf(nullptr);
+        int                   error   = solver->SymbolicFactorization();
+        if (error == 0)
+          error = solver->NumericFactorization();
+        std::cerr.rdbuf(written);
+        return error;
       }
 
       static void check(const Epetra_Comm &comm, int error)
