@@ -46,6 +46,10 @@ namespace SlipStep
 
       void warn();
 
+      void warn_of_misfit();
+
+      void warn_of_few_tests();
+
       void tell(const std::string &text, const double share);
 
       const Campaign campaign;
@@ -358,12 +362,64 @@ namespace SlipStep
           " starts ended in a worse optimum: the problem is not convex, take "
           "more Calibration/Starts to be sure.");
 
-      constexpr double far = 10.;
+      warn_of_misfit();
+    }
 
-      const double ratio = std::sqrt(result.misfit / result.n_rows);
-      if (ratio > far)
+
+
+    // As many parameters as tests take up whatever differs between these.
+    void Calibrator::warn_of_few_tests()
+    {
+      constexpr std::size_t enough = 3; // tests more than parameters
+      constexpr double      gain = 0.01, noticed = 2.;
+
+      if (campaign.tests.size() >= best.size() + enough)
+        return;
+      std::vector<std::string> wider;
+      for (Eigen::Index i = 0; i < optimum.by_gains.size(); ++i)
+        {
+          const double times =
+            gain * optimum.by_gains(i) / optimum.deviations(i);
+          if (times > noticed)
+            wider.push_back(campaign.fitted[i].path + " " +
+                            rounded_text(times, 2));
+        }
+      if (!wider.empty())
         result.warnings.push_back(
-          "the law does not describe these tests, which differ from it by " +
+          counted(campaign.tests.size(), "test") + " for " +
+          counted(best.size(), "parameter") +
+          " cannot show whether tests differ from one another: if their gains "
+          "do by 1 %, intervals are so many times as wide: " +
+          list_text(wider) + ". Replicates tell.");
+    }
+
+
+
+    // What a fit hides in parameters, and what it cannot hide.
+    void Calibrator::warn_of_misfit()
+    {
+      constexpr double some = 2., far = 10.;
+
+      std::vector<std::string> wider;
+      for (std::size_t i = 0; i < best.size(); ++i)
+        if (optimum.between_tests(i) > 1.)
+          wider.push_back(campaign.fitted[i].path + " " +
+                          rounded_text(optimum.between_tests(i), 2));
+      if (!wider.empty())
+        result.warnings.push_back(
+          "The tests differ from one another by more than their rows scatter, "
+          "as where a gain or a zero changes from test to test: judged by "
+          "leaving out one test at a time, intervals are so many times as wide "
+          "as by rows alone: " +
+          list_text(wider) + ".");
+      else
+        warn_of_few_tests();
+      const double ratio = std::sqrt(result.misfit / result.n_rows);
+      if (ratio > some)
+        result.warnings.push_back(
+          (ratio > far ? "the law does not describe these tests, which differ "
+                         "from it by " :
+                         "these tests differ from the fitted law by ") +
           rounded_text(ratio, 2) +
           " times their noise: slipstep diagnose looks for what is missing; a "
           "unit, a scale or a zero of the records may be wrong, too.");

@@ -118,6 +118,7 @@ namespace SlipStep
       result.correlation = result.deviations.cwiseInverse().asDiagonal() *
                            covariance *
                            result.deviations.cwiseInverse().asDiagonal();
+      result.deviations = result.deviations.cwiseProduct(result.between_tests);
       for (Eigen::Index i = 0; i < n; ++i)
         if (result.deviations(i) > 1e6)
           result.deviations(i) = infinite;
@@ -198,12 +199,104 @@ namespace SlipStep
 
 
 
-  double Linearisation::threshold(const double confidence) const
+  namespace
   {
-    const double freedom =
-      std::max(1., n_effective - static_cast<double>(scaled.size()));
-    return inflation * boost::math::quantile(boost::math::fisher_f(1., freedom),
-                                             confidence);
+    // As residuals are: first one axis, then the other.
+    Eigen::VectorXd friction_over_noise(const CampaignTest &test)
+    {
+      const Eigen::Index n = test.rows.time.size();
+      Eigen::VectorXd    result(test.n_residuals());
+      result.head(n) =
+        Eigen::Map<const Eigen::VectorXd>(test.rows.friction.data(), n);
+      if (result.size() > n)
+        result.tail(n) =
+          Eigen::Map<const Eigen::VectorXd>(test.rows.friction_y.data(), n);
+      return result / test.noise;
+    }
+
+
+
+    // A jackknife over tests, in units of what the scatter of rows would make
+    // of it: without a test with the share H of the information, x moves by
+    // (1 - H)^-1 s, of variance (1 - H)^-1 - 1. What one test alone tells is
+    // not compared with anything.
+    void compare_tests(const Campaign            &campaign,
+                       const RowMatrix           &derivatives,
+                       const std::vector<double> &residuals,
+                       Linearisation             &result)
+    {
+      constexpr double least_left = 1e-3, least_share = 1e-4, by_chance = 2.;
+
+      const Eigen::Index p = result.R.cols();
+      result.between_tests = Eigen::VectorXd::Ones(p);
+      result.n_told.assign(p, 0);
+      result.by_gains                = Eigen::VectorXd::Zero(p);
+      const Eigen::VectorXd diagonal = result.R.diagonal().cwiseAbs();
+      if (diagonal.minCoeff() <= least_singular_value * diagonal.maxCoeff())
+        return;
+      const Eigen::MatrixXd inverse =
+        result.R.triangularView<Eigen::Upper>().solve(
+          Eigen::MatrixXd::Identity(p, p));
+      Eigen::VectorXd sums  = Eigen::VectorXd::Zero(p);
+      Eigen::Index    begin = 0;
+      for (const CampaignTest &test : campaign.tests)
+        {
+          const Eigen::Index    n = test.n_residuals();
+          const Eigen::MatrixXd J = derivatives.middleRows(begin, n) * inverse;
+          const Eigen::VectorXd s =
+            J.transpose() *
+            Eigen::Map<const Eigen::VectorXd>(residuals.data() + begin, n);
+          const Eigen::VectorXd by_gain =
+            inverse * (J.transpose() * friction_over_noise(test));
+          result.by_gains += by_gain.cwiseAbs2();
+          begin += n;
+          const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> left(
+            Eigen::MatrixXd::Identity(p, p) - J.transpose() * J);
+          Eigen::VectorXd move = left.eigenvectors().transpose() * s,
+                          variance(p);
+          for (Eigen::Index k = 0; k < p; ++k)
+            {
+              const double share   = left.eigenvalues()(k);
+              const bool   is_told = share > least_left;
+              move(k)              = is_told ? move(k) / share : 0.;
+              variance(k) = is_told ? std::max(0., 1. / share - 1.) : 0.;
+            }
+          const Eigen::MatrixXd to_x = inverse * left.eigenvectors();
+          for (Eigen::Index i = 0; i < p; ++i)
+            {
+              const double expected =
+                to_x.row(i).cwiseAbs2().dot(variance.transpose());
+              if (expected < least_share * inverse.row(i).squaredNorm())
+                continue;
+              sums(i) += std::pow(to_x.row(i).dot(move.transpose()), 2) /
+                         (result.inflation * expected);
+              ++result.n_told[i];
+            }
+        }
+      result.by_gains = result.by_gains.cwiseSqrt();
+      for (Eigen::Index i = 0; i < p; ++i)
+        {
+          const double factor =
+            std::sqrt(sums(i) / std::max<std::size_t>(1, result.n_told[i]));
+          if (result.n_told[i] > 1 && factor > by_chance)
+            result.between_tests(i) = factor;
+        }
+    }
+  } // namespace
+
+
+
+  double Linearisation::threshold(const double      confidence,
+                                  const std::size_t i) const
+  {
+    const double factor  = between_tests(i);
+    const double freedom = factor > 1. ?
+                             n_told[i] - 1. :
+                             n_effective - static_cast<double>(scaled.size());
+    return inflation * factor * factor *
+           boost::math::quantile(boost::math::fisher_f(1.,
+                                                       std::max(1., freedom)),
+                                 confidence);
   }
 
 
@@ -264,6 +357,7 @@ namespace SlipStep
       }
     result.inflation = std::max(1., result.misfit / (n - n_parameters)) *
                        (result.misfit > 0. ? together / result.misfit : 1.);
+    compare_tests(campaign, derivatives, residuals, result);
     analyse(result);
     return result;
   }
@@ -292,7 +386,7 @@ namespace SlipStep
         for (std::size_t i = 0; i < others.size(); ++i)
           slopes(others[i]) = found(i);
       }
-    const double threshold      = optimum.threshold(confidence);
+    const double threshold      = optimum.threshold(confidence, parameter);
     const double first_distance = optimum.deviations(parameter) /
                                   optimum.size[parameter] *
                                   std::sqrt(threshold / optimum.inflation);

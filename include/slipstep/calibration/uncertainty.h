@@ -45,8 +45,19 @@ namespace SlipStep
     /// Standard deviation of every x.
     Eigen::VectorXd deviations;
 
-    /// The increase of the misfit at which an interval ends.
-    double threshold(const double confidence) const;
+    /// How many times further the tests, left out one at a time, move every x
+    /// than the scatter of their rows lets them; 1 where chance may do that.
+    /// Gains and zeros that differ from test to test do it. The deviations have
+    /// it already.
+    Eigen::VectorXd between_tests;
+    /// Standard deviations of x that a unit of gain would make, another one in
+    /// every test: empty where a direction is unknown.
+    Eigen::VectorXd by_gains;
+    /// How many tests told of between_tests, for every x.
+    std::vector<std::size_t> n_told;
+
+    /// The increase of the misfit at which an interval of x_i ends.
+    double threshold(const double confidence, const std::size_t i) const;
   };
 
   /// @param simulator planned at the optimum
