@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/measured_data/odd_rows.h>
 #include <slipstep/measured_data/test_rows.h>
 
 #include <slipstep/utilities/text.h>
@@ -82,24 +83,22 @@ namespace SlipStep
 
       void check_sign_of_friction() const;
 
-      void warn_of_scales();
-
-      void warn_of_jumps();
-
       std::size_t size() const
       {
         return kept.size();
       }
 
-    private:
-      void keep(const std::vector<std::size_t> &rows);
-
+      /// @param first the row, of those kept
       void warn(const std::string &text, const std::size_t first)
       {
         test.warnings.push_back(
           (test.file.empty() ? test.name : test.file.string()) + ": " + text +
           " (first: line " + std::to_string(origin.line(first)) + ")");
       }
+
+    private:
+      void keep(const std::vector<std::size_t> &rows);
+
 
       MeasuredTest                &test;
       const RowOrigin             &origin;
@@ -258,7 +257,8 @@ namespace SlipStep
           if (pressure == 0. && slides)
             origin.reject(kept[i],
                           "pressure",
-                          "pressure is zero where friction is not");
+                          "pressure is zero where friction is not: give the "
+                          "friction of open contact as 0");
         }
       if (range_of(test.pressure) == 0. && test.pressure.front() == 0.)
         origin.reject(kept[0], "pressure", "pressure is zero throughout");
@@ -266,11 +266,20 @@ namespace SlipStep
 
 
 
+    // A single row, of an error code or a spike, has no say.
     void RowsOfTest::check_sign_of_friction() const
     {
+      const auto bounded = [](std::vector<double> friction) {
+        if (friction.empty())
+          return friction;
+        const double limit = 3. * usual_size(friction);
+        for (double &value : friction)
+          value = std::clamp(value, -limit, limit);
+        return friction;
+      };
       Work work;
-      add_work(test.displacement, test.friction, work);
-      add_work(test.displacement_y, test.friction_y, work);
+      add_work(test.displacement, bounded(test.friction), work);
+      add_work(test.displacement_y, bounded(test.friction_y), work);
       if (work.done >= -0.5 * work.possible)
         return;
 
@@ -283,78 +292,6 @@ namespace SlipStep
                     "nearly throughout: is its sign, or that of the "
                     "displacement, to be reversed? Say so in a map of "
                     "slipstep import (Convention)");
-    }
-
-
-
-    // What no laboratory measures is a unit, a scale or an offset that went
-    // wrong. A few rows do not count: loads that open have any friction.
-    void RowsOfTest::warn_of_scales()
-    {
-      constexpr double share            = 0.95;
-      constexpr double largest_friction = 2.;
-      constexpr double largest_pressure = 1e5;  // MPa, a tenth of a megabar
-      constexpr double fastest          = 1e6;  // mm/s
-      constexpr double slowest          = 1e-8; // mm/s, a third of a mm a year
-
-      std::vector<double> friction;
-      for (std::size_t i = 0; i < kept.size(); ++i)
-        friction.push_back(
-          std::hypot(test.friction[i],
-                     test.friction_y.empty() ? 0. : test.friction_y[i]));
-      const auto exceeded_by = friction.begin() + share * (kept.size() - 1);
-      std::nth_element(friction.begin(), exceeded_by, friction.end());
-      if (*exceeded_by > largest_friction)
-        warn("friction reaches " + rounded_text(*exceeded_by, 3) +
-               " of the pressure: is it a force, a percentage, or the pressure "
-               "wrong?",
-             kept[0]);
-      if (median(test.pressure) > largest_pressure)
-        warn("the pressure is " + rounded_text(median(test.pressure), 3) +
-               " MPa: is its unit right?",
-             kept[0]);
-      const double speed =
-        std::hypot(range_of(test.displacement), range_of(test.displacement_y)) /
-        (test.time.back() - test.time.front());
-      if (speed > fastest || (speed > 0. && speed < slowest))
-        warn("it moves at " + rounded_text(speed, 3) +
-               " mm/s: are the units of displacement and time right?",
-             kept[0]);
-    }
-
-
-
-    // From one row to the next against the motion of the rows on both sides, by
-    // far more than these move, and a good part of the way: no machine does
-    // that.
-    void RowsOfTest::warn_of_jumps()
-    {
-      constexpr std::size_t beside = 5; // rows
-      constexpr double      far = 3., good_part = 0.05;
-
-      const std::vector<double> &x     = test.displacement;
-      const double               least = good_part * range_of(x);
-      std::size_t                n     = 0;
-      std::size_t                first = 0;
-      for (std::size_t i = beside + 1; i + beside < x.size(); ++i)
-        {
-          const double jump   = x[i] - x[i - 1];
-          const double before = x[i - 1] - x[i - 1 - beside];
-          const double after  = x[i + beside] - x[i];
-          if (before * after > 0. && jump * before < 0. &&
-              std::abs(jump) > least &&
-              std::abs(jump) >
-                far * std::max(std::abs(before), std::abs(after)) &&
-              n++ == 0)
-            first = i;
-        }
-      if (n > 0)
-        warn("the displacement jumps by " +
-               rounded_text(x[first] - x[first - 1], 3) +
-               " mm within one row, against the motion before and after: did a "
-               "counter wrap, or are rows missing? Such rows: " +
-               std::to_string(n),
-             kept[first]);
     }
   } // namespace
 
@@ -376,8 +313,9 @@ namespace SlipStep
                           ""));
     rows.check_pressure();
     rows.check_sign_of_friction();
-    rows.warn_of_scales();
-    rows.warn_of_jumps();
+    warn_of_odd_rows(test, [&](const std::string &text, const std::size_t row) {
+      rows.warn(text, row);
+    });
   }
 
 

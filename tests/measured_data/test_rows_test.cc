@@ -264,12 +264,13 @@ TEST(TestRows, ScalesOfNoLaboratoryAreWarnedOf)
     return read(rows);
   };
   for (const double mm : {1e-4, 0.1, 1e5})
-    for (const double MPa : {1e-3, 5., 1e4})
+    for (const double MPa : {1e-3, 5., 2e3})
       for (const double mu : {0.02, 0.3, 1.9})
         EXPECT_TRUE(slide(mm, MPa, mu).warnings.empty()) << mm << " " << MPa;
   expect_warning(slide(0.1, 5., 30.),
                  "friction reaches 30 of the pressure: is it a force");
-  expect_warning(slide(0.1, 5e6, 0.3), "the pressure is 5e+06 MPa");
+  // 5 MPa in kPa.
+  expect_warning(slide(0.1, 5e3, 0.3), "the pressure is 5000 MPa");
   expect_warning(slide(1e8, 5., 0.3), "it moves at 1e+08 mm/s");
   // At rest nothing is slow, and one open row is no scale.
   EXPECT_TRUE(slide(0., 5., 0.3).warnings.empty());
@@ -314,4 +315,63 @@ TEST(TestRows, ACounterThatWrapsIsTold)
   EXPECT_FALSE(has_jump(record([&](const int i) {
     return 0.002 * i + 1e-3 * std::normal_distribution<double>(0., 1.)(random);
   })));
+}
+
+
+
+namespace
+{
+  // 250 rows of sliding, some of them changed.
+  MeasuredTest slide_with(const std::function<void(int, double (&)[4])> &change)
+  {
+    std::string rows;
+    for (int i = 0; i < 250; ++i)
+      {
+        double row[4] = {0.1 * i, 0.01 * i, 5., i == 0 ? 0. : 0.15};
+        change(i, row);
+        for (int k = 0; k < 4; ++k)
+          rows += std::to_string(row[k]) + (k < 3 ? "," : "\n");
+      }
+    return read(rows);
+  }
+} // namespace
+
+
+
+// Of 250 rows one holds an error code: no sign is wrong, and no scale.
+TEST(TestRows, StrayRowsAreTold)
+{
+  for (const double code : {-999., 9.99, -9.99})
+    {
+      const MeasuredTest test = slide_with([&](const int i, double(&row)[4]) {
+        if (i == 120)
+          row[3] = code;
+      });
+      ASSERT_EQ(test.warnings.size(), 1U) << code;
+      expect_warning(test, "far from the other rows: an error code");
+      expect_warning(test, "first: line 122");
+    }
+  expect_warning(slide_with([](const int i, double(&row)[4]) {
+                   if (i == 120)
+                     row[2] = 9999.;
+                 }),
+                 "pressure is 10000 there");
+}
+
+
+
+// A clock that jumps reads as slow sliding; a rest that is recorded does not,
+// nor do rows that are missing while it slides on.
+TEST(TestRows, PausesWithoutRowsAreTold)
+{
+  const auto paused = [](const double seconds, const double mm) {
+    return slide_with([=](const int i, double(&row)[4]) {
+      row[0] += i > 125 ? seconds : 0.;
+      row[1] += i > 125 ? mm : 0.;
+    });
+  };
+  expect_warning(paused(1000., 0.), "time goes on by 1000 s within one row");
+  expect_warning(paused(10., 0.), "moves 0.01 mm");
+  EXPECT_TRUE(paused(10., 1.).warnings.empty());
+  EXPECT_TRUE(paused(1000., -0.01).warnings.empty());
 }

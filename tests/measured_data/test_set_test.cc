@@ -163,22 +163,21 @@ TEST(TestSet, APressureInAnotherUnitIsTold)
       << header << "0,0," << pressure << ",0.1\n1,1," << pressure
       << ",0.2\n2,2," << pressure << ",0.3" << name[0] - 'a' << '\n';
   };
-  read_rows("a.csv", "2");
-  read_rows("b.csv", "20");
-  read_rows("c.csv", "2000");
+  read_rows("a.csv", "0.2");
+  read_rows("b.csv", "2");
+  read_rows("c.csv", "200");
   auto tests = read_test_set(test_folder());
   warn_of_oddities(tests);
   EXPECT_TRUE(tests[0].warnings.empty());
   EXPECT_TRUE(tests[1].warnings.empty());
   EXPECT_TRUE(tests[2].warnings.empty());
-  read_rows("d.csv", "2.1");
+  read_rows("d.csv", "0.21");
   tests = read_test_set(test_folder());
   warn_of_oddities(tests);
   ASSERT_EQ(tests[2].warnings.size(), 0u);
-  read_rows("c.csv", "9000");
+  read_rows("c.csv", "900");
   tests = read_test_set(test_folder());
   warn_of_oddities(tests);
   ASSERT_EQ(tests[2].warnings.size(), 1u);
-  EXPECT_TRUE(
-    contains(tests[2].warnings[0], "c.csv: its pressure is 9000 MPa"));
+  EXPECT_TRUE(contains(tests[2].warnings[0], "c.csv: its pressure is 900 MPa"));
 }

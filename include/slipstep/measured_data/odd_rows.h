@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef slipstep_measured_data_odd_rows_h
+#define slipstep_measured_data_odd_rows_h
+
+#include <slipstep/measured_data/measured_test.h>
+
+#include <functional>
+
+namespace SlipStep
+{
+  /// What nearly all values (95 %) are below, in size.
+  double usual_size(std::vector<double> values);
+
+  /// Tell of what no laboratory measures: scales, stray rows, jumps of position
+  /// and clock, sensors at their limit.
+  /// @param warn told what, and the first row of it
+  void warn_of_odd_rows(
+    const MeasuredTest                                                &test,
+    const std::function<void(const std::string &, const std::size_t)> &warn);
+} // namespace SlipStep
+
+#endif

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/measured_data/odd_rows.h>
+#include <slipstep/measured_data/test_rows.h>
+#include <slipstep/utilities/text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace SlipStep
+{
+  double usual_size(std::vector<double> values)
+  {
+    constexpr double share = 0.95;
+
+    for (double &value : values)
+      value = std::abs(value);
+    const auto limit =
+      values.begin() + std::lround(std::ceil(share * (values.size() - 1)));
+    std::nth_element(values.begin(), limit, values.end());
+    return *limit;
+  }
+
+
+
+  namespace
+  {
+    class OddRows
+    {
+    public:
+      using Warn = std::function<void(const std::string &, const std::size_t)>;
+
+      OddRows(const MeasuredTest &test, const Warn &warn)
+        : test(test)
+        , warn(warn)
+      {}
+
+      void warn_of_scales() const;
+
+      void warn_of_pauses() const;
+
+      void warn_of_jumps() const;
+
+      void warn_of_limits() const;
+
+    private:
+      void warn_of_strays(const std::string         &name,
+                          const std::vector<double> &values,
+                          const double               limit) const;
+
+      const MeasuredTest &test;
+      const Warn         &warn;
+    };
+
+
+
+    // What no laboratory measures is a unit, a scale or an offset that went
+    // wrong. A few rows do not count: loads that open have any friction.
+    void OddRows::warn_of_scales() const
+    {
+      constexpr double largest_friction = 2.;
+      constexpr double largest_pressure =
+        3e3;                           // MPa, as the hardest metals bear
+      constexpr double fastest = 1e6;  // mm/s
+      constexpr double slowest = 1e-8; // mm/s, a third of a mm a year
+
+      std::vector<double> friction;
+      for (std::size_t i = 0; i < test.time.size(); ++i)
+        friction.push_back(
+          std::hypot(test.friction[i],
+                     test.friction_y.empty() ? 0. : test.friction_y[i]));
+      const double usual = usual_size(friction);
+      if (usual > largest_friction)
+        warn("friction reaches " + rounded_text(usual, 3) +
+               " of the pressure: is it a force, a percentage, or the pressure "
+               "wrong?",
+             0);
+      else
+        warn_of_strays("friction",
+                       friction,
+                       std::max(largest_friction, 5. * usual));
+      warn_of_strays("pressure", test.pressure, 100. * median(test.pressure));
+      if (median(test.pressure) > largest_pressure)
+        warn("the pressure is " + rounded_text(median(test.pressure), 3) +
+               " MPa: is its unit right?",
+             0);
+      const double speed =
+        std::hypot(range_of(test.displacement), range_of(test.displacement_y)) /
+        (test.time.back() - test.time.front());
+      if (speed > fastest || (speed > 0. && speed < slowest))
+        warn("it moves at " + rounded_text(speed, 3) +
+               " mm/s: are the units of displacement and time right?",
+             0);
+    }
+
+
+
+    // Rows far from all others, under load.
+    void OddRows::warn_of_strays(const std::string         &name,
+                                 const std::vector<double> &values,
+                                 const double               limit) const
+    {
+      const double load = 0.5 * median(test.pressure);
+      std::size_t  n = 0, first = 0;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (values[i] > limit && test.pressure[i] >= load && n++ == 0)
+          first = i;
+      if (n > 0)
+        warn(name + " is " + rounded_text(values[first], 3) +
+               " there, far from the other rows: an error code, or a spike? "
+               "Leave out rows that measure nothing. Such rows: " +
+               std::to_string(n),
+             first);
+    }
+
+
+
+    // A step of time far longer than the others, within which it moves on as
+    // from row to row: the machine stood, or the clock jumped. Read as it is,
+    // it slides slowly there.
+    void OddRows::warn_of_pauses() const
+    {
+      constexpr std::size_t beside    = 5; // rows
+      constexpr double      long_step = 20., slow = 0.05, moves = 0.2;
+
+      const auto way = [&](const std::size_t from, const std::size_t to) {
+        return std::hypot(test.displacement[to] - test.displacement[from],
+                          test.displacement_y.empty() ?
+                            0. :
+                            test.displacement_y[to] -
+                              test.displacement_y[from]);
+      };
+      std::vector<double> steps;
+      for (std::size_t i = 1; i < test.time.size(); ++i)
+        steps.push_back(test.time[i] - test.time[i - 1]);
+      const double usual = median(steps);
+      std::size_t  n = 0, first = 0;
+      for (std::size_t i = beside + 1; i + beside < test.time.size(); ++i)
+        {
+          const double before = way(i - 1 - beside, i - 1);
+          const double after  = way(i, i + beside);
+          const double speed =
+            std::min(before / (test.time[i - 1] - test.time[i - 1 - beside]),
+                     after / (test.time[i + beside] - test.time[i]));
+          const double moved = way(i - 1, i);
+          if (steps[i - 1] > long_step * usual &&
+              moved < slow * speed * steps[i - 1] &&
+              moved > moves * std::min(before, after) / beside && n++ == 0)
+            first = i;
+        }
+      if (n > 0)
+        warn("time goes on by " + rounded_text(steps[first - 1], 3) +
+               " s within one row while it moves " +
+               rounded_text(way(first - 1, first), 3) +
+               " mm, which is read as sliding that slowly: if the clock jumped "
+               "or the machine stood still, correct the times or add a row "
+               "where it stopped. Such rows: " +
+               std::to_string(n),
+             first);
+    }
+
+
+
+    // From one row to the next against the motion of the rows on both sides, by
+    // far more than these move, and a good part of the way: no machine does
+    // that.
+    void OddRows::warn_of_jumps() const
+    {
+      constexpr std::size_t beside = 5; // rows
+      constexpr double      far = 3., good_part = 0.05;
+
+      const std::vector<double> &x     = test.displacement;
+      const double               least = good_part * range_of(x);
+      std::size_t                n     = 0;
+      std::size_t                first = 0;
+      for (std::size_t i = beside + 1; i + beside < x.size(); ++i)
+        {
+          const double jump   = x[i] - x[i - 1];
+          const double before = x[i - 1] - x[i - 1 - beside];
+          const double after  = x[i + beside] - x[i];
+          if (before * after > 0. && jump * before < 0. &&
+              std::abs(jump) > least &&
+              std::abs(jump) >
+                far * std::max(std::abs(before), std::abs(after)) &&
+              n++ == 0)
+            first = i;
+        }
+      if (n > 0)
+        warn("the displacement jumps by " +
+               rounded_text(x[first] - x[first - 1], 3) +
+               " mm within one row, against the motion before and after: did a "
+               "counter wrap, or are rows missing? Such rows: " +
+               std::to_string(n),
+             first);
+    }
+
+
+
+    // A sensor at its limit: the largest value again and again, far more often
+    // than the one before it, in a record that scatters elsewhere.
+    void OddRows::warn_of_limits() const
+    {
+      constexpr std::size_t least_rows = 10;
+      constexpr double      share = 0.02, more_often = 5., scatters = 0.3;
+
+      const std::vector<double>    &values = test.friction;
+      std::map<double, std::size_t> n_of_size;
+      for (const double value : values)
+        ++n_of_size[std::abs(value)];
+      if (n_of_size.size() < 3)
+        return;
+      const auto        largest = std::prev(n_of_size.end());
+      const std::size_t n       = largest->second;
+      if (n < least_rows || n < share * values.size() ||
+          n < more_often * std::prev(largest)->second)
+        return;
+      // Noise turns at two of three rows.
+      std::size_t n_triples = 0, n_turns = 0, first = 0;
+      for (std::size_t i = 1; i + 1 < values.size(); ++i)
+        {
+          const bool is_free =
+            std::max({std::abs(values[i - 1]),
+                      std::abs(values[i]),
+                      std::abs(values[i + 1])}) < largest->first;
+          n_triples += is_free;
+          n_turns +=
+            is_free &&
+            (values[i] - values[i - 1]) * (values[i + 1] - values[i]) < 0.;
+        }
+      while (std::abs(values[first]) < largest->first)
+        ++first;
+      if (n_triples >= 2 * least_rows && n_turns > scatters * n_triples)
+        warn("friction is exactly " + rounded_text(largest->first, 6) + " in " +
+               std::to_string(n) +
+               " rows and never more, while other rows scatter: was the sensor "
+               "at its limit?",
+             first);
+    }
+  } // namespace
+
+
+
+  void warn_of_odd_rows(
+    const MeasuredTest                                                &test,
+    const std::function<void(const std::string &, const std::size_t)> &warn)
+  {
+    const OddRows rows(test, warn);
+    rows.warn_of_scales();
+    rows.warn_of_limits();
+    rows.warn_of_pauses();
+    rows.warn_of_jumps();
+  }
+} // namespace SlipStep
