@@ -488,7 +488,8 @@ namespace SlipStep
     for (const ComparedTest &test : comparison.tests)
       for (std::size_t i = 0; i < test.n_bins(); ++i)
         {
-          double square = 0.;
+          double square       = 0.;
+          result.has_two_axes = result.has_two_axes || test.series.size() > 1;
           for (std::size_t s = 0; s < test.series.size(); ++s)
             square +=
               std::pow(covariates.friction(test.begin + s * test.n_bins() + i),

@@ -2,6 +2,8 @@
 #include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/motion_noise.h>
 #include <slipstep/diagnosis/outlier.h>
+#include <slipstep/diagnosis/record_warnings.h>
+#include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/ingest.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
@@ -179,6 +181,8 @@ namespace SlipStep
 
       void calibrate();
 
+      void keep_near();
+
       void weigh_motion(const Eigen::VectorXd &noise);
 
       double judge_rows(const Eigen::VectorXd &difference);
@@ -191,14 +195,6 @@ namespace SlipStep
       bool drop_outlier();
 
       void judge_chance();
-
-      void warn();
-
-      void warn_of_rows();
-
-      double difference_of_replicates() const;
-
-      void warn_of_temperatures();
 
       const Stage      stage;
       const Parameters start;
@@ -363,6 +359,38 @@ namespace SlipStep
                                comparison.measured + difference);
         }
       comparison.fit(result.base, 0.01);
+      keep_near();
+    }
+
+
+
+    // Where the law is far off and rows hang together, noise that lets whole
+    // tests be off lets the fit give up their level for the sake of few rows.
+    void Preparer::keep_near()
+    {
+      constexpr double far = 4., much = 1.2;
+
+      Workspace &workspace = *result.workspace;
+      Model     &base      = result.base;
+      const auto rms       = [&](const Model &model) {
+        return relative_rms(workspace.comparison,
+                            workspace.comparison.difference(*model.simulator,
+                                                            model.scaled));
+      };
+      result.is_kept_near = false;
+      if (base.objective < far * workspace.comparison.n_rows())
+        return;
+      const std::optional<Model> plain = fit_plainly(workspace, base);
+      if (!plain.has_value() || rms(base) < much * rms(*plain))
+        return;
+      base.scaled = plain->scaled;
+      base.simulator->plan(base.scaled);
+      base.simulator->correct(base.scaled, correction_share);
+      workspace.comparison.fit(base,
+                               0.01,
+                               {},
+                               std::vector<bool>(base.scaled.size(), true));
+      result.is_kept_near = true;
     }
 
 
@@ -479,21 +507,6 @@ namespace SlipStep
 
 
 
-    // The step of a record that is rounded as coarsely as it scatters; 0 if it
-    // is finer.
-    double coarse_step(const CampaignTest &test)
-    {
-      std::vector<double> values = test.rows.friction;
-      std::sort(values.begin(), values.end());
-      double step = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 1; i < values.size(); ++i)
-        if (values[i] - values[i - 1] > 1e-9 * std::abs(values[i]))
-          step = std::min(step, values[i] - values[i - 1]);
-      return std::isfinite(step) && step > test.noise ? step : 0.;
-    }
-
-
-
     // Results are told by names.
     void make_names_unique(std::vector<CampaignTest> &tests)
     {
@@ -507,113 +520,6 @@ namespace SlipStep
                              test.rows.file.filename())
                               .string() +
                             ")";
-    }
-
-
-
-    void Preparer::warn_of_rows()
-    {
-      std::size_t n     = 0;
-      double      decay = 0.;
-      for (const ComparedTest &test : result.workspace->comparison.tests)
-        if (test.series[0].row_share > 0.)
-          {
-            ++n;
-            decay =
-              std::max(decay,
-                       test.series[0].row_share * test.series[0].row_decay);
-          }
-      if (n == 0)
-        return;
-      std::ostringstream words;
-      words << std::setprecision(2) << "The rows of " << n
-            << " test(s) hang together (correlation of neighbours up to "
-            << decay
-            << "): they tell as much as fewer rows would, and are weighed so.";
-      result.warnings.push_back(words.str());
-    }
-
-
-
-    // Of one replicate, root mean square over friction; 0 without any.
-    double Preparer::difference_of_replicates() const
-    {
-      const Comparison &comparison = result.workspace->comparison;
-      double            squares    = 0.;
-      Eigen::Index      n          = 0;
-      for (const Contrast &contrast : comparison.contrasts(
-             comparison.difference(*result.base.simulator, result.base.scaled)))
-        {
-          squares +=
-            contrast.values.squaredNorm() / std::pow(contrast.level, 2);
-          n += contrast.values.size();
-        }
-      return n > 0 ? std::sqrt(squares / n) : 0.;
-    }
-
-
-
-    // Heating knows the rise that it makes, nothing reads what was measured.
-    void Preparer::warn_of_temperatures()
-    {
-      constexpr double noticed = 5.; // K
-
-      double lowest  = std::numeric_limits<double>::infinity();
-      double highest = -lowest;
-      for (const CampaignTest &test : result.workspace->tests)
-        for (const double temperature : test.rows.temperature)
-          {
-            lowest  = std::min(lowest, temperature);
-            highest = std::max(highest, temperature);
-          }
-      if (!(highest - lowest > noticed))
-        return;
-      std::ostringstream words;
-      words << std::setprecision(3) << "The measured temperature goes from "
-            << lowest << " to " << highest
-            << " degC: no effect reads it, so that what it does to friction "
-               "has no name here.";
-      result.warnings.push_back(words.str());
-    }
-
-
-
-    void Preparer::warn()
-    {
-      const Workspace &workspace = *result.workspace;
-      const double     rms =
-        relative_rms(workspace.comparison,
-                     workspace.comparison.difference(*result.base.simulator,
-                                                     result.base.scaled));
-      if (rms > 1.02 * result.start_rms)
-        result.warnings.push_back(
-          "Calibrated, the starting model is farther from the tests than "
-          "before: the stated noise lets whole tests be off, or its parameters "
-          "have to start elsewhere.");
-      std::size_t n_rounded = 0;
-      double      step      = 0.;
-      for (const CampaignTest &test : workspace.tests)
-        {
-          const double own = coarse_step(test);
-          n_rounded += own > 0.;
-          step = std::max(step, own);
-        }
-      if (n_rounded > 0)
-        {
-          std::ostringstream words;
-          words
-            << std::setprecision(2) << "The friction of " << n_rounded
-            << " test(s) is rounded to steps of " << step
-            << ", coarser than its scatter: rounding is no noise, and small "
-               "differences cannot be trusted. Export more digits.";
-          result.warnings.push_back(words.str());
-        }
-      warn_of_rows();
-      warn_of_temperatures();
-      if (difference_of_replicates() > rms)
-        result.warnings.push_back(
-          "Replicates differ by more than the model does from the tests: they "
-          "may not be repetitions, and little can be told.");
     }
 
 
@@ -646,7 +552,7 @@ namespace SlipStep
         calibrate();
       tell("noise");
       judge_chance();
-      warn();
+      warn_of_records(result);
       return std::move(result);
     }
   } // namespace

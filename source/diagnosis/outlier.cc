@@ -56,16 +56,19 @@ namespace SlipStep
 
 
 
-    // By the noise of the others.
-    Contradiction judge_contrast(const std::vector<Contrast> &contrasts,
-                                 const std::size_t            which,
-                                 const Noise                 &prior,
-                                 const std::uint64_t          seed)
+    // By the noise of those that are not suspected.
+    Contradiction judge_contrast(const std::vector<Contrast>    &contrasts,
+                                 const std::size_t               which,
+                                 const std::vector<std::size_t> &suspected,
+                                 const Noise                    &prior,
+                                 const std::uint64_t             seed)
     {
       constexpr unsigned int n_draws = 2000;
 
-      std::vector<Contrast> others = contrasts;
-      others.erase(others.begin() + which);
+      std::vector<Contrast> others;
+      for (std::size_t i = 0; i < contrasts.size(); ++i)
+        if (std::count(suspected.begin(), suspected.end(), i) == 0)
+          others.push_back(contrasts[i]);
       const NoiseEstimate estimate = estimate_noise(others, prior);
       const Contrast     &contrast = contrasts[which];
       const SlowPart      slow(contrast, estimate.noise);
@@ -117,11 +120,27 @@ namespace SlipStep
     for (std::size_t i = 0; i < n_examined; ++i)
       {
         const Contradiction found =
-          judge_contrast(contrasts, order[i], prior, seed);
+          judge_contrast(contrasts, order[i], {order[i]}, prior, seed);
         if (found.chance < worst.chance)
           worst = found;
       }
-    if (worst.chance * contrasts.size() > level)
+    const double n = contrasts.size();
+    if (worst.chance * n <= level)
+      return worst;
+
+    // Two hide each other: both, by the noise of those without them. The two
+    // largest of many are large by chance, too.
+    constexpr double      sure        = 1e-4;
+    constexpr std::size_t least_other = 4;
+    if (contrasts.size() < least_other + 2)
+      return {};
+    double largest_chance = 0.;
+    for (const std::size_t i : {order[0], order[1]})
+      {
+        worst = judge_contrast(contrasts, i, {order[0], order[1]}, prior, seed);
+        largest_chance = std::max(largest_chance, worst.chance);
+      }
+    if (std::pow(largest_chance, 2) * n * (n - 1.) / 2. > sure)
       return {};
     return worst;
   }

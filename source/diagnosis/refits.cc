@@ -225,6 +225,29 @@ namespace SlipStep
 
 
 
+  std::optional<Model> fit_plainly(const Workspace &workspace,
+                                   const Model     &model)
+  {
+    constexpr double share = 0.01;
+
+    Comparison plain = workspace.comparison;
+    for (ComparedTest &test : plain.tests)
+      for (Series &series : test.series)
+        {
+          std::fill(series.row_noise.begin(),
+                    series.row_noise.end(),
+                    share * test.level);
+          series.row_share = 0.;
+        }
+    plain.set_noise(Noise(), plain.measured);
+    Model result     = model;
+    result.simulator = std::make_shared<Simulator>(*model.simulator);
+    return plain.fit(result, 1.) ? std::make_optional(std::move(result)) :
+                                   std::nullopt;
+  }
+
+
+
   double penalised(const Model &model)
   {
     std::size_t n = model.scaled.size();

@@ -51,11 +51,10 @@ namespace SlipStep
     class Searcher
     {
     public:
-      Searcher(Workspace &workspace, const Model &base)
+      Searcher(Workspace &workspace, const Model &first)
         : workspace(workspace)
-        , base(base)
       {
-        result.model = base;
+        result.model = first;
       }
 
       SearchResult run();
@@ -95,7 +94,6 @@ namespace SlipStep
       }
 
       Workspace   &workspace;
-      const Model &base;
       SearchResult result;
     };
 
@@ -398,6 +396,8 @@ namespace SlipStep
 
     SearchResult Searcher::run()
     {
+      if (!result.model.parts.empty())
+        prove();
       SearchResult proven = result;
       // One more, to complete a formula.
       for (unsigned int round = 0; round <= workspace.most_effects; ++round)
@@ -435,8 +435,8 @@ namespace SlipStep
 
 
 
-  SearchResult search(Workspace &workspace, const Model &base)
+  SearchResult search(Workspace &workspace, const Model &first)
   {
-    return Searcher(workspace, base).run();
+    return Searcher(workspace, first).run();
   }
 } // namespace SlipStep

@@ -191,9 +191,11 @@ namespace SlipStep
 
 
 
-    void look_for_names(Workspace &workspace, Judgement &judgement)
+    void look_for_names(Workspace   &workspace,
+                        Judgement   &judgement,
+                        const Model &first)
     {
-      judgement.found = search(workspace, judgement.base);
+      judgement.found = search(workspace, first);
       if (judgement.found.model.parts.empty())
         {
           judgement.verdict = Verdict::unnamed;
@@ -215,9 +217,19 @@ namespace SlipStep
 
 
 
-    // A few bad rows shall not withdraw a right name: once more with those that
-    // it does not explain counting for less. If that cannot be fitted, they
-    // count as before.
+    // For fits that are not to change another model's simulator.
+    Model copied(const Model &model)
+    {
+      Model result     = model;
+      result.simulator = std::make_shared<Simulator>(*model.simulator);
+      return result;
+    }
+
+
+
+    // A few bad rows shall not withdraw a right name: once more, from what was
+    // found on, with those that it does not explain counting for less. If that
+    // cannot be fitted, they count as before.
     void judge_without_outliers(Workspace &workspace, Judgement &judgement)
     {
       const std::vector<Eigen::Index> rows =
@@ -227,16 +239,28 @@ namespace SlipStep
       Workspace weakened = workspace;
       weaken_rows(weakened, judgement.found.model, rows);
       Judgement again;
-      again.base = judgement.base;
-      again.base.simulator =
-        std::make_shared<Simulator>(*judgement.base.simulator);
+      again.base     = copied(judgement.base);
       again.outlying = rows;
-      if (!weakened.comparison.fit(again.base, 0.01))
+      Model first    = copied(judgement.found.model);
+      if (!weakened.comparison.fit(again.base, 0.01) ||
+          !weakened.comparison.fit(first, 0.01))
+        return;
+      // Far off, a fit may have lost the tests for the sake of few rows.
+      const auto rms = [&](const Model &model) {
+        return relative_rms(weakened.comparison,
+                            weakened.comparison.difference(*model.simulator,
+                                                           model.scaled));
+      };
+      if (rms(again.base) > 1.2 * rms(judgement.base))
         return;
       workspace = std::move(weakened);
       look_for_gap(workspace, again);
       if (again.gap.p <= workspace.level)
-        look_for_names(workspace, again);
+        {
+          look_for_names(workspace, again, first);
+          if (again.found.gains.empty())
+            again.found.gains = judgement.found.gains;
+        }
       else
         {
           again.verdict           = without_gap(again.view);
@@ -265,7 +289,7 @@ namespace SlipStep
       }
 
     tell("looking for its name");
-    look_for_names(workspace, result);
+    look_for_names(workspace, result, result.base);
     if (!result.found.model.parts.empty())
       {
         tell("looking for rows that nothing explains");

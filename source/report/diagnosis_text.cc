@@ -36,6 +36,26 @@ namespace SlipStep
       return rivals;
     }
 
+    /// ", by the formula of ageing": the effect whose parameters were added,
+    /// where it is called otherwise than the name.
+    std::string formula_words(const Diagnosis   &diagnosis,
+                              const std::string &name)
+    {
+      const std::string friction = "Friction/";
+      for (const CandidateResult &candidate : diagnosis.candidates)
+        if (candidate.name == name && !candidate.parameters.empty())
+          {
+            const std::string &path = candidate.parameters[0].path;
+            const std::size_t  end  = path.find('/', friction.size());
+            if (path.rfind(friction, 0) != 0 || end == std::string::npos)
+              return "";
+            const std::string effect =
+              path.substr(friction.size(), end - friction.size());
+            return effect == name ? "" : ", by the formula of " + effect;
+          }
+      return "";
+    }
+
     /// In brackets behind one name or two.
     std::string all_plain_words(const Diagnosis &diagnosis)
     {
@@ -50,7 +70,7 @@ namespace SlipStep
       for (const std::string &name : names)
         text += (text.empty() ? "" : "; ") +
                 (names.size() > 1 ? name + ": " : std::string()) +
-                plain_words(name);
+                plain_words(name) + formula_words(diagnosis, name);
       return " (" + text + ")";
     }
 
@@ -178,9 +198,10 @@ namespace SlipStep
       if (!has_after(diagnosis) || diagnosis.effects.empty() ||
           !diagnosis.is_incomplete)
         return "";
-      std::string text = "; not all of it is explained";
-      if (!(diagnosis.shrink.systematic_after > 0.))
-        text += ", though what remains is no more than noise would be";
+      std::string text =
+        diagnosis.shrink.systematic_after > 0. ?
+          "; not all of it is explained" :
+          "; what remains is no larger than noise, but has a pattern";
       if (diagnosis.remains.empty())
         return text;
       const Localisation &where = diagnosis.remains[0];
@@ -388,7 +409,7 @@ namespace SlipStep
       {"heat", "after recent frictional work of"},
       {"angle", "at angles of"},
       {"rate of pressure", "while the pressure changes by"},
-      {"order of the tests", "in the order of tests at"}};
+      {"order of the tests", "in the tests run as number"}};
     if (where.wavelength > 0.)
       return "along the track, in waves of " + wave_text(where);
     if (where.covariate == "direction")

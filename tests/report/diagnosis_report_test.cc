@@ -173,10 +173,9 @@ TEST(DiagnosisHeadline, WhatIsSmallerThanNoiseIsSaidToBe)
     << headline(diagnosis);
   EXPECT_TRUE(
     contains(headline(diagnosis),
-             "; not all of it is explained, though what remains is no "
-             "more than noise would be"));
+             "; what remains is no larger than noise, but has a pattern"));
   EXPECT_FALSE(contains(headline(SyntheticDiagnosis::incomplete()),
-                        "no more than noise would be"));
+                        "no larger than noise, but has a pattern"));
 }
 
 

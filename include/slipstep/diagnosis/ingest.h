@@ -23,6 +23,9 @@ namespace SlipStep
     /// Of the starting model as the case has it: root mean square of the
     /// differences, as a share of friction, and the objective.
     double start_rms = 0., start_objective = 0.;
+    /// Whether the base has the parameters of the least differences, not the
+    /// most plausible ones: those would miss whole tests.
+    bool is_kept_near = false;
     /// Tests that contradict their own replicates; they are left out.
     std::vector<Outlier>      outliers;
     std::vector<CampaignTest> outlier_tests;

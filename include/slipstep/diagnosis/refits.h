@@ -35,6 +35,11 @@ namespace SlipStep
   /// taken out.
   void settle(const Workspace &workspace, Model &model);
 
+  /// Fitted as if rows alone had noise, the same share of friction everywhere:
+  /// no test may be off as a whole. None if that cannot be simulated.
+  std::optional<Model> fit_plainly(const Workspace &workspace,
+                                   const Model     &model);
+
   /// The objective with the price of the parameters.
   double penalised(const Model &model);
 } // namespace SlipStep

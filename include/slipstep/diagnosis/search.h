@@ -50,7 +50,8 @@ namespace SlipStep
   /// Add effects as long as they are needed, take away those that are not, and
   /// exchange those for which another does better. When time is over, what was
   /// proven until then.
-  SearchResult search(Workspace &workspace, const Model &base);
+  /// @param first the starting model, or what a search has found, fitted
+  SearchResult search(Workspace &workspace, const Model &first);
 } // namespace SlipStep
 
 #endif

@@ -26,7 +26,8 @@ namespace SlipStep
     double longest_test     = 0.; ///< [s]
     double longest_slide    = 0.; ///< without a rest [s]
     double typical_friction = 0.;
-    double widest_angle     = 0.; ///< between lines of motion, to pi/2 [rad]
+    double widest_angle     = 0.;    ///< between lines of motion, to pi/2 [rad]
+    bool   has_two_axes     = false; ///< friction across the motion is measured
     /// Length of the wave along the track that the model leaves, beyond chance
     /// [mm]; 0 if there is none.
     double track_wave = 0.;

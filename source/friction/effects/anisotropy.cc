@@ -130,7 +130,8 @@ namespace SlipStep
         info.search            = {"a ratio in off-axis tests", search};
         info.search.other_form = [](const Circumstances &now) {
           TrialFormula formula = search(now);
-          formula.texts        = {{"Friction/anisotropy/Form", "opposite"}};
+          if (formula.why_not.empty())
+            formula.texts = {{"Friction/anisotropy/Form", "opposite"}};
           return formula;
         };
         info.search.along = "angle";
@@ -139,8 +140,10 @@ namespace SlipStep
       }
 
     private:
-      static TrialFormula search(const Circumstances &)
+      static TrialFormula search(const Circumstances &now)
       {
+        if (now.range.widest_angle < 0.1 && !now.range.has_two_axes)
+          return TrialFormula::none("all tests move along one line");
         const std::string ratio   = "Friction/anisotropy/Ratio";
         const std::string angle   = "Friction/anisotropy/Angle";
         const double      quarter = dealii::numbers::PI / 4.;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/record_warnings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // The step of a record that is rounded as coarsely as it scatters; 0 if it
+    // is finer.
+    double coarse_step(const CampaignTest &test)
+    {
+      std::vector<double> values = test.rows.friction;
+      std::sort(values.begin(), values.end());
+      double step = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 1; i < values.size(); ++i)
+        if (values[i] - values[i - 1] > 1e-9 * std::abs(values[i]))
+          step = std::min(step, values[i] - values[i - 1]);
+      return std::isfinite(step) && step > test.noise ? step : 0.;
+    }
+
+
+
+    void warn_of_rows(Ingested &result)
+    {
+      std::size_t n     = 0;
+      double      decay = 0.;
+      for (const ComparedTest &test : result.workspace->comparison.tests)
+        if (test.series[0].row_share > 0.)
+          {
+            ++n;
+            decay =
+              std::max(decay,
+                       test.series[0].row_share * test.series[0].row_decay);
+          }
+      if (n == 0)
+        return;
+      std::ostringstream words;
+      words << std::setprecision(2) << "The rows of " << n
+            << " test(s) hang together (correlation of neighbours up to "
+            << decay
+            << "): they tell as much as fewer rows would, and are weighed so.";
+      result.warnings.push_back(words.str());
+    }
+
+
+
+    // Of one replicate, root mean square over friction; 0 without any.
+    double difference_of_replicates(const Ingested &result)
+    {
+      const Comparison &comparison = result.workspace->comparison;
+      double            squares    = 0.;
+      Eigen::Index      n          = 0;
+      for (const Contrast &contrast : comparison.contrasts(
+             comparison.difference(*result.base.simulator, result.base.scaled)))
+        {
+          squares +=
+            contrast.values.squaredNorm() / std::pow(contrast.level, 2);
+          n += contrast.values.size();
+        }
+      return n > 0 ? std::sqrt(squares / n) : 0.;
+    }
+
+
+
+    // Heating knows the rise that it makes, nothing reads what was measured.
+    void warn_of_temperatures(Ingested &result)
+    {
+      constexpr double noticed = 5.; // K
+
+      double lowest  = std::numeric_limits<double>::infinity();
+      double highest = -lowest;
+      for (const CampaignTest &test : result.workspace->tests)
+        for (const double temperature : test.rows.temperature)
+          {
+            lowest  = std::min(lowest, temperature);
+            highest = std::max(highest, temperature);
+          }
+      if (!(highest - lowest > noticed))
+        return;
+      std::ostringstream words;
+      words << std::setprecision(3) << "The measured temperature goes from "
+            << lowest << " to " << highest
+            << " degC: no effect reads it, so that what it does to friction "
+               "has no name here.";
+      result.warnings.push_back(words.str());
+    }
+  } // namespace
+
+
+
+  void warn_of_records(Ingested &ingested)
+  {
+    const Workspace &workspace = *ingested.workspace;
+    const double     rms =
+      relative_rms(workspace.comparison,
+                   workspace.comparison.difference(*ingested.base.simulator,
+                                                   ingested.base.scaled));
+    if (rms > 1.02 * ingested.start_rms)
+      ingested.warnings.push_back(
+        "Calibrated, the starting model is farther from the tests than "
+        "before: the stated noise lets whole tests be off, or its parameters "
+        "have to start elsewhere.");
+    std::size_t n_rounded = 0;
+    double      step      = 0.;
+    for (const CampaignTest &test : workspace.tests)
+      {
+        const double own = coarse_step(test);
+        n_rounded += own > 0.;
+        step = std::max(step, own);
+      }
+    if (n_rounded > 0)
+      {
+        std::ostringstream words;
+        words << std::setprecision(2) << "The friction of " << n_rounded
+              << " test(s) is rounded to steps of " << step
+              << ", coarser than its scatter: rounding is no noise, and small "
+                 "differences cannot be trusted. Export more digits.";
+        ingested.warnings.push_back(words.str());
+      }
+    warn_of_rows(ingested);
+    warn_of_temperatures(ingested);
+    if (ingested.is_kept_near)
+      ingested.warnings.push_back(
+        "The law is so far from these tests that the most plausible "
+        "parameters would miss whole tests for the sake of few rows: those "
+        "of the least differences are taken.");
+    // Without a gap they are about the same.
+    if (difference_of_replicates(ingested) > 1.5 * rms)
+      ingested.warnings.push_back(
+        "Replicates differ by more than the model does from the tests: they "
+        "may not be repetitions, and little can be told.");
+  }
+} // namespace SlipStep
