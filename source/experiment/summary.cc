@@ -405,6 +405,7 @@ namespace SlipStep
     first_direction[0] = last_direction[0] = 1.;
     if (!all.empty())
       first_direction = all.front().first_direction;
+    double end_of_motion = 0.;
     for (std::size_t i = 0; i < all.size(); ++i)
       {
         SlideSummary slide;
@@ -413,10 +414,26 @@ namespace SlipStep
         if (summarise(all[i], history, slide))
           {
             last_direction = all[i].last_direction;
+            end_of_motion  = all[i].end_time;
             if (all[i].is_straight)
               summary.slides.push_back(slide);
           }
       }
+    // A load pushes where it points.
+    const double begin_of_motion =
+      all.empty() ? history.back().time : all.front().start_time;
+    bool is_first = true;
+    for (const Segment &segment : programme.segments())
+      if (segment.pushes && segment.push.norm() > 0. &&
+          segment.start_time < history.back().time)
+        {
+          const Tensor<1, 2> direction = segment.push / segment.push.norm();
+          if (segment.start_time < begin_of_motion && is_first)
+            first_direction = direction;
+          if (segment.end_time > end_of_motion)
+            last_direction = direction;
+          is_first = false;
+        }
 
     summary.peak_friction = 0.;
     for (const HistoryRow &row : history)

@@ -386,6 +386,33 @@ TEST(Summary, WhatAPushMovedIsNoPartOfASlide)
 
 
 
+// Friction resists where a load points.
+TEST(Summary, PushesHaveADirection)
+{
+  for (const char *angle : {"0", "45", "90", "180"})
+    for (const char *before : {"", "slide 1 mm/s for 1 mm; "})
+      {
+        const Parameters parameters =
+          point_parameters({{"Loading/Programme",
+                             std::string("press 5.8 MPa in 1 s; ") + before +
+                               "push 0.3 MPa in 1 s at " + angle + " deg"}});
+        const auto history = point_history(parameters);
+        Summary    summary;
+        summarise_history(history, parse_programme(parameters), summary);
+        EXPECT_NEAR(summary.final_friction, 0.3 / 5.8, 1e-9) << before << angle;
+        if (*before == '\0')
+          {
+            EXPECT_NEAR(summary.peak_displacement,
+                        std::hypot(history.back().displacement,
+                                   history.back().displacement_y),
+                        1e-12)
+              << angle;
+          }
+      }
+}
+
+
+
 // The first step of a slide can be a thousand times shorter than what a clock
 // after months of rest seems to resolve.
 TEST(Summary, SlidesAfterALongRestAreToldApart)
