@@ -2,7 +2,9 @@
 #include <slipstep/commands/case.h>
 #include <slipstep/commands/commands.h>
 #include <slipstep/commands/results_folder.h>
+#include <slipstep/experiment/case_identity.h>
 #include <slipstep/experiment/summary.h>
+#include <slipstep/friction/law.h>
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/report/page.h>
 #include <slipstep/report/run_report.h>
@@ -142,9 +144,14 @@ namespace SlipStep
     std::vector<TableLine>
     differences_of_keys(const std::vector<ReportedRun> &runs)
     {
-      std::vector<Parameters> used;
+      const std::string                  off = "-";
+      std::vector<Parameters>            used;
+      std::vector<std::set<std::string>> inactive;
       for (const ReportedRun &run : runs)
-        used.push_back(used_parameters(run));
+        {
+          used.push_back(used_parameters(run));
+          inactive.push_back(FrictionLaw(used.back()).inactive_sections());
+        }
       std::vector<TableLine> table(runs.size() + 1);
       table[0].push_back("run");
       for (std::size_t i = 0; i < runs.size(); ++i)
@@ -155,15 +162,24 @@ namespace SlipStep
           if (section != "Loading" && section != "Friction" &&
               section != "Block" && section != "Time stepping")
             continue;
-          if (std::all_of(used.begin(),
-                          used.end(),
-                          [&](const Parameters &other) {
-                            return other.text(path) == used[0].text(path);
-                          }))
+          TableLine values;
+          for (std::size_t i = 0; i < runs.size(); ++i)
+            values.push_back(
+              inactive[i].count(path.substr(0, path.rfind('/'))) > 0 ?
+                off :
+                used[i].text(path));
+          const auto is_first = [&](const std::string &value) {
+            return value == values[0] ||
+                   (value != off && values[0] != off &&
+                    is_same_value(*used[0].entry(path).pattern,
+                                  values[0],
+                                  value));
+          };
+          if (std::all_of(values.begin(), values.end(), is_first))
             continue;
           table[0].push_back(path);
           for (std::size_t i = 0; i < runs.size(); ++i)
-            table[i + 1].push_back(used[i].text(path));
+            table[i + 1].push_back(values[i]);
         }
       const std::size_t n_keys = table[0].size() - 1;
       if (n_keys == 0)

@@ -65,30 +65,29 @@ namespace SlipStep
     {
       return path == "Loading/Programme" || path == "Loading/Speed";
     }
-
-
-
-    // "1 cm" is "10 mm", "0.10" is "0.1", "a, b" is "a,b".
-    bool is_same_value(const dealii::Patterns::PatternBase *pattern,
-                       const std::string                   &value,
-                       const std::string                   &other)
-    {
-      const auto without_blanks = [](std::string text) {
-        boost::erase_all(text, " ");
-        return text;
-      };
-      if (without_blanks(value) == without_blanks(other))
-        return true;
-      if (const auto *quantity = dynamic_cast<const Quantity *>(pattern))
-        return quantity->match(other) &&
-               quantity->value(value) == quantity->value(other);
-      return dynamic_cast<const dealii::Patterns::Double *>(pattern) !=
-               nullptr &&
-             pattern->match(other) &&
-             dealii::Utilities::string_to_double(value) ==
-               dealii::Utilities::string_to_double(other);
-    }
   } // namespace
+
+
+
+  bool is_same_value(const dealii::Patterns::PatternBase &pattern,
+                     const std::string                   &value,
+                     const std::string                   &other)
+  {
+    const auto without_blanks = [](std::string text) {
+      boost::erase_all(text, " ");
+      return text;
+    };
+    if (without_blanks(value) == without_blanks(other))
+      return true;
+    if (const auto *quantity = dynamic_cast<const Quantity *>(&pattern))
+      return quantity->match(other) &&
+             quantity->value(value) == quantity->value(other);
+    return dynamic_cast<const dealii::Patterns::Double *>(&pattern) !=
+             nullptr &&
+           pattern.match(other) &&
+           dealii::Utilities::string_to_double(value) ==
+             dealii::Utilities::string_to_double(other);
+  }
 
 
 
@@ -118,7 +117,7 @@ namespace SlipStep
         programme_text = value.second;
       else if (value.first == "Loading/Speed")
         speed = value.second;
-      else if (!is_same_value(parameters.entry(value.first).pattern.get(),
+      else if (!is_same_value(*parameters.entry(value.first).pattern,
                               parameters.text(value.first),
                               value.second))
         refuse(value.first, value.second);
@@ -148,7 +147,7 @@ namespace SlipStep
              [&](const auto &one, const auto &another) {
                return one.first == another.first &&
                       (is_in_programme(one.first) ||
-                       is_same_value(declared.entry(one.first).pattern.get(),
+                       is_same_value(*declared.entry(one.first).pattern,
                                      one.second,
                                      another.second));
              });

@@ -225,6 +225,10 @@ TEST_F(Grid, IsComparedWithOtherResults)
        "one.prm",
        "--set",
        "Friction/Static coefficient=0.25",
+       "--set",
+       "Friction/Normal stiffness=100 GPa/mm",
+       "--set",
+       "Friction/Effects=subloading",
        "--output",
        "one",
        "--quiet"});
@@ -240,7 +244,9 @@ TEST_F(Grid, IsComparedWithOtherResults)
   const std::string page = process.read("both/report.html");
   EXPECT_TRUE(contains(page, "What differs"));
   EXPECT_TRUE(contains(page, "Friction/Static coefficient"));
+  // The same in other words; what is off has no value.
   EXPECT_FALSE(contains(page, "Friction/Normal stiffness"));
+  EXPECT_TRUE(contains(page, "Friction/overstress/Viscosity"));
   // Its values are those of no case.
   EXPECT_FALSE(contains(page, "<h2>Conditions</h2>"));
   if (has_gnuplot())

@@ -42,6 +42,12 @@ namespace SlipStep
     /// Checksum of the segments of the programme.
     std::uint32_t programme = 0;
   };
+
+  /// Whether two texts give a parameter the same value: "1 cm" is "10 mm",
+  /// "0.10" is "0.1", "a, b" is "a,b".
+  bool is_same_value(const dealii::Patterns::PatternBase &pattern,
+                     const std::string                   &value,
+                     const std::string                   &other);
 } // namespace SlipStep
 
 #endif
