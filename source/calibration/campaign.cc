@@ -106,23 +106,23 @@ namespace SlipStep
 
 
 
+  double Campaign::noted_noise(const MeasuredTest &test)
+  {
+    const auto note = test.notes.find("noise");
+    if (note == test.notes.end())
+      return 0.;
+    const Quantity noise(Dimension::number, 0., 1e30, true);
+    if (!noise.match(note->second))
+      throw InputError(test.file.string() + ": noise: " + note->second + ": " +
+                       noise.why_not(note->second) +
+                       "; it must be a number greater than 0");
+    return noise.value(note->second);
+  }
+
+
+
   namespace
   {
-    double noted_noise(const MeasuredTest &test)
-    {
-      const auto note = test.notes.find("noise");
-      if (note == test.notes.end())
-        return 0.;
-      const Quantity noise(Dimension::number, 0., 1e30, true);
-      if (!noise.match(note->second))
-        throw InputError(test.file.string() + ": noise: " + note->second +
-                         ": " + noise.why_not(note->second) +
-                         "; it must be a number greater than 0");
-      return noise.value(note->second);
-    }
-
-
-
     double estimated_noise(const MeasuredTest &test)
     {
       return std::max(noise_level(test.friction),
@@ -246,7 +246,7 @@ namespace SlipStep
                                    row_distance)};
       keep_rows(result.rows, rows);
       result.motion_step = step;
-      const double noted = noted_noise(test);
+      const double noted = Campaign::noted_noise(test);
       const double stated =
         noted > 0. ? noted : Campaign::stated_noise(parameters);
       result.noise_is_stated = stated > 0.;

@@ -152,6 +152,7 @@ namespace SlipStep
       for (const MeasuredTest &test : tests)
         {
           print_warnings(test.warnings);
+          Campaign::noted_noise(test);
           if (!line.quiet)
             std::cout << test.file.string() << ": OK, " << describe(test)
                       << std::endl;

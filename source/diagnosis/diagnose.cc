@@ -137,13 +137,14 @@ namespace SlipStep
       for (const Outlier &outlier :
            outlying_rows_words(*ingested.workspace, judgement.outlying))
         result.outliers.push_back(outlier);
-      if (!judgement.named_by_outliers.empty())
+      if (judgement.verdict == Verdict::no_gap && !judgement.outlying.empty())
         result.warnings.push_back(
           "While the numbers that nothing explains counted in full there was a "
-          "gap, and " +
-          list_text(judgement.named_by_outliers) +
-          " had a name for it: should their records be right, this verdict is "
-          "not.");
+          "gap, " +
+          (judgement.named_by_outliers.empty() ?
+             "without a name" :
+             "by the name of " + list_text(judgement.named_by_outliers)) +
+          ": should their records be right, this verdict is not.");
       for (const Rival &rival : judgement.found.rivals)
         {
           result.ambiguous_with.push_back(rival.name);

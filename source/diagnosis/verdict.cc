@@ -227,9 +227,9 @@ namespace SlipStep
 
 
 
-    // A few bad rows shall not withdraw a right name: once more, from what was
-    // found on, with those that it does not explain counting for less. If that
-    // cannot be fitted, they count as before.
+    // A few bad rows shall neither make a gap nor withdraw a right name: once
+    // more, from what was found on, with those that it does not explain
+    // counting for less. If that cannot be fitted, they count as before.
     void judge_without_outliers(Workspace &workspace, Judgement &judgement)
     {
       const std::vector<Eigen::Index> rows =
@@ -290,11 +290,8 @@ namespace SlipStep
 
     tell("looking for its name");
     look_for_names(workspace, result, result.base);
-    if (!result.found.model.parts.empty())
-      {
-        tell("looking for rows that nothing explains");
-        judge_without_outliers(workspace, result);
-      }
+    tell("looking for rows that nothing explains");
+    judge_without_outliers(workspace, result);
     if (!result.found.model.parts.empty() && !are_sufficient(workspace, result))
       withdraw(result);
     return result;

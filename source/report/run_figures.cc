@@ -191,8 +191,10 @@ namespace SlipStep
                       // The first rise shall not hide on the axis.
                       << "set xrange [" << x.lower - 0.01 * x.width() << ":"
                       << x.upper + 0.06 * x.width() << "]\n";
+      // Round-off below 0 is nothing that can be seen.
       if (y.lower >= -1e-3)
-        figure.script() << "set yrange [0:*]\n";
+        figure.script() << (y.upper > 1e-6 ? "set yrange [0:*]\n" :
+                                             "set yrange [0:0.01]\n");
       else
         figure.script() << "set xzeroaxis lc rgb '#444444' lw 1 dt solid\n";
       std::string caption;

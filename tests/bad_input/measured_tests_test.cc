@@ -65,6 +65,9 @@ TEST(MeasuredTests, WarningsAreShownAndRightFilesDescribed)
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(contains(result.err, "left out: 1 (first: line 3)"));
   EXPECT_TRUE(contains(result.out, "a.csv: OK, 2 rows, 2 s"));
+  // What calibrate would refuse.
+  process.write("a.csv", "# noise: 0,002\n" + header + "0,0,1,0\n1,1,1,0.1\n");
+  expect_refusal(process.run({"check", "a.csv"}), {"a.csv: noise: 0,002"});
 }
 
 

@@ -83,6 +83,10 @@ namespace SlipStep
     /// @throws InputError if it is neither
     static double stated_noise(const Parameters &parameters);
 
+    /// What a comment of the test says of its noise, 0 if nothing.
+    /// @throws InputError if that is not a number greater than 0
+    static double noted_noise(const MeasuredTest &test);
+
     /// Paths of the tests' files.
     static std::vector<std::filesystem::path>
     test_files(const Parameters &parameters);

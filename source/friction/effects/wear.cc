@@ -43,7 +43,7 @@ namespace SlipStep
         EffectInfo info;
         info.name       = "wear";
         info.words      = "material that is lost under pressure and slip";
-        info.formula    = "dw/d lambda = k f_n";
+        info.formula    = "dw/d lambda = k f_n, k in mm^3/(N m)";
         info.latex      = "\\frac{dw}{d\\lambda} = k f_n";
         info.source     = "Archard (1953), J. Appl. Phys. 24, 981-988";
         info.neutral    = "Specific rate = 0";
