@@ -253,11 +253,10 @@ namespace SlipStep
       };
       if (rms(again.base) > 1.2 * rms(judgement.base))
         return;
-      workspace = std::move(weakened);
-      look_for_gap(workspace, again);
-      if (again.gap.p <= workspace.level)
+      look_for_gap(weakened, again);
+      if (again.gap.p <= weakened.level)
         {
-          look_for_names(workspace, again, first);
+          look_for_names(weakened, again, first);
           if (again.found.gains.empty())
             again.found.gains = judgement.found.gains;
         }
@@ -266,6 +265,13 @@ namespace SlipStep
           again.verdict           = without_gap(again.view);
           again.named_by_outliers = effect_names(judgement.found.model.parts);
         }
+      workspace.was_late = weakened.was_late;
+      workspace.n_refits = weakened.n_refits;
+      // Rows far from what explains nothing are no fault of theirs.
+      if (judgement.found.model.parts.empty() &&
+          again.verdict == Verdict::unnamed)
+        return;
+      workspace = std::move(weakened);
       judgement = again;
     }
   } // namespace
