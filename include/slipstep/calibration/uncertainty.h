@@ -51,7 +51,7 @@ namespace SlipStep
     /// it already.
     Eigen::VectorXd between_tests;
     /// Standard deviations of x that a unit of gain would make, another one in
-    /// every test: empty where a direction is unknown.
+    /// every test: 0 where a direction is unknown.
     Eigen::VectorXd by_gains;
     /// How many tests told of between_tests, for every x.
     std::vector<std::size_t> n_told;
