@@ -375,3 +375,28 @@ TEST(TestRows, PausesWithoutRowsAreTold)
   EXPECT_TRUE(paused(10., 1.).warnings.empty());
   EXPECT_TRUE(paused(1000., -0.01).warnings.empty());
 }
+
+
+
+// A sensor that ends at 0.155 while friction scatters; what is smooth, or
+// recorded in steps, has no limit.
+TEST(TestRows, ASensorAtItsLimitIsTold)
+{
+  std::mt19937                     random(8);
+  std::normal_distribution<double> noise(0., 0.005);
+  const auto                       clipped = [&](const double limit) {
+    return slide_with([&](const int i, double(&row)[4]) {
+      if (i > 0)
+        row[3] = std::min(limit, 0.15 + noise(random));
+    });
+  };
+  expect_warning(clipped(0.155), "friction is exactly 0.155 in ");
+  EXPECT_TRUE(clipped(1.).warnings.empty());
+  EXPECT_TRUE(slide_with([&](const int i, double(&row)[4]) {
+                row[3] = i < 100 ? 0.0015 * i : 0.15;
+              }).warnings.empty());
+  EXPECT_TRUE(slide_with([&](const int i, double(&row)[4]) {
+                if (i > 0)
+                  row[3] = 0.005 * std::round(30. + noise(random) / 0.005);
+              }).warnings.empty());
+}
