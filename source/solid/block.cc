@@ -340,8 +340,6 @@ namespace SlipStep
         ++n_newton_total;
 
         norm = line_search(update, motion, norm);
-        if (bring_to_touch())
-          norm = compute_residual();
       }
   }
 
