@@ -119,6 +119,14 @@ namespace SlipStep
 
 
 
+  double relative_rms(const Comparison &comparison, const Model &model)
+  {
+    return relative_rms(comparison,
+                        comparison.difference(*model.simulator, model.scaled));
+  }
+
+
+
   namespace
   {
     Noise stated_noise(const Parameters &parameters)
@@ -373,9 +381,7 @@ namespace SlipStep
       Workspace &workspace = *result.workspace;
       Model     &base      = result.base;
       const auto rms       = [&](const Model &model) {
-        return relative_rms(workspace.comparison,
-                            workspace.comparison.difference(*model.simulator,
-                                                            model.scaled));
+        return relative_rms(workspace.comparison, model);
       };
       result.is_kept_near = false;
       if (base.objective < far * workspace.comparison.n_rows())

@@ -97,10 +97,7 @@ namespace SlipStep
   void warn_of_records(Ingested &ingested)
   {
     const Workspace &workspace = *ingested.workspace;
-    const double     rms =
-      relative_rms(workspace.comparison,
-                   workspace.comparison.difference(*ingested.base.simulator,
-                                                   ingested.base.scaled));
+    const double     rms = relative_rms(workspace.comparison, ingested.base);
     if (rms > 1.02 * ingested.start_rms)
       ingested.warnings.push_back(
         "Calibrated, the starting model is farther from the tests than "

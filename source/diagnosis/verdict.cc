@@ -148,9 +148,7 @@ namespace SlipStep
       const Model &model = judgement.found.model;
       const Model &base  = judgement.base;
       const auto   rms   = [&](const Model &one) {
-        return relative_rms(workspace.comparison,
-                            workspace.comparison.difference(*one.simulator,
-                                                            one.scaled));
+        return relative_rms(workspace.comparison, one);
       };
       if (is_at_bound(model) || rms(model) > rms(base) ||
           left_out_gain(workspace, base, model) <= 0. ||
@@ -247,9 +245,7 @@ namespace SlipStep
         return;
       // Far off, a fit may have lost the tests for the sake of few rows.
       const auto rms = [&](const Model &model) {
-        return relative_rms(weakened.comparison,
-                            weakened.comparison.difference(*model.simulator,
-                                                           model.scaled));
+        return relative_rms(weakened.comparison, model);
       };
       if (rms(again.base) > 1.2 * rms(judgement.base))
         return;

@@ -49,6 +49,9 @@ namespace SlipStep
   /// Root mean square of differences, as a share of the tests' friction.
   double relative_rms(const Comparison      &comparison,
                       const Eigen::VectorXd &difference);
+
+  /// The same of what a model differs from the tests by.
+  double relative_rms(const Comparison &comparison, const Model &model);
 } // namespace SlipStep
 
 #endif
