@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/covariates.h>
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/utilities/units.h>
 
 #include <algorithm>
 #include <array>
@@ -231,14 +232,9 @@ namespace SlipStep
     double order_of(const MeasuredTest &rows)
     {
       const auto note = rows.notes.find("order");
-      try
-        {
-          return note == rows.notes.end() ? 0. : std::stod(note->second);
-        }
-      catch (const std::exception &)
-        {
-          return 0.;
-        }
+      return note == rows.notes.end() ?
+               0. :
+               parse_quantity(note->second, Dimension::number);
     }
   } // namespace
 

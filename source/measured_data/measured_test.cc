@@ -5,6 +5,7 @@
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/text.h>
+#include <slipstep/utilities/units.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <algorithm>
@@ -172,6 +173,20 @@ namespace SlipStep
         const auto found = table.comments().find(key);
         return found == table.comments().end() ? std::string() : found->second;
       };
+      for (const char *key : {"area", "condition", "name", "noise", "order"})
+        {
+          const auto other = table.contradicting_comments().find(key);
+          if (other != table.contradicting_comments().end())
+            throw InputError(test.file.string() +
+                             ": its comments say two "
+                             "things of '" +
+                             key + "': '" + note(key) + "' and '" +
+                             other->second + "'");
+        }
+      const Quantity order(Dimension::number);
+      if (!note("order").empty() && !order.match(note("order")))
+        throw InputError(test.file.string() + ": order: " + note("order") +
+                         ": " + order.why_not(note("order")));
       test.notes     = table.comments();
       test.condition = note("condition");
       test.name      = note("name");

@@ -236,8 +236,12 @@ namespace SlipStep
     if (line.front() != '#' || colon == std::string_view::npos)
       return;
     const std::string key = lower_case(trim(line.substr(1, colon - 1)));
-    if (!key.empty())
-      comment_values[key] = trim(line.substr(colon + 1));
+    if (key.empty())
+      return;
+    const std::string value(trim(line.substr(colon + 1)));
+    const auto [old, is_new] = comment_values.emplace(key, value);
+    if (!is_new && old->second != value)
+      contradictions.emplace(key, value);
   }
 
 
@@ -281,6 +285,7 @@ namespace SlipStep
       {
         next = begin;
         comment_values.clear();
+        contradictions.clear();
         for (std::size_t i = 0; i < n_cells; ++i)
           names[i] = "column " + std::to_string(i + 1);
       }
@@ -510,6 +515,14 @@ namespace SlipStep
   const std::vector<std::string> &CsvTable::units() const
   {
     return unit_names;
+  }
+
+
+
+  const std::map<std::string, std::string> &
+  CsvTable::contradicting_comments() const
+  {
+    return contradictions;
   }
 
 

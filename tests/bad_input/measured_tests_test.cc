@@ -48,6 +48,10 @@ TEST(MeasuredTests, WrongFilesAreRefused)
                       {"a.csv:3:5: ", "pressure is -1 MPa"});
   expect_refused_test(header + row + "1,1,1,-0.1\n",
                       {"a.csv:3:7: ", "sign", "slipstep import"});
+  expect_refused_test("# condition: dry\n# condition: wet\n" + header + row,
+                      {"a.csv", "two things of 'condition'", "dry", "wet"});
+  expect_refused_test("# order: third\n" + header + row,
+                      {"a.csv: order: third", "number"});
   expect_refused_test(header, {"a.csv", "two rows"});
   expect_refused_test("", {"a.csv:1:1: ", "header"});
   const SlipstepProcess process;

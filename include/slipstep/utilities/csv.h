@@ -93,6 +93,9 @@ namespace SlipStep
     /// What the `# key: value` comments say, keys in lower case.
     const std::map<std::string, std::string> &comments() const;
 
+    /// What comments say of a key that another one says something else of.
+    const std::map<std::string, std::string> &contradicting_comments() const;
+
     bool has(const std::string &column) const;
 
     /// The values of a column that was asked for; empty if the file lacks it.
@@ -148,6 +151,7 @@ namespace SlipStep
     const char                        *next = nullptr;
 
     std::map<std::string, std::string> comment_values;
+    std::map<std::string, std::string> contradictions;
     std::vector<std::string>           names;
     std::vector<std::string>           unit_names;
     std::string_view                   header_text;
