@@ -115,8 +115,7 @@ namespace SlipStep
       if (results[c].standing == Standing::not_testable &&
           !seen.candidate.formulas.empty())
         {
-          Model own     = base;
-          own.simulator = std::make_shared<Simulator>(*base.simulator);
+          Model own = base.copy();
           results[c].cheapest_test =
             cheapest_test(workspace, own, seen.candidate);
         }

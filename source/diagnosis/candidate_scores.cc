@@ -123,8 +123,7 @@ namespace SlipStep
       std::vector<std::vector<Direction>> found(candidates.size());
       std::vector<std::string>            failures(candidates.size());
       side_by_side(candidates.size(), [&](const std::size_t c) {
-        Model own     = model;
-        own.simulator = std::make_shared<Simulator>(*model.simulator);
+        Model own = model.copy();
         for (std::size_t f = 0; f < candidates[c].formulas.size(); ++f)
           {
             const std::string failure =

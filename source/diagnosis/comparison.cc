@@ -477,6 +477,38 @@ namespace SlipStep
 
 
 
+  double relative_rms(const Comparison      &comparison,
+                      const Eigen::VectorXd &difference)
+  {
+    double       sum = 0.;
+    Eigen::Index n   = 0;
+    for (const ComparedTest &test : comparison.tests)
+      {
+        sum += difference.segment(test.begin, test.size).squaredNorm() /
+               (test.level * test.level);
+        n += test.n_bins();
+      }
+    return std::sqrt(sum / n);
+  }
+
+
+
+  double relative_rms(const Comparison &comparison, const Model &model)
+  {
+    return relative_rms(comparison, comparison.difference(model));
+  }
+
+
+
+  Model Model::copy() const
+  {
+    Model result     = *this;
+    result.simulator = std::make_shared<Simulator>(*simulator);
+    return result;
+  }
+
+
+
   Values Model::values() const
   {
     Values result;

@@ -54,9 +54,7 @@ namespace SlipStep
         return false;
       const Comparison &comparison = workspace.comparison;
       const auto        rms        = [&](const Model &model) {
-        return relative_rms(comparison,
-                            comparison.difference(*model.simulator,
-                                                  model.scaled));
+        return relative_rms(comparison, model);
       };
       const auto left_out_rms = [&](const Model &model) {
         Eigen::VectorXd differences;

@@ -237,8 +237,7 @@ namespace SlipStep
           if (!bare.has_value())
             continue;
           const auto difference = [&](const Model &model) {
-            return workspace.comparison.difference(*model.simulator,
-                                                   model.scaled);
+            return workspace.comparison.difference(model);
           };
           const Eigen::VectorXd left    = difference(*bare);
           const std::string     section = "Friction/expression/";
@@ -293,13 +292,11 @@ namespace SlipStep
       describe_shrink(ingested, final_model, result);
       describe_doubts(workspace, result);
       const Eigen::VectorXd base_difference =
-        comparison.difference(*ingested.base.simulator, ingested.base.scaled);
+        comparison.difference(ingested.base);
       std::vector<std::pair<std::string, Eigen::VectorXd>> changes;
       const auto add = [&](const std::string &label, const Model &model) {
         changes.emplace_back(label,
-                             comparison.difference(*model.simulator,
-                                                   model.scaled) -
-                               base_difference);
+                             comparison.difference(model) - base_difference);
       };
       if (!result.effects.empty())
         add(list_text(result.effects), final_model);

@@ -215,11 +215,7 @@ namespace SlipStep
       const Workspace  &workspace  = *ingested.workspace;
       const Comparison &comparison = workspace.comparison;
       const auto step = [&](const std::string &label, const Model &model) {
-        return GapStep{label,
-                       relative_rms(comparison,
-                                    comparison.difference(*model.simulator,
-                                                          model.scaled)),
-                       model.objective};
+        return GapStep{label, relative_rms(comparison, model), model.objective};
       };
       std::vector<GapStep> steps = {{"starting model as it is",
                                      ingested.start_rms,
@@ -251,9 +247,8 @@ namespace SlipStep
     const Workspace  &workspace  = *ingested.workspace;
     const Comparison &comparison = workspace.comparison;
     Differences       differences;
-    differences.before =
-      comparison.difference(*ingested.base.simulator, ingested.base.scaled);
-    differences.after = comparison.difference(*after.simulator, after.scaled);
+    differences.before = comparison.difference(ingested.base);
+    differences.after  = comparison.difference(after);
     left_out_squares(workspace, ingested.base, &differences.left_out_before);
     left_out_squares(workspace, after, &differences.left_out_after);
     for (std::size_t t = 0; t < workspace.tests.size(); ++t)

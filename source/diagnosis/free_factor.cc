@@ -260,19 +260,16 @@ namespace SlipStep
     FactorFitter::directions(const Model           &now,
                              const Eigen::VectorXd &corrections)
     {
-      const Eigen::VectorXd here =
-        workspace.comparison.difference(*now.simulator, now.scaled);
+      const Eigen::VectorXd  here = workspace.comparison.difference(now);
       std::vector<Direction> result(n_knots);
       side_by_side(n_knots, [&](const std::size_t k) {
-        Model own             = now;
-        own.simulator         = std::make_shared<Simulator>(*now.simulator);
+        Model           own   = now.copy();
         Eigen::VectorXd moved = corrections;
         moved(k) += small_factor;
         const std::optional<Model> there = with(own, moved);
         Eigen::VectorXd            change;
         if (there.has_value())
-          change =
-            workspace.comparison.difference(*there->simulator, there->scaled);
+          change = workspace.comparison.difference(*there);
         result[k].friction = change.size() == 0 ?
                                Eigen::VectorXd::Zero(here.size()).eval() :
                                (change - here).eval();

@@ -103,30 +103,6 @@ namespace SlipStep
 
 
 
-  double relative_rms(const Comparison      &comparison,
-                      const Eigen::VectorXd &difference)
-  {
-    double       sum = 0.;
-    Eigen::Index n   = 0;
-    for (const ComparedTest &test : comparison.tests)
-      {
-        sum += difference.segment(test.begin, test.size).squaredNorm() /
-               (test.level * test.level);
-        n += test.n_bins();
-      }
-    return std::sqrt(sum / n);
-  }
-
-
-
-  double relative_rms(const Comparison &comparison, const Model &model)
-  {
-    return relative_rms(comparison,
-                        comparison.difference(*model.simulator, model.scaled));
-  }
-
-
-
   namespace
   {
     Noise stated_noise(const Parameters &parameters)
@@ -279,8 +255,7 @@ namespace SlipStep
         result.base.scaled[i] = result.base.campaign->scaled_start()[i];
       result.base.simulator->plan(result.base.scaled);
       const Eigen::VectorXd difference =
-        workspace.comparison.difference(*result.base.simulator,
-                                        result.base.scaled);
+        workspace.comparison.difference(result.base);
       if (difference.size() == 0)
         throw RunError("the starting model cannot be simulated");
       result.start_rms = relative_rms(workspace.comparison, difference);
@@ -376,7 +351,7 @@ namespace SlipStep
     // tests be off lets the fit give up their level for the sake of few rows.
     void Preparer::keep_near()
     {
-      constexpr double far = 4., much = 1.2;
+      constexpr double far = 4.;
 
       Workspace &workspace = *result.workspace;
       Model     &base      = result.base;
@@ -387,7 +362,7 @@ namespace SlipStep
       if (base.objective < far * workspace.comparison.n_rows())
         return;
       const std::optional<Model> plain = fit_plainly(workspace, base);
-      if (!plain.has_value() || rms(base) < much * rms(*plain))
+      if (!plain.has_value() || rms(base) < lost_fit * rms(*plain))
         return;
       base.scaled = plain->scaled;
       base.simulator->plan(base.scaled);
@@ -413,15 +388,11 @@ namespace SlipStep
       for (const ComparedTest &test : comparison.tests)
         left_out.push_back(test.condition == condition &&
                            comparison.conditions.size() > 1);
-      Model model     = result.base;
-      model.simulator = std::make_shared<Simulator>(*result.base.simulator);
+      Model model = result.base.copy();
       comparison.set_noise(found.noise,
-                           comparison.measured +
-                             comparison.difference(*model.simulator,
-                                                   model.scaled));
+                           comparison.measured + comparison.difference(model));
       comparison.fit(model, 1., left_out);
-      const Eigen::VectorXd difference =
-        comparison.difference(*model.simulator, model.scaled);
+      const Eigen::VectorXd difference = comparison.difference(model);
       std::vector<std::pair<double, std::size_t>> distances;
       for (std::size_t i = 0; i < comparison.tests.size(); ++i)
         {
@@ -448,8 +419,7 @@ namespace SlipStep
 
       const Workspace      &workspace  = *result.workspace;
       const Comparison     &comparison = workspace.comparison;
-      const Eigen::VectorXd difference =
-        comparison.difference(*result.base.simulator, result.base.scaled);
+      const Eigen::VectorXd difference = comparison.difference(result.base);
       const std::optional<Contradiction> found =
         find_contradiction(comparison.contrasts(difference),
                            workspace.noise.noise,
@@ -492,8 +462,7 @@ namespace SlipStep
       Workspace            &workspace  = *result.workspace;
       Comparison           &comparison = workspace.comparison;
       const Eigen::VectorXd friction =
-        comparison.measured +
-        comparison.difference(*result.base.simulator, result.base.scaled);
+        comparison.measured + comparison.difference(result.base);
       const FrictionLaw law(result.base.simulator->with(result.base.scaled));
       workspace.covariates =
         find_covariates(comparison,

@@ -84,8 +84,7 @@ namespace SlipStep
       result.profile.emplace_back(result.value, 0.);
       for (const int sign : {-1, 1})
         {
-          Model model     = optimum;
-          model.simulator = std::make_shared<Simulator>(*optimum.simulator);
+          Model       model = optimum.copy();
           ProfileSide side(
             [&](const std::vector<double> &from) {
               model.scaled = from;

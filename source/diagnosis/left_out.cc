@@ -31,8 +31,7 @@ namespace SlipStep
           derivatives.middleRows(test.begin, test.size).setZero();
           residual.segment(test.begin, test.size).setZero();
         }
-      Model result     = model;
-      result.simulator = std::make_shared<Simulator>(*model.simulator);
+      Model                 result    = model.copy();
       const Eigen::MatrixXd curvature = derivatives.transpose() * derivatives;
       const Eigen::VectorXd step =
         curvature.completeOrthogonalDecomposition().solve(
@@ -73,9 +72,8 @@ namespace SlipStep
     if (is_one)
       return std::vector<double>(comparison.tests.size(), none);
     side_by_side(comparison.conditions.size(), [&](const std::size_t c) {
-      const Model           other = fit_without(comparison, model, c);
-      const Eigen::VectorXd difference =
-        comparison.difference(*other.simulator, other.scaled);
+      const Model           other      = fit_without(comparison, model, c);
+      const Eigen::VectorXd difference = comparison.difference(other);
       if (difference.size() == 0)
         return;
       RowMatrix whitened = difference;

@@ -36,8 +36,7 @@ namespace SlipStep
   {
     Comparison           &comparison = workspace.comparison;
     const Eigen::VectorXd friction =
-      comparison.measured +
-      comparison.difference(*model.simulator, model.scaled);
+      comparison.measured + comparison.difference(model);
     for (const Eigen::Index row : rows)
       comparison.weaken_row(row, std::abs(model.residual(row)));
     comparison.set_noise(comparison.noise(), friction);

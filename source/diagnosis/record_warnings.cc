@@ -56,8 +56,8 @@ namespace SlipStep
       const Comparison &comparison = result.workspace->comparison;
       double            squares    = 0.;
       Eigen::Index      n          = 0;
-      for (const Contrast &contrast : comparison.contrasts(
-             comparison.difference(*result.base.simulator, result.base.scaled)))
+      for (const Contrast &contrast :
+           comparison.contrasts(comparison.difference(result.base)))
         {
           squares +=
             contrast.values.squaredNorm() / std::pow(contrast.level, 2);

@@ -206,8 +206,7 @@ namespace SlipStep
 
   void settle(const Workspace &workspace, Model &model)
   {
-    Model settled     = model;
-    settled.simulator = std::make_shared<Simulator>(*model.simulator);
+    Model settled = model.copy();
     try
       {
         settled.simulator->plan(model.scaled, model.simulator.get());
@@ -240,8 +239,7 @@ namespace SlipStep
           series.row_share = 0.;
         }
     plain.set_noise(Noise(), plain.measured);
-    Model result     = model;
-    result.simulator = std::make_shared<Simulator>(*model.simulator);
+    Model result = model.copy();
     return plain.fit(result, 1.) ? std::make_optional(std::move(result)) :
                                    std::nullopt;
   }

@@ -215,16 +215,6 @@ namespace SlipStep
 
 
 
-    // For fits that are not to change another model's simulator.
-    Model copied(const Model &model)
-    {
-      Model result     = model;
-      result.simulator = std::make_shared<Simulator>(*model.simulator);
-      return result;
-    }
-
-
-
     // A few bad rows shall neither make a gap nor withdraw a right name: once
     // more, from what was found on, with those that it does not explain
     // counting for less. If that cannot be fitted, they count as before.
@@ -237,9 +227,9 @@ namespace SlipStep
       Workspace weakened = workspace;
       weaken_rows(weakened, judgement.found.model, rows);
       Judgement again;
-      again.base     = copied(judgement.base);
+      again.base     = judgement.base.copy();
       again.outlying = rows;
-      Model first    = copied(judgement.found.model);
+      Model first    = judgement.found.model.copy();
       if (!weakened.comparison.fit(again.base, 0.01) ||
           !weakened.comparison.fit(first, 0.01))
         return;
@@ -247,7 +237,7 @@ namespace SlipStep
       const auto rms = [&](const Model &model) {
         return relative_rms(weakened.comparison, model);
       };
-      if (rms(again.base) > 1.2 * rms(judgement.base))
+      if (rms(again.base) > lost_fit * rms(judgement.base))
         return;
       look_for_gap(weakened, again);
       if (again.gap.p <= weakened.level)

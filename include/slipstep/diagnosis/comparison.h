@@ -48,6 +48,9 @@ namespace SlipStep
     /// What was added to the starting model.
     std::vector<Part> parts;
 
+    /// With a simulator of its own, which fits may change.
+    Model copy() const;
+
     /// The values of the parameters fitted.
     Values values() const;
 
@@ -97,6 +100,12 @@ namespace SlipStep
     /// Simulated minus measured friction; empty if it cannot be simulated.
     Eigen::VectorXd difference(Simulator                 &simulator,
                                const std::vector<double> &scaled) const;
+
+    /// The same of a model.
+    Eigen::VectorXd difference(const Model &model) const
+    {
+      return difference(*model.simulator, model.scaled);
+    }
 
     /// Whiten columns of friction of all tests.
     void whiten(RowMatrix &columns) const;
@@ -172,6 +181,16 @@ namespace SlipStep
   /// taken out, see Simulator::correct(): what is left is of second order, and
   /// far below the noise.
   constexpr double correction_share = 0.02;
+
+  /// Root mean square of differences, as a share of the tests' friction.
+  double relative_rms(const Comparison      &comparison,
+                      const Eigen::VectorXd &difference);
+
+  /// The same of what a model differs from the tests by.
+  double relative_rms(const Comparison &comparison, const Model &model);
+
+  /// By this factor a fit that has lost the tests is farther off than another.
+  constexpr double lost_fit = 1.2;
 
   /// d (natural parameter) / d (scaled parameter), natural being the logarithm
   /// of positive parameters.

@@ -45,13 +45,6 @@ namespace SlipStep
   /// The case with everything that is to be calibrated listed: that which
   /// "Calibration/Parameters" names, else all parameters of active effects.
   Parameters with_parameters_listed(const Parameters &parameters);
-
-  /// Root mean square of differences, as a share of the tests' friction.
-  double relative_rms(const Comparison      &comparison,
-                      const Eigen::VectorXd &difference);
-
-  /// The same of what a model differs from the tests by.
-  double relative_rms(const Comparison &comparison, const Model &model);
 } // namespace SlipStep
 
 #endif
