@@ -178,8 +178,17 @@ namespace SlipStep
                                    parameters,
                                    contact.friction_law());
     std::vector<Vector *> vectors = fields_of_state();
-    for (Vector *vector : vectors)
-      vector->update_ghost_values();
+    // Velocities have more round-off than the transfer allows neighbours to
+    // differ by.
+    const auto conform = [&] {
+      for (Vector *vector : vectors)
+        {
+          vector->zero_out_ghost_values();
+          hanging_constraints.distribute(*vector);
+          vector->update_ghost_values();
+        }
+    };
+    conform();
     displacements.prepare_for_coarsening_and_refinement(
       std::vector<const Vector *>(vectors.begin(), vectors.end()));
     histories.attach(contact);
@@ -188,11 +197,7 @@ namespace SlipStep
     setup_system();
     displacements.interpolate(vectors);
     histories.unpack(contact);
-    for (Vector *vector : vectors)
-      {
-        hanging_constraints.distribute(*vector);
-        vector->update_ghost_values();
-      }
+    conform();
   }
 
 
