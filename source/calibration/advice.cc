@@ -286,16 +286,24 @@ namespace SlipStep
       const auto shifted = [&](const double step) {
         std::vector<double> scaled = optimum.scaled;
         for (std::size_t i = 0; i < scaled.size(); ++i)
-          scaled[i] =
-            std::clamp(scaled[i] + step * direction(i) / optimum.size[i],
-                       0.,
-                       1.);
+          scaled[i] += step * direction(i) / optimum.size[i];
         return scaled;
+      };
+      // Away from a bound; all of the direction, or it is another one.
+      const auto is_outside = [&](const double step) {
+        const std::vector<double> scaled = shifted(step);
+        return std::any_of(scaled.begin(), scaled.end(), [](const double x) {
+          return x < 0. || x > 1.;
+        });
       };
       const CampaignTest &like = simulator.campaign.tests.front();
       Replay              replay(proposed.motion);
       Replay::Curve       plus, minus;
-      constexpr double    step = 1e-3;
+      constexpr double    least = 1e-3;
+      const double        ahead = is_outside(least) ? 0. : least;
+      const double        back  = is_outside(-least) ? 0. : least;
+      if (ahead + back == 0.)
+        return 0.;
       {
         const Parameters &parameters = simulator.with(optimum.scaled);
         replay.plan(FrictionLaw(parameters),
@@ -304,11 +312,11 @@ namespace SlipStep
                     Replay::most_steps_of_imagined_test);
       }
       {
-        const Parameters &parameters = simulator.with(shifted(step));
+        const Parameters &parameters = simulator.with(shifted(ahead));
         replay.simulate(FrictionLaw(parameters), Machine(parameters), plus);
       }
       {
-        const Parameters &parameters = simulator.with(shifted(-step));
+        const Parameters &parameters = simulator.with(shifted(-back));
         replay.simulate(FrictionLaw(parameters), Machine(parameters), minus);
       }
       const std::vector<double> a =
@@ -317,20 +325,20 @@ namespace SlipStep
         replay.at(minus.friction, proposed.motion.time);
       double sum = 0.;
       for (std::size_t i = 0; i < a.size(); ++i)
-        sum += std::pow((a[i] - b[i]) / (2. * step * like.noise), 2);
+        sum += std::pow((a[i] - b[i]) / ((ahead + back) * like.noise), 2);
       return sum;
     }
 
 
 
-    // The proposed test that helps most, in words; "" if none does.
+    // What would tell more of a direction, in words.
     std::string best_test(Simulator                       &simulator,
                           const Linearisation             &optimum,
                           const Eigen::Index               which,
                           const std::vector<ProposedTest> &proposed)
     {
       const Eigen::VectorXd direction = optimum.directions.col(which);
-      const double          before    = optimum.direction_deviations(which);
+      const double          before    = optimum.bounded_deviations(which);
       double                best      = before;
       std::string           words;
       for (const ProposedTest &test : proposed)
@@ -355,13 +363,60 @@ namespace SlipStep
             }
         }
       if (words.empty() || best > 0.5 * before)
-        return "";
-      const double gain = before / best;
+        return "; no other speed, pressure, path, rest or direction would tell";
       return "; " + words +
-             (gain > 1e4 ? " would settle it" :
-                           " would bring the standard deviation down by a "
-                           "factor of " +
-                             rounded(gain));
+             " would bring the standard deviation down by a factor of " +
+             rounded(before / best);
+    }
+
+
+
+    // Parameters that fit nearly as well, as far along a direction as there
+    // are any: one is moved, the others follow.
+    // @return the changes, in natural terms
+    Eigen::VectorXd companion(Simulator           &simulator,
+                              const Linearisation &optimum,
+                              const Eigen::Index   which)
+    {
+      constexpr double          nearly    = 4.; // two standard deviations
+      constexpr unsigned int    most      = 8;
+      const Eigen::VectorXd     direction = optimum.directions.col(which);
+      std::vector<unsigned int> others;
+      Eigen::Index              moved = 0;
+      direction.cwiseAbs().maxCoeff(&moved);
+      for (unsigned int i = 0; i < optimum.scaled.size(); ++i)
+        if (i != moved)
+          others.push_back(i);
+      double step = optimum.bounded_deviations(which);
+      for (unsigned int trial = 0; trial < most; ++trial, step *= 0.5)
+        for (const int sign : {1, -1})
+          {
+            std::vector<double> scaled = optimum.scaled;
+            for (std::size_t i = 0; i < scaled.size(); ++i)
+              scaled[i] += sign * step * direction(i) / optimum.size[i];
+            if (scaled[moved] < 0. || scaled[moved] > 1.)
+              continue;
+            for (double &value : scaled)
+              value = std::clamp(value, 0., 1.);
+            try
+              {
+                const FitResult found = fit(simulator, scaled, others, 0);
+                if (found.misfit > optimum.misfit + nearly * optimum.inflation)
+                  continue;
+                Eigen::VectorXd change(scaled.size());
+                for (std::size_t i = 0; i < scaled.size(); ++i)
+                  change(i) =
+                    (found.scaled[i] - optimum.scaled[i]) * optimum.size[i];
+                return change;
+              }
+            catch (const InputError &)
+              {}
+            catch (const RunError &)
+              {
+                throw_if_stopped();
+              }
+          }
+      return step * direction;
     }
 
 
@@ -407,7 +462,7 @@ namespace SlipStep
       if (weak.members.size() == 1)
         return names[0] +
                " is hardly determined by these tests: " + changes[0] +
-               " is within one standard deviation. Fix it";
+               " fits nearly as well. Fix it";
       return listing(names) + " cannot " +
              (names.size() == 2 ? "both" : "all") +
              " be found from these tests: " + listing(changes) +
@@ -425,26 +480,27 @@ namespace SlipStep
     std::vector<WeakDirection>      result;
     for (Eigen::Index k = 0; k < optimum.direction_deviations.size(); ++k)
       {
-        const double deviation = std::min(optimum.direction_deviations(k), 1e9);
+        const double deviation = optimum.direction_deviations(k);
         if (deviation < weak_deviation)
           continue;
-        // Less of a direction is round-off, which a parameter without any
-        // influence makes large.
-        const double least =
-          1e-3 * optimum.directions.col(k).lpNorm<Eigen::Infinity>();
-        WeakDirection weak;
+        const Eigen::VectorXd change = companion(simulator, optimum, k);
+        WeakDirection         weak;
         for (std::size_t i = 0; i < campaign.fitted.size(); ++i)
           {
-            const double natural = deviation * optimum.directions(i, k);
             // x is the logarithm, or the value over its size.
             weak.change.push_back(
               campaign.fitted[i].is_logarithmic ?
-                natural :
-                natural / optimum.size[i] *
+                change(i) :
+                change(i) / optimum.size[i] *
                   (campaign.fitted[i].upper - campaign.fitted[i].lower));
-            const double all = std::min(optimum.deviations(i), 1e9);
-            if (std::abs(optimum.directions(i, k)) > least &&
-                natural * natural > member_share * all * all)
+            const double natural =
+              optimum.bounded_deviations(k) * optimum.directions(i, k);
+            const double all = optimum.directions.row(i)
+                                 .transpose()
+                                 .cwiseProduct(optimum.bounded_deviations)
+                                 .squaredNorm();
+            if (optimum.has_part_in(i, k) &&
+                natural * natural > member_share * all)
               weak.members.push_back(i);
           }
         // One of them has to be what is weak, and not only in company.

@@ -261,11 +261,10 @@ namespace SlipStep
             (evaluate(quantity, planned->with(other)) - derived.value) / step /
             optimum.size[i];
         }
-      derived.deviation =
-        (gradient.transpose() * optimum.directions)
-          .transpose()
-          .cwiseProduct(optimum.direction_deviations.cwiseMin(1e9))
-          .norm();
+      derived.deviation = (gradient.transpose() * optimum.directions)
+                            .transpose()
+                            .cwiseProduct(optimum.bounded_deviations)
+                            .norm();
       return derived;
     }
 

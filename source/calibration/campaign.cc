@@ -123,15 +123,6 @@ namespace SlipStep
 
   namespace
   {
-    double estimated_noise(const MeasuredTest &test)
-    {
-      return std::max(noise_level(test.friction),
-                      test.friction_y.empty() ? 0. :
-                                                noise_level(test.friction_y));
-    }
-
-
-
     // A record without visible noise, filtered or generated, must not outweigh
     // all others: an estimate counts at least a ten-thousandth of the friction
     // and a tenth of what is usual among the tests.
@@ -251,7 +242,7 @@ namespace SlipStep
         noted > 0. ? noted : Campaign::stated_noise(parameters);
       result.noise_is_stated = stated > 0.;
       result.noise =
-        result.noise_is_stated ? stated : estimated_noise(result.rows);
+        result.noise_is_stated ? stated : noise_of_friction(result.rows);
       return result;
     }
   } // namespace

@@ -106,12 +106,16 @@ namespace SlipStep
               infinite;
         }
 
-      // Where nothing is known, a large number takes the place of infinity.
-      Eigen::VectorXd finite = result.direction_deviations;
-      for (Eigen::Index i = 0; i < n; ++i)
-        finite(i) = std::min(finite(i), 1e9);
+      // Where little is known, the bounds are what is.
+      result.bounded_deviations = result.direction_deviations;
+      for (Eigen::Index k = 0; k < n; ++k)
+        for (Eigen::Index i = 0; i < n; ++i)
+          if (result.has_part_in(i, k))
+            result.bounded_deviations(k) =
+              std::min(result.bounded_deviations(k),
+                       result.size[i] / std::abs(result.directions(i, k)));
       const Eigen::MatrixXd scaled_directions =
-        result.directions * finite.asDiagonal();
+        result.directions * result.bounded_deviations.asDiagonal();
       const Eigen::MatrixXd covariance =
         scaled_directions * scaled_directions.transpose();
       result.deviations  = covariance.diagonal().cwiseSqrt();
@@ -119,9 +123,14 @@ namespace SlipStep
                            covariance *
                            result.deviations.cwiseInverse().asDiagonal();
       result.deviations = result.deviations.cwiseProduct(result.between_tests);
-      for (Eigen::Index i = 0; i < n; ++i)
-        if (result.deviations(i) > 1e6)
-          result.deviations(i) = infinite;
+      constexpr double unknown = 1e6;
+      for (Eigen::Index k = 0; k < n; ++k)
+        for (Eigen::Index i = 0; i < n; ++i)
+          if (result.has_part_in(i, k) &&
+              result.direction_deviations(k) *
+                  std::abs(result.directions(i, k)) >
+                unknown)
+            result.deviations(i) = infinite;
     }
   } // namespace
 

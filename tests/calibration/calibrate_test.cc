@@ -282,32 +282,6 @@ TEST_F(Planted, AConditionOfTheLawIsABound)
 
 
 
-// Coefficients and overstress from the speeds of the source paper: a law with
-// other r(V) and coefficients divided by it fits as well.
-TEST_F(Planted, WhatCannotBeFoundTogetherIsNamed)
-{
-  plant(
-    folder.path(), calibration_case(paper), {1., 10., 50., 200.}, 100, 5e-3, 3);
-  const Calibration found = calibrate(
-    fitting({{"Calibration/Parameters",
-              "Friction/Static coefficient from 0.001 to 0.5; "
-              "Friction/softening/Kinetic coefficient from 0.001 to 0.5; "
-              "Friction/overstress/Viscosity from 1 to 1e12; "
-              "Friction/overstress/Exponent from 2 to 100"}}));
-  ASSERT_FALSE(found.weak.empty());
-  const std::string words = found.weak.front().words;
-  for (const char *part : {"Friction/softening/Kinetic coefficient",
-                           "Friction/overstress/Viscosity",
-                           "cannot all be found from these tests",
-                           "Fix one of them; sliding at "})
-    EXPECT_TRUE(contains(words, part));
-  EXPECT_LT(found.correlation[1][2], -0.95);
-  // What moves together is found: the levels.
-  EXPECT_GT(found.correlation[0][1], 0.99);
-}
-
-
-
 TEST_F(Planted, TiedParametersFollow)
 {
   plant(folder.path(), calibration_case(paper), {1., 50.}, 300, 5e-4, 5);
@@ -569,12 +543,11 @@ TEST_F(Planted, TestsOfTheSameMotionAreSimulatedOnce)
     n_steps = simulator.n_steps();
     std::vector<double> result(campaign.n_residuals());
     simulator.residuals(campaign.scaled_start(), result.data());
-    for (std::size_t i = 0; i < campaign.tests.size(); ++i)
-      if (left_out.empty())
-        EXPECT_NEAR(simulator.simulate(campaign.scaled_start(), i).friction[99],
-                    campaign.tests[i].rows.friction[99] +
-                      1e-3 * result[200 * i + 99],
-                    1e-14);
+    for (std::size_t i = 0; i < campaign.tests.size() && left_out.empty(); ++i)
+      EXPECT_NEAR(simulator.simulate(campaign.scaled_start(), i).friction[99],
+                  campaign.tests[i].rows.friction[99] +
+                    1e-3 * result[200 * i + 99],
+                  1e-14);
     return result;
   };
   const auto values = [&](const std::vector<double> &speeds,

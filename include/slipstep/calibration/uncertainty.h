@@ -39,11 +39,22 @@ namespace SlipStep
     /// each, largest first; infinite where the tests say nothing.
     Eigen::MatrixXd directions;
     Eigen::VectorXd direction_deviations;
+    /// The same, but no longer than the way between the bounds.
+    Eigen::VectorXd bounded_deviations;
 
     Eigen::MatrixXd correlation;
 
-    /// Standard deviation of every x.
+    /// Standard deviation of every x; infinite where a direction of which the
+    /// tests say nothing has a part of it.
     Eigen::VectorXd deviations;
+
+    /// Whether a direction has a part of x_i. Less is round-off and the error
+    /// of differences, which a parameter without any influence makes large.
+    bool has_part_in(const Eigen::Index i, const Eigen::Index direction) const
+    {
+      return std::abs(directions(i, direction)) >
+             1e-3 * directions.col(direction).lpNorm<Eigen::Infinity>();
+    }
 
     /// How many times further the tests, left out one at a time, move every x
     /// than the scatter of their rows lets them; 1 where chance may do that.
