@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/record_warnings.h>
 
+#include <slipstep/measured_data/test_rows.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -11,21 +13,6 @@ namespace SlipStep
 {
   namespace
   {
-    // The step of a record that is rounded as coarsely as it scatters; 0 if it
-    // is finer.
-    double coarse_step(const CampaignTest &test)
-    {
-      std::vector<double> values = test.rows.friction;
-      std::sort(values.begin(), values.end());
-      double step = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 1; i < values.size(); ++i)
-        if (values[i] - values[i - 1] > 1e-9 * std::abs(values[i]))
-          step = std::min(step, values[i] - values[i - 1]);
-      return std::isfinite(step) && step > test.noise ? step : 0.;
-    }
-
-
-
     void warn_of_rows(Ingested &result)
     {
       std::size_t n     = 0;
@@ -107,8 +94,11 @@ namespace SlipStep
     double      step      = 0.;
     for (const CampaignTest &test : workspace.tests)
       {
-        const double own = coarse_step(test);
-        n_rounded += own > 0.;
+        // Else it scatters enough for means to be right.
+        const double own = coarse_step(test.rows.friction);
+        if (!(own > test.noise))
+          continue;
+        ++n_rounded;
         step = std::max(step, own);
       }
     if (n_rounded > 0)

@@ -425,9 +425,7 @@ namespace SlipStep
       ResampleOptions options;
       options.most_rows = most;
       // The few rows left no longer show it: peaks and bends look like noise.
-      double noise = noise_level(test.friction);
-      if (!test.friction_y.empty())
-        noise = std::max(noise, noise_level(test.friction_y));
+      const double noise = noise_of_friction(test);
       if (noise > 0.)
         test.notes.emplace("noise", rounded_text(noise, 3));
       const auto resampled    = resample(test, options);

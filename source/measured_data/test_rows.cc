@@ -533,4 +533,46 @@ namespace SlipStep
              (from_fourth < far_less * from_bends ? from_fourth : from_bends) :
              rounding(values) / std::sqrt(12.);
   }
+
+
+
+  double coarse_step(const std::vector<double> &values)
+  {
+    constexpr double digits = 1e-3, least_repeats = 3.;
+
+    std::vector<double> levels = values;
+    std::sort(levels.begin(), levels.end());
+    const double size = levels.empty() ? 0. :
+                                         std::max(std::abs(levels.front()),
+                                                  std::abs(levels.back()));
+    levels.erase(std::unique(levels.begin(),
+                             levels.end(),
+                             [&](const double a, const double b) {
+                               return b - a <= 1e-9 * size;
+                             }),
+                 levels.end());
+    if (levels.size() < 2 || least_repeats * levels.size() > values.size())
+      return 0.;
+    double step = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < levels.size(); ++i)
+      step = std::min(step, levels[i] - levels[i - 1]);
+    for (const double level : levels)
+      if (std::abs(level / step - std::round(level / step)) >
+          digits * std::max(1., std::abs(level / step)))
+        return 0.;
+    return step;
+  }
+
+
+
+  double noise_of_friction(const MeasuredTest &test)
+  {
+    double result = 0.;
+    for (const auto *values : {&test.friction, &test.friction_y})
+      if (!values->empty())
+        result = std::max({result,
+                           noise_level(*values),
+                           coarse_step(*values) / std::sqrt(12.)});
+    return result;
+  }
 } // namespace SlipStep

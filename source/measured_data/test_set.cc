@@ -213,7 +213,7 @@ namespace SlipStep
            rounded_text(path_of(test), 4) + " mm, " +
            rounded_text(typical_pressure(test), 4) + " MPa, friction " +
            rounded_text(*least, 3) + " to " + rounded_text(*most, 3) +
-           ", noise " + rounded_text(noise_level(test.friction), 2);
+           ", noise " + rounded_text(noise_of_friction(test), 2);
   }
 
 

@@ -155,6 +155,8 @@ TEST(TestRows, NoiseIsMeasuredUnderASignal)
   EXPECT_NEAR(noise_level(values), 0.003, 0.0002);
   EXPECT_NEAR(noise_level(rounded), 0.01 / std::sqrt(12.), 1e-6);
   EXPECT_EQ(noise_level({1., 1., 1.}), 0.);
+  EXPECT_NEAR(coarse_step(rounded), 0.01, 1e-12);
+  EXPECT_EQ(coarse_step(values), 0.);
   // Ramps and jumps between constants are no noise.
   std::vector<double> clean(1000, 5.);
   for (unsigned int i = 100; i < 1000; ++i)

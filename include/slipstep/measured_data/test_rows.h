@@ -61,6 +61,15 @@ namespace SlipStep
   /// differences, and not less than that of rounding to the recorded digits.
   double noise_level(const std::vector<double> &values);
 
+  /// The step to which a series was rounded, if it takes few values, all of
+  /// them multiples of it; else 0.
+  double coarse_step(const std::vector<double> &values);
+
+  /// The same as noise_level() of friction, the larger of the axes', and not
+  /// less than that of a coarse_step(): what hardly ever goes to the next step
+  /// seems to have none.
+  double noise_of_friction(const MeasuredTest &test);
+
   /// Keep some rows of a test, in the order given.
   void keep_rows(MeasuredTest &test, const std::vector<std::size_t> &rows);
 
