@@ -173,7 +173,7 @@ namespace SlipStep
         const auto found = table.comments().find(key);
         return found == table.comments().end() ? std::string() : found->second;
       };
-      for (const char *key : {"area", "condition", "name", "noise", "order"})
+      for (const char *key : {"area", "condition", "noise", "order"})
         {
           const auto other = table.contradicting_comments().find(key);
           if (other != table.contradicting_comments().end())
