@@ -12,6 +12,7 @@
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/localisation.h>
 #include <slipstep/diagnosis/refits.h>
+#include <slipstep/diagnosis/sensor_zero.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>
@@ -75,6 +76,8 @@ namespace SlipStep
       void judge_tests();
 
       void name();
+
+      void suspect_sensor();
 
       void suspect_condition();
 
@@ -150,6 +153,21 @@ namespace SlipStep
           result.ambiguous_with.push_back(rival.name);
           result.rival_of.push_back(rival.instead_of);
         }
+    }
+
+
+
+    // What looks like an effect may be a zero of the sensor.
+    void Diagnostician::suspect_sensor()
+    {
+      if (!result.has_gap || ingested.workspace->is_late())
+        return;
+      stage("whether a zero of the sensor explains as much");
+      const std::optional<SensorZero> zero =
+        find_sensor_zero(*ingested.workspace, ingested.base, final_model);
+      if (zero.has_value())
+        result.sensor_zero =
+          rounded_text(zero->value, 3) + (zero->is_load ? " MPa" : "");
     }
 
 
@@ -347,6 +365,7 @@ namespace SlipStep
                                     judgement.found.model,
                                     judgement.remainder);
         }
+      suspect_sensor();
       if (result.verdict == Verdict::unnamed && !ingested.workspace->is_late())
         {
           suspect_condition();

@@ -213,7 +213,9 @@ namespace SlipStep
           result.outliers.push_back({test.rows.name,
                                      "it has the same rows as " +
                                        original->rows.name +
-                                       ": it is left out as a copy"});
+                                       ": it is left out as a copy",
+                                     false,
+                                     true});
           result.outlier_tests.push_back(test);
         }
       tests = kept;

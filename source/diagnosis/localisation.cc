@@ -81,8 +81,11 @@ namespace SlipStep
 
 
 
+    using Rows = std::vector<bool>;
+
     // Where the correction is more than half of its largest.
-    void find_range(const Workspace       &workspace,
+    // @return the rows there, or all if it is nowhere
+    Rows find_range(const Workspace       &workspace,
                     const Eigen::VectorXd &correction,
                     Localisation          &place)
     {
@@ -101,8 +104,9 @@ namespace SlipStep
             ++n;
             top = i;
           }
+      Rows inside(x.size(), true);
       if (n == 0)
-        return;
+        return inside;
       mean /= n;
       // What is the same everywhere is in the coefficients.
       for (Eigen::Index i = 0; i < x.size(); ++i)
@@ -120,6 +124,13 @@ namespace SlipStep
             place.from         = std::min(place.from, value);
             place.to           = std::max(place.to, value);
           }
+      for (Eigen::Index i = 0; i < x.size(); ++i)
+        {
+          const double value = shown(place.covariate, x(i));
+          inside[i] =
+            share(i) != 0. && value >= place.from && value <= place.to;
+        }
+      return inside;
     }
 
 
@@ -150,8 +161,10 @@ namespace SlipStep
 
 
 
+    // Phases and tests, by what is explained of their rows there.
     void find_members(const Workspace       &workspace,
                       const Eigen::VectorXd &explained,
+                      const Rows            &inside,
                       Localisation          &place)
     {
       std::map<std::string, double> by_phase, by_test;
@@ -160,6 +173,8 @@ namespace SlipStep
           const ComparedTest &test = workspace.comparison.tests[t];
           for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
             {
+              if (!inside[i])
+                continue;
               const double square = explained(i) * explained(i);
               by_phase[name_of(workspace.covariates.phase[i])] += square;
               by_test[workspace.tests[t].rows.name] += square;
@@ -198,7 +213,10 @@ namespace SlipStep
       // The excess knows other waves only.
       place.share = together.excess / std::max(together.excess, gap.excess);
       place.wavelength = gap.wavelength;
-      find_members(workspace, together.explained, place);
+      find_members(workspace,
+                   together.explained,
+                   Rows(together.explained.size(), true),
+                   place);
       result.push_back(place);
     }
   } // namespace
@@ -235,10 +253,11 @@ namespace SlipStep
           Eigen::VectorXd::Zero(workspace.comparison.n_rows());
         for (std::size_t i = 0; i < directions.size(); ++i)
           correction += strengths(i) * directions[i].friction;
+        Rows inside(workspace.comparison.n_rows(), true);
         // Changes are of either sign, and forgotten on several lengths.
         if (axis.name.compare(0, 9, "change of") != 0)
-          find_range(workspace, correction, place);
-        find_members(workspace, together.explained, place);
+          inside = find_range(workspace, correction, place);
+        find_members(workspace, together.explained, inside, place);
         result.push_back(place);
       }
     add_track_wave(workspace, base, gap, result);

@@ -174,6 +174,7 @@ namespace SlipStep
               {"ambiguous_with", diagnosis.ambiguous_with},
               {"rival_of", diagnosis.rival_of},
               {"withdrawn", diagnosis.withdrawn},
+              {"sensor_zero", diagnosis.sensor_zero},
               {"incomplete", diagnosis.is_incomplete},
               {"remainder_where", list(diagnosis.remains)},
               {"formulas_not_quite_right", list(diagnosis.completed)},

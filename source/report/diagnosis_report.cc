@@ -282,9 +282,11 @@ namespace SlipStep
 
     std::string honesty_section(const Diagnosis &diagnosis)
     {
-      std::vector<std::string> tests, rows;
+      std::vector<std::string> tests, rows, copies;
       for (const Outlier &outlier : diagnosis.outliers)
-        (outlier.is_of_rows ? rows : tests)
+        (outlier.is_copy    ? copies :
+         outlier.is_of_rows ? rows :
+                              tests)
           .push_back(outlier.test + ": " + outlier.words);
       const auto chance = [&](const double p) {
         return chance_text(p, diagnosis.n_draws);
@@ -329,6 +331,7 @@ namespace SlipStep
         bullets("What would overturn this verdict", diagnosis.would_overturn) +
         bullets(counted(tests.size(), "test") + " out of line with the others",
                 tests) +
+        bullets("Copies", copies) +
         bullets("Numbers that nothing explains", rows) +
         bullets("Warnings", diagnosis.warnings) + html_table(lines, "numbers");
       return html + noise_table(diagnosis) + "</div>\n";

@@ -189,7 +189,8 @@ namespace SlipStep
                "; the formula of " + list_text(effects) +
                  (effects.size() > 1 ? " are" : " is") +
                  " not quite right: a factor of " +
-                 diagnosis.completed[0].covariate + " completes it";
+                 diagnosis.completed[0].covariate +
+                 " completes it, with which alone its parameters make sense";
     }
 
     /// "; not all of it is explained, most of the rest is ..."
@@ -217,7 +218,7 @@ namespace SlipStep
     {
       std::vector<std::string> names;
       for (const Outlier &outlier : outliers)
-        if (outlier.is_of_rows == are_rows &&
+        if (outlier.is_of_rows == are_rows && !outlier.is_copy &&
             !contains(names, in_quotes(outlier.test)))
           names.push_back(in_quotes(outlier.test));
       if (names.size() > 3)
@@ -275,6 +276,11 @@ namespace SlipStep
               "Not decided, the search was cut short (Diagnosis/Most time). So "
               "far: " :
               "") +
+           (diagnosis.sensor_zero.empty() ?
+              "" :
+              "A zero of the sensor, " + diagnosis.sensor_zero +
+                ", explains these tests as well: take it off if it is one "
+                "(Correction/Zero of an import). If not: ") +
            (is_stated ?
               "If the stated noise is right (there are no replicates), " +
                 words :

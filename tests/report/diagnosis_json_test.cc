@@ -125,6 +125,7 @@ TEST(DiagnosisJson, TheKeysOfTheResultAreTheDocumentedOnes)
                "ambiguous_with",
                "rival_of",
                "withdrawn",
+               "sensor_zero",
                "incomplete",
                "remainder_where",
                "formulas_not_quite_right",

@@ -75,7 +75,8 @@ TEST(DiagnosisHeadline, AFormulaAndARestAreTold)
   const Diagnosis diagnosis = SyntheticDiagnosis::incomplete();
   EXPECT_TRUE(contains(headline(diagnosis),
                        "; the formula of overstress is not quite right: a "
-                       "factor of log10 speed completes it; not all of it is "
+                       "factor of log10 speed completes it, with which alone "
+                       "its parameters make sense; not all of it is "
                        "explained: the rest is felt most under pressures of 12 "
                        "… 20 MPa in high pressure."))
     << headline(diagnosis);

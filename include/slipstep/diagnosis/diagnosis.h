@@ -112,6 +112,8 @@ namespace SlipStep
     std::string words;
     /// It is not the test, but some of its numbers.
     bool is_of_rows = false;
+    /// It has the rows of another test.
+    bool is_copy = false;
   };
 
   /// One test with the friction before and after. Values at the rows compared;
@@ -223,6 +225,9 @@ namespace SlipStep
     double p_smooth = 1., p_replicates = 1., p_together = 1., p_track = 1.;
     double excess = 0.;              ///< of the objective
     std::vector<Localisation> where; ///< most first
+
+    /// A zero of the sensor that would explain as much, "0.1 MPa", or "".
+    std::string sensor_zero;
 
     // ---- verdict
     Verdict                  verdict = Verdict::no_gap;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/localisation.h>
+#include <slipstep/diagnosis/sensor_zero.h>
 
 #include <tests/diagnosis/hidden/trial.h>
 
 #include <gtest/gtest.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <fstream>
 #include <regex>
@@ -197,6 +200,33 @@ namespace
     return out.str();
   }
 
+  // Of a sensor that shows that much without any friction.
+  std::string with_zero(const double zero, const std::string &text)
+  {
+    std::istringstream in(text);
+    std::ostringstream out;
+    std::string        line;
+    std::size_t        of_friction = 0;
+    out.precision(10);
+    while (std::getline(in, line))
+      {
+        std::vector<std::string> cells =
+          dealii::Utilities::split_string_list(line, ',');
+        if (line[0] == '#' || line.find("time") != std::string::npos)
+          {
+            of_friction =
+              std::find(cells.begin(), cells.end(), "friction") - cells.begin();
+            out << line << '\n';
+            continue;
+          }
+        for (std::size_t i = 0; i < cells.size(); ++i)
+          out << (i > 0 ? "," : "")
+              << std::stod(cells[i]) + (i == of_friction ? zero : 0.);
+        out << '\n';
+      }
+    return out.str();
+  }
+
   // Half of the friction in three rows of the middle; a test with one axis.
   std::string with_bad_rows(const std::string &text)
   {
@@ -285,6 +315,41 @@ namespace
     return out.str();
   }
 } // namespace
+
+
+
+// An effect is no zero of the sensor, and where it is felt there are the tests
+// that are told with it.
+TEST_F(CampaignFolder, KnowsWhereAnEffectIsFelt)
+{
+  plant(CampaignClass::one, 7);
+  const Judgement judgement = judged();
+  ASSERT_EQ(effect_names(judgement.found.model.parts),
+            std::vector<std::string>{"overstress"});
+  const Workspace &workspace = *ingested.workspace;
+  EXPECT_FALSE(
+    find_sensor_zero(workspace, judgement.base, judgement.found.model)
+      .has_value());
+  unsigned int n_told = 0;
+  for (const Localisation &place :
+       localise(workspace, judgement.base, judgement.gap))
+    if (place.covariate == "speed" || place.covariate == "path")
+      for (const std::string &name : place.tests)
+        {
+          std::size_t t = 0;
+          while (workspace.tests[t].rows.name != name)
+            ++t;
+          const ComparedTest    &test = workspace.comparison.tests[t];
+          const Eigen::VectorXd &x =
+            values_of(workspace.covariates, place.covariate);
+          bool is_there = false;
+          for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
+            is_there = is_there || (x(i) >= place.from && x(i) <= place.to);
+          EXPECT_TRUE(is_there) << place.covariate << ' ' << name;
+          ++n_told;
+        }
+  EXPECT_GT(n_told, 0u);
+}
 
 
 
@@ -460,6 +525,27 @@ TEST_F(CampaignFolder, HasNoGapThatAFewBadRowsMake)
   EXPECT_EQ(name_of(judgement.verdict), name_of(Verdict::no_gap));
   EXPECT_FALSE(judgement.outlying.empty());
   EXPECT_TRUE(judgement.found.model.parts.empty());
+}
+
+
+
+// It looks like an effect; whatever is named, or not, it is told.
+TEST_F(CampaignFolder, TellsAZeroOfTheSensorThatExplainsAsMuch)
+{
+  constexpr double zero = 0.006;
+  plant(CampaignClass::none, 4);
+  rewrite(
+    [](const unsigned int i) {
+      return "test_" + std::to_string(100 + i) + ".csv";
+    },
+    [](const std::string &text) { return with_zero(zero, text); });
+  const Judgement spoilt = judged();
+  EXPECT_LE(spoilt.gap.p, ingested.workspace->level);
+  const std::optional<SensorZero> found =
+    find_sensor_zero(*ingested.workspace, spoilt.base, spoilt.found.model);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_FALSE(found->is_load);
+  EXPECT_NEAR(found->value, zero, 0.1 * zero);
 }
 
 
