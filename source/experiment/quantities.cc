@@ -253,9 +253,7 @@ namespace SlipStep
 
     std::string unit(const Kind kind, const unsigned int dimension)
     {
-      const std::string per = dimension == 0 ? "/mm^2" :
-                              dimension == 2 ? "/mm" :
-                                               "";
+      const std::string per = per_size(dimension);
       switch (kind)
         {
           case Kind::friction_force:
@@ -276,6 +274,13 @@ namespace SlipStep
         }
     }
   } // namespace
+
+
+
+  std::string per_size(const unsigned int dimension)
+  {
+    return dimension == 0 ? "/mm^2" : dimension == 2 ? "/mm" : "";
+  }
 
 
 

@@ -40,6 +40,10 @@ namespace SlipStep
       members.optional("friction_before", slide.before);
       members.optional("dip", slide.dip);
       members.optional("slip_fraction", slide.slip_fraction);
+      members.optional("slip_rate_over_speed", slide.relative_rate);
+      members.optional("r_growth_at_end", slide.growth);
+      members.optional("swing_from", slide.swing_from);
+      members.optional("swing_to", slide.swing_to);
     }
 
     void list_stability(JsonMembers members, StabilitySummary &stability)
@@ -79,6 +83,7 @@ namespace SlipStep
         energy("dissipated", summary.dissipated);
         energy("balance_error", summary.balance_error);
       });
+      members.optional("pushed", summary.is_pushed);
       members.array("slides", summary.slides, list_slide);
       members.array("quantities",
                     summary.quantities,
@@ -290,6 +295,86 @@ namespace SlipStep
       return direction[0] * x + direction[1] * y;
     }
 
+    /// A row of the history of a slide, or the one before it.
+    struct SlideRow
+    {
+      double travel; ///< of the drive [mm]
+      double slip;   ///< of the contact [mm]
+      double friction;
+      double loading_ratio;
+    };
+
+    /// How often friction turns, by more than what is noticed.
+    unsigned int turns(const std::vector<SlideRow>::const_iterator begin,
+                       const std::vector<SlideRow>::const_iterator end,
+                       const double                                noticed)
+    {
+      unsigned int n    = 0;
+      int          sign = 0;
+      double       last = begin->friction; // farthest since the last turn
+      for (auto row = begin; row != end; ++row)
+        {
+          const double change = row->friction - last;
+          if (sign == 0 ? std::abs(change) > noticed : change * sign > 0.)
+            {
+              sign = change > 0. ? 1 : -1;
+              last = row->friction;
+            }
+          else if (change * sign < -noticed)
+            {
+              ++n;
+              sign = -sign;
+              last = row->friction;
+            }
+        }
+      return n;
+    }
+
+    /// Whether a slide ends as it would go on.
+    void look_at_end(const std::vector<SlideRow> &rows, SlideSummary &slide)
+    {
+      constexpr double noticed = 0.02, last_part = 0.02, tenth = 0.1;
+
+      const SlideRow &last   = rows.back();
+      const auto      before = [&](const double share) {
+        return std::lower_bound(rows.begin(),
+                                rows.end() - 1,
+                                (1. - share) * last.travel,
+                                [](const SlideRow &row, const double travel) {
+                                  return row.travel < travel;
+                                });
+      };
+      auto from = before(last_part);
+      if (from == rows.end() - 1 && from != rows.begin())
+        --from;
+      if (last.travel > from->travel)
+        slide.relative_rate =
+          (last.slip - from->slip) / (last.travel - from->travel);
+      from = before(tenth);
+      if (from != rows.begin() && last.loading_ratio > 0.)
+        {
+          const SlideRow &a = *(from - 1), &b = *from;
+          const double    part =
+            ((1. - tenth) * last.travel - a.travel) / (b.travel - a.travel);
+          slide.growth = 1. - (a.loading_ratio +
+                               part * (b.loading_ratio - a.loading_ratio)) /
+                                last.loading_ratio;
+        }
+      // Two turns are a peak and what recovers after it.
+      const auto half = before(0.5);
+      const auto [low, high] =
+        std::minmax_element(half,
+                            rows.end(),
+                            [](const SlideRow &a, const SlideRow &b) {
+                              return a.friction < b.friction;
+                            });
+      if (turns(half, rows.end(), noticed * std::abs(high->friction)) > 2)
+        {
+          slide.swing_from = low->friction;
+          slide.swing_to   = high->friction;
+        }
+    }
+
     /// @return false if the history holds no row of this motion
     bool summarise(const Motion                  &motion,
                    const std::vector<HistoryRow> &history,
@@ -309,18 +394,19 @@ namespace SlipStep
 
       // What pushes have moved is in the history alone.
       Tensor<1, 2> start = motion.start;
-      bool         found = false;
-      slide.is_complete  = history.back().time >= motion.end_time - tolerance;
+      // The row before it, and its own.
+      std::vector<SlideRow> rows = {{0., 0., 0., 0.}};
+      slide.is_complete = history.back().time >= motion.end_time - tolerance;
       for (const HistoryRow &row : history)
         if (row.time <= motion.start_time + tolerance)
           {
             slide.before = along(direction, row.friction, row.friction_y);
             start[0]     = row.displacement;
             start[1]     = row.displacement_y;
+            rows[0]      = {0., row.slip, slide.before, row.loading_ratio.mean};
           }
         else if (row.time <= motion.end_time + tolerance)
           {
-            found          = true;
             slide.kinetic  = along(direction, row.friction, row.friction_y);
             slide.length   = along(direction,
                                  row.displacement - start[0],
@@ -335,8 +421,13 @@ namespace SlipStep
                 slide.peak              = slide.kinetic;
                 slide.peak_displacement = slide.length;
               }
+            rows.push_back(
+              {slide.length, row.slip, slide.kinetic, row.loading_ratio.mean});
           }
-      return found;
+      if (rows.size() == 1)
+        return false;
+      look_at_end(rows, slide);
+      return true;
     }
   } // namespace
 
@@ -422,6 +513,10 @@ namespace SlipStep
     // A load pushes where it points.
     const double begin_of_motion =
       all.empty() ? history.back().time : all.front().start_time;
+    summary.is_pushed =
+      std::any_of(programme.segments().begin(),
+                  programme.segments().end(),
+                  [](const Segment &segment) { return segment.pushes; });
     bool is_first = true;
     for (const Segment &segment : programme.segments())
       if (segment.pushes && segment.push.norm() > 0. &&

@@ -283,7 +283,7 @@ namespace SlipStep
       for (const RunResults &run : runs)
         for (const SlideSummary &slide : run.summary.slides)
           if (slide.is_complete && slide.slip_fraction >= 0.999 &&
-              !run.summary.is_unstable(slide))
+              slide.is_settled() && !run.summary.is_unstable(slide))
             {
               ratios.push_back({slide.speed * mm_min, slide.dynamic_ratio});
               speeds.add(slide.speed * mm_min);

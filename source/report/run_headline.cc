@@ -283,41 +283,89 @@ namespace SlipStep
              (compared.empty() ? "" : ", " + compared) + drop(rows);
     }
 
-    /// At which speeds the contact sticks and slips; empty at none.
-    std::string stick_slip(const ResultRows &rows)
+    std::string list_of_speeds(const ResultRows &rows)
     {
       std::vector<std::string> speeds;
       for (const ResultRow &row : rows)
         {
           const std::string speed = speed_text(row.slide.speed);
-          if (!row.is_steady &&
-              std::find(speeds.begin(), speeds.end(), speed) == speeds.end())
+          if (std::find(speeds.begin(), speeds.end(), speed) == speeds.end())
             speeds.push_back(speed);
         }
-      return speeds.empty() ? "" :
-                              "The machine is too soft for steady sliding at " +
-                                list_text(speeds) + ": stick-slip.";
+      return list_text(speeds);
     }
 
-    /// Of slides at whose end part of the contact still sticks.
-    std::string partial_slip(const ResultRows &rows, const std::size_t n_all)
+    /// Of slides at whose end the contact sticks and slips.
+    std::string stick_slip(const ResultRows &rows)
+    {
+      return rows.empty() ? "" :
+                            "The machine is too soft for steady sliding at " +
+                              list_of_speeds(rows) + ": stick-slip.";
+    }
+
+    /// Of others at whose end friction goes up and down.
+    std::string swings(const ResultRows &rows)
     {
       if (rows.empty())
         return "";
-      const Aspect share    = {of_slide(&SlideSummary::slip_fraction),
-                               [](const double fraction) {
+      const Aspect from = {of_slide(&SlideSummary::swing_from), four_decimals};
+      const Aspect to   = {of_slide(&SlideSummary::swing_to), four_decimals};
+      return "At " + list_of_speeds(rows) + " friction still swings between " +
+             range(rows, from) + " and " + range(rows, to) +
+             " when the slide ends: sliding is not steady there.";
+    }
+
+    const Aspect end_aspect = {&ResultRow::end, four_decimals};
+
+    /// Slides of which the headline has yet to speak.
+    struct Remaining
+    {
+      std::size_t n          = 0;
+      bool        are_others = false;
+
+      /// "In 2 of 3 slides, "; "" for all
+      std::string some(const std::size_t n_some) const
+      {
+        return n_some == n && !are_others ?
+                 "" :
+                 "In " + std::to_string(n_some) + " of " +
+                   (are_others ? "the other " : "") + std::to_string(n) +
+                   " slides, ";
+      }
+
+      std::string end() const
+      {
+        return std::string("at the end of ") +
+               (n == 1 ? "the slide" : "a slide");
+      }
+    };
+
+    /// Of slides at whose end part of the contact still sticks.
+    std::string partial_slip(const ResultRows &rows, const Remaining &all)
+    {
+      if (rows.empty())
+        return "";
+      const Aspect share = {of_slide(&SlideSummary::slip_fraction),
+                            [](const double fraction) {
                               return short_text(100. * fraction, 3);
                             }};
-      const Aspect friction = {&ResultRow::end, four_decimals};
-      return (rows.size() == n_all ?
-                "" :
-                "In " + std::to_string(rows.size()) + " of " +
-                  std::to_string(n_all) + " slides, ") +
-             (rows.size() == n_all ? "Only " : "only ") + range(rows, share) +
-             " % of the contact slips at the end of " +
-             (n_all == 1 ? "the slide" : "a slide") + ", where friction is " +
-             range(rows, friction) +
-             ": there is no kinetic friction before all of it slides.";
+      return capitalised(all.some(rows.size()) + "only " + range(rows, share) +
+                         " % of the contact slips " + all.end() +
+                         ", where friction is " + range(rows, end_aspect) +
+                         ": there is no kinetic friction before all of it "
+                         "slides.");
+    }
+
+    /// Of slides that end on the way to sliding.
+    std::string on_the_way(const ResultRows &rows, const Remaining &all)
+    {
+      return rows.empty() ? "" :
+                            capitalised(all.some(rows.size()) +
+                                        "the contact has not come to steady "
+                                        "sliding " +
+                                        all.end() + ", where friction is " +
+                                        range(rows, end_aspect) +
+                                        ": that is no kinetic friction yet.");
     }
   } // namespace
 
@@ -329,23 +377,30 @@ namespace SlipStep
   {
     if (all_rows.empty())
       return "No slide has been reached.";
-    ResultRows completed, steady, partial;
+    std::size_t n = 0;
+    ResultRows  steady, unstable, swinging, partial, unsettled;
     for (const ResultRow &row : all_rows)
       if (row.slide.is_complete)
         {
-          completed.push_back(row);
-          if (row.has_kinetic())
-            steady.push_back(row);
-          else if (row.is_steady)
-            partial.push_back(row);
+          ++n;
+          (row.has_kinetic()   ? steady :
+           !row.is_steady      ? unstable :
+           row.slide.swings()  ? swinging :
+           !row.slides_fully() ? partial :
+                                 unsettled)
+            .push_back(row);
         }
-    if (completed.empty())
+    if (n == 0)
       return "No slide has been completed.";
     std::string text;
     if (!steady.empty())
       text = of_steady_slides(steady, reference, is_one_law) + ".";
-    for (const std::string &more :
-         {stick_slip(completed), partial_slip(partial, completed.size())})
+    const std::size_t n_unsteady = unstable.size() + swinging.size();
+    const Remaining   others     = {n - n_unsteady, n_unsteady > 0};
+    for (const std::string &more : {stick_slip(unstable),
+                                    swings(swinging),
+                                    partial_slip(partial, others),
+                                    on_the_way(unsettled, others)})
       text += (text.empty() || more.empty() ? "" : " ") + more;
     return text;
   }
@@ -368,10 +423,22 @@ namespace SlipStep
     const auto slip = [](const RunResults &run) {
       return short_text(run.history.back().slip, 3) + " mm";
     };
-    if (most == nullptr || !(most->history.back().slip > 0.))
+    const bool is_finished =
+      most != nullptr &&
+      std::all_of(runs.begin(), runs.end(), [](const RunResults &run) {
+        return run.summary.status == "finished";
+      });
+    if (most == nullptr || (!is_finished && !(most->history.back().slip > 0.)))
       return "No slide has been reached.";
-    const std::string text = "The contact is pushed by a load, not slid; in "
-                             "the end it has slipped ";
+    const bool is_pushed =
+      std::all_of(runs.begin(), runs.end(), [](const RunResults &run) {
+        return run.summary.is_pushed;
+      });
+    const std::string text =
+      is_pushed ? "The contact is pushed by a load, not slid; in the end it "
+                  "has slipped " :
+                  "The programme has no straight slide; in the end the contact "
+                  "has slipped ";
     if (slip(*least) == slip(*most))
       return text + slip(*most) + ".";
     return text + slip(*least) + " (" + least->label + ") to " + slip(*most) +

@@ -10,10 +10,12 @@
 #include <deal.II/base/utilities.h>
 
 #include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <variant>
 
 namespace SlipStep
@@ -224,6 +226,26 @@ namespace SlipStep
       return rows;
     }
 
+    /// The axis' label, loads and energies in the unit of the runs.
+    std::string label(const PictureQuantity         &quantity,
+                      const std::vector<RunResults> &runs)
+    {
+      std::string text = quantity.label;
+      for (const std::string unit : {"[N]", "[N mm]"})
+        if (boost::algorithm::ends_with(text, unit))
+          {
+            std::set<std::string> sizes;
+            for (const RunResults &run : runs)
+              sizes.insert(per_size(run.summary.dimension));
+            text.pop_back();
+            text +=
+              (sizes.size() == 1 ? *sizes.begin() :
+                                   ", in 2-D per mm, at a point per mm^2") +
+              ']';
+          }
+      return text;
+    }
+
     /// Values that span more than a decade are shown by their logarithms.
     bool is_logarithmic(const PictureQuantity &quantity, const Range &range)
     {
@@ -231,20 +253,24 @@ namespace SlipStep
              range.lower > 0. && range.upper > 15. * range.lower;
     }
 
-    std::string
-    axes_of(const RequestedPicture &picture, const Range &x, const Range &y)
+    std::string axes_of(const RequestedPicture        &picture,
+                        const Range                   &x,
+                        const Range                   &y,
+                        const std::vector<RunResults> &runs)
     {
+      const std::string x_label = label(picture.x, runs);
+      const std::string y_label = label(picture.y, runs);
       if (picture.is_polar())
         return "set size ratio -1\nset xzeroaxis lc rgb '#444444' dt solid\n"
                "set yzeroaxis lc rgb '#444444' dt solid\n"
                "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
                "set xlabel 'Along the first axis'\nset ylabel " +
                gnuplot_text(picture.x.name == "direction" ?
-                              picture.y.label + ", along the second axis" :
-                              picture.y.label) +
+                              y_label + ", along the second axis" :
+                              y_label) +
                "\n";
-      std::string script = "set xlabel " + gnuplot_text(picture.x.label) +
-                           "\nset ylabel " + gnuplot_text(picture.y.label) +
+      std::string script = "set xlabel " + gnuplot_text(x_label) +
+                           "\nset ylabel " + gnuplot_text(y_label) +
                            "\nset offsets graph 0.03, graph 0.03, graph 0.06, "
                            "graph 0.06\n";
       if (is_logarithmic(picture.x, x))
@@ -347,7 +373,7 @@ namespace SlipStep
                         (of.empty() ? " notitle" :
                                       " title " + gnuplot_text(of)));
       figure.script() << axes_style << legend_place.commands
-                      << axes_of(requested, curves.x, curves.y);
+                      << axes_of(requested, curves.x, curves.y, figures.runs);
       figures.add(figure,
                   title,
                   is_curve ? "" :

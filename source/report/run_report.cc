@@ -20,6 +20,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 #include <sstream>
 
 namespace SlipStep
@@ -201,13 +202,12 @@ namespace SlipStep
       const bool with_kinetic = table.has(&ResultRow::has_kinetic);
       if (with_kinetic)
         table.add("kinetic", 4, of_slide(&SlideSummary::kinetic));
+      if (table.has(&ResultRow::is_on_the_way))
+        table.add("at the end", 4, &ResultRow::end);
       if (table.has(std::not_fn(&ResultRow::slides_fully)))
-        {
-          table.add("at the end", 4, &ResultRow::end);
-          table.add("slipping [%]", 1, [](const ResultRow &row) {
-            return 100. * row.slide.slip_fraction;
-          });
-        }
+        table.add("slipping [%]", 1, [](const ResultRow &row) {
+          return 100. * row.slide.slip_fraction;
+        });
       if (reference.exists() && with_kinetic)
         {
           table.add(reference.name(), 4, &ResultRow::reference);
@@ -270,6 +270,11 @@ namespace SlipStep
       if (table.has(&ResultRow::has_dip))
         text += "Dip: the least friction after a step of speed, where it is "
                 "lower than before and in the end. ";
+      if (table.has(&ResultRow::is_on_the_way))
+        text += "At the end: friction there, whether or not it is kinetic. "
+                "It is no kinetic friction where the contact does not slide "
+                "as fast as it is driven, or the loading ratio r still rises, "
+                "by more than 1 % in the last tenth of the slide. ";
       if (table.has(std::not_fn(&ResultRow::slides_fully)))
         text += "Slipping: share of the contact that slips at the end of the "
                 "slide; below 100 % there is no kinetic friction. ";
@@ -286,8 +291,9 @@ namespace SlipStep
     std::vector<TableLine> cost_lines(const std::vector<RunResults> &runs)
     {
       // A single point has neither mesh nor systems to solve.
-      const bool              has_mesh = runs[0].summary.command != "point";
       ColumnTable<RunResults> table(runs);
+      const bool              has_mesh = table.has(
+        [](const RunResults &run) { return run.summary.command != "point"; });
       const auto count = [&](const std::string &head, const auto &number) {
         table.add(head, [&](const RunResults &run) {
           return std::to_string(run.summary.*number);
@@ -341,26 +347,43 @@ namespace SlipStep
       return table.lines;
     }
 
+    /// A number and its unit.
+    using Measure = std::pair<std::string, std::string>;
+
+    // The unit stands in the head if all runs have the same.
+    template <typename MeasureOf>
+    void add_measures(ColumnTable<RunResults> &table,
+                      const std::string       &name,
+                      const MeasureOf         &measure)
+    {
+      std::set<std::string> units;
+      for (const RunResults &run : table.rows)
+        units.insert(measure(run).second);
+      units.erase("");
+      table.add(name + (units.size() == 1 ? " [" + *units.begin() + "]" : ""),
+                [&](const RunResults &run) {
+                  const auto [value, unit] = measure(run);
+                  return value +
+                         (units.size() > 1 && !unit.empty() ? " " + unit : "");
+                });
+    }
+
     std::vector<TableLine> energy_lines(const std::vector<RunResults> &runs)
     {
-      // A point stands for 1 mm² of contact, a block in 2-D for 1 mm of its
-      // thickness.
-      const Summary         &first = runs[0].summary;
-      const std::string      unit  = first.command == "point" ? " [N mm/mm²]" :
-                                     first.dimension == 2     ? " [N mm/mm]" :
-                                                                " [N mm]";
-      std::vector<TableLine> lines = {{"run",
-                                       "work put in" + unit,
-                                       "stored" + unit,
-                                       "dissipated" + unit,
-                                       "unaccounted [% of the work]"}};
-      for (const RunResults &run : runs)
-        lines.push_back({run_name(run),
-                         short_text(run.summary.work, 6),
-                         short_text(run.summary.stored, 6),
-                         short_text(run.summary.dissipated, 6),
-                         short_text(100. * run.summary.balance_error, 2)});
-      return lines;
+      ColumnTable<RunResults> table(runs);
+      table.add("run", run_name);
+      for (const auto &[name, energy] :
+           {std::make_pair("work put in", &Summary::work),
+            std::make_pair("stored", &Summary::stored),
+            std::make_pair("dissipated", &Summary::dissipated)})
+        add_measures(table, name, [energy = energy](const RunResults &run) {
+          return Measure(short_text(run.summary.*energy, 6),
+                         "N mm" + per_size(run.summary.dimension));
+        });
+      table.add("unaccounted [% of the work]", [](const RunResults &run) {
+        return short_text(100. * run.summary.balance_error, 2);
+      });
+      return table.lines;
     }
 
     /// Whether the machine lets the contact slide steadily; empty without a
@@ -400,23 +423,27 @@ namespace SlipStep
              "frequency given.</p>\n";
     }
 
-    /// The quantities of interest of all runs, if the case names any.
+    /// The quantities of interest of all runs; "" if there are none.
     std::string quantities(const std::vector<RunResults> &runs)
     {
-      if (runs[0].summary.quantities.empty())
-        return "";
-      std::vector<TableLine> lines = {{"run"}};
-      for (const QuantityValue &quantity : runs[0].summary.quantities)
-        lines[0].push_back(quantity.name + (quantity.unit.empty() ?
-                                              "" :
-                                              " [" + quantity.unit + "]"));
+      std::vector<std::string> names;
       for (const RunResults &run : runs)
-        {
-          lines.push_back({run_name(run)});
+        for (const QuantityValue &quantity : run.summary.quantities)
+          if (std::find(names.begin(), names.end(), quantity.name) ==
+              names.end())
+            names.push_back(quantity.name);
+      if (names.empty())
+        return "";
+      ColumnTable<RunResults> table(runs);
+      table.add("run", run_name);
+      for (const std::string &name : names)
+        add_measures(table, name, [&](const RunResults &run) {
           for (const QuantityValue &quantity : run.summary.quantities)
-            lines.back().push_back(short_text(quantity.value, 6));
-        }
-      return heading("Quantities of interest") + html_table(lines);
+            if (quantity.name == name)
+              return Measure(short_text(quantity.value, 6), quantity.unit);
+          return Measure("–", "");
+        });
+      return heading("Quantities of interest") + html_table(table.lines);
     }
 
     /// What the user set, and in what the variants differ.

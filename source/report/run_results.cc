@@ -49,6 +49,11 @@ namespace SlipStep
                std::set<std::string>(parts.back().begin(), parts.back().end()))
             ++n_runs_with[part];
         }
+      // Parts of lists of different lengths make no sense alone.
+      if (std::any_of(parts.begin(), parts.end(), [&](const auto &other) {
+            return other.size() != parts[0].size();
+          }))
+        return;
       for (std::size_t i = 0; i < runs.size(); ++i)
         {
           std::string text;
@@ -191,9 +196,17 @@ namespace SlipStep
 
 
 
+  bool ResultRow::is_on_the_way() const
+  {
+    return slide.is_complete && is_steady && !slide.swings() && !has_kinetic();
+  }
+
+
+
   bool ResultRow::has_kinetic() const
   {
-    return slide.is_complete && is_steady && slides_fully();
+    return slide.is_complete && is_steady && slides_fully() &&
+           slide.is_settled();
   }
 
 

@@ -90,7 +90,7 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                        "friction", "energy",         "peak_memory_MB",
                        "slides",   "quantities",     "warnings",
                        "sessions", "stability",      "mesh_error",
-                       "opening",  "probes"});
+                       "opening",  "probes",         "pushed"});
   has_exactly(object["friction"], {"peak", "at_displacement_mm", "final"});
   has_exactly(object["energy"],
               {"work", "stored", "kinetic", "dissipated", "balance_error"});
@@ -112,7 +112,11 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                "rest_before_s",
                "friction_before",
                "dip",
-               "slip_fraction"});
+               "slip_fraction",
+               "slip_rate_over_speed",
+               "r_growth_at_end",
+               "swing_from",
+               "swing_to"});
   has_exactly(object["stability"][0],
               {"speed_mm_per_min",
                "pressure_MPa",
@@ -310,6 +314,61 @@ TEST(Summary, AnUnfinishedHistoryGivesTheSlidesItReached)
 
   summarise_history({}, programme, summary);
   EXPECT_TRUE(summary.slides.empty());
+}
+
+
+
+// Sliding is what goes on with the speed of the drive, on the level that r has
+// come to.
+TEST(Summary, HowASlideEndsIsToldApart)
+{
+  const Programme programme("slide 1 mm/s for 10 mm", 0., ".");
+  const auto      slide = [&](const auto &change) {
+    auto history = sampled(programme, 200);
+    for (HistoryRow &row : history)
+      {
+        row.friction           = 0.2;
+        row.slip               = row.displacement;
+        row.loading_ratio.mean = 1.;
+        change(row);
+      }
+    Summary summary;
+    summarise_history(history, programme, summary);
+    return summary.slides.at(0);
+  };
+  SlideSummary found = slide([](HistoryRow &) {});
+  EXPECT_NEAR(found.relative_rate, 1., 1e-12);
+  EXPECT_EQ(found.growth, 0.);
+  EXPECT_TRUE(found.is_settled());
+  // It peaks and recovers, once.
+  found = slide([](HistoryRow &row) {
+    row.friction += 0.1 * std::sin(0.9 * row.displacement);
+  });
+  EXPECT_TRUE(found.is_settled());
+
+  found = slide([](HistoryRow &row) { row.slip *= 0.5; });
+  EXPECT_NEAR(found.relative_rate, 0.5, 1e-12);
+  EXPECT_FALSE(found.is_settled());
+
+  found = slide([](HistoryRow &row) {
+    row.loading_ratio.mean = 1. - std::exp(-0.3 * row.displacement);
+  });
+  EXPECT_NEAR(found.growth,
+              1. - (1. - std::exp(-2.7)) / (1. - std::exp(-3.)),
+              1e-3);
+  EXPECT_FALSE(found.is_settled());
+
+  found = slide([](HistoryRow &row) {
+    row.friction += 0.1 * std::sin(5. * row.displacement);
+  });
+  EXPECT_NEAR(found.swing_from, 0.1, 1e-3);
+  EXPECT_NEAR(found.swing_to, 0.3, 1e-3);
+  EXPECT_FALSE(found.is_settled());
+  // Not noticed.
+  found = slide([](HistoryRow &row) {
+    row.friction += 0.001 * std::sin(5. * row.displacement);
+  });
+  EXPECT_TRUE(found.is_settled());
 }
 
 

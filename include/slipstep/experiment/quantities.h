@@ -96,6 +96,12 @@ namespace SlipStep
   std::vector<QuantityOfInterest>
   probes_among(const std::vector<QuantityOfInterest> &quantities);
 
+  /// What loads and energies count per: a contact point stands for 1 mm^2 of
+  /// contact, a block in 2-D for 1 mm of its thickness.
+  /// @param dimension of the block, 0 for a contact point
+  /// @return "/mm^2", "/mm" or ""
+  std::string per_size(const unsigned int dimension);
+
   /// Evaluate what a run came to.
   /// @param history rows with as many probes as probes_among() has, or none
   /// @param dimension of the block, 0 for a contact point: tells the units

@@ -31,6 +31,22 @@ namespace SlipStep
     double before        = 0.; ///< friction where it starts
     double dip           = 0.; ///< smallest friction in this direction
     double slip_fraction = 1.; ///< share of the contact that slips at the end
+    double relative_rate = 1.; ///< of slip, over the speed, at the end
+    double growth        = 0.; ///< of r in the last tenth, a share of r
+    double swing_from    = 0.; ///< where friction goes up and down at the end,
+    double swing_to      = 0.; ///< its least and largest; else 0
+
+    bool swings() const
+    {
+      return swing_to > swing_from;
+    }
+
+    /// Whether the contact slides at the end as it would go on sliding: about
+    /// as fast as it is driven, with a loading ratio that has stopped to rise.
+    bool is_settled() const
+    {
+      return !swings() && relative_rate > 0.9 && growth < 0.01;
+    }
   };
 
   /// Whether sliding at one speed of the programme is steady on the spring of
@@ -104,12 +120,13 @@ namespace SlipStep
     double                   peak_friction = 0.; ///< largest magnitude
     double                   peak_displacement =
       0.; ///< of the drive there, along its first direction [mm]
-    double final_friction = 0.; ///< along the last direction of motion
-    double work           = 0.; ///< [N mm]
-    double stored         = 0.; ///< [N mm]
-    double kinetic        = 0.; ///< part of what is stored [N mm]
-    double dissipated     = 0.; ///< [N mm]
-    double balance_error  = 0.; ///< relative to work
+    bool   is_pushed      = false; ///< by a load, at some time
+    double final_friction = 0.;    ///< along the last direction of motion
+    double work           = 0.;    ///< [N mm]
+    double stored         = 0.;    ///< [N mm]
+    double kinetic        = 0.;    ///< part of what is stored [N mm]
+    double dissipated     = 0.;    ///< [N mm]
+    double balance_error  = 0.;    ///< relative to work
     std::vector<SlideSummary>  slides;
     std::vector<QuantityValue> quantities;
     std::vector<std::string>   probes; ///< of history.csv, what they are

@@ -88,7 +88,10 @@ namespace SlipStep
     /// Whether all of the contact slips at the end.
     bool slides_fully() const;
 
-    /// A completed and steady slide of all of the contact.
+    /// Whether it ends before steady sliding.
+    bool is_on_the_way() const;
+
+    /// A completed and steady slide of all of the contact, which has settled.
     bool has_kinetic() const;
 
     /// NaN without a reference.

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What is told of slides and of what is no slide.
+
+#include <gtest/gtest.h>
+
+#include "synthetic_runs.h"
+
+using namespace SyntheticRuns;
+
+
+
+TEST(Report, AStepOfSpeedHasADipOrAPeakAndIsNoStaticPeak)
+{
+  std::vector<SlideSummary> slides = {make_slide(2, 1., 0., 0.12, 0.11),
+                                      make_slide(3, 10., 0.11, 0.13, 0.115),
+                                      make_slide(4, 1., 0.115, 0.1149, 0.11)};
+  slides[2].dip                    = 0.1;
+  slides[2].peak_displacement      = 1e-8;
+  const std::string text           = told_of({make_slides("steps", slides)});
+  EXPECT_TRUE(contains(text,
+                       "Kinetic friction rises from 0.1100 at 1 mm/min to "
+                       "0.1150 at 10 mm/min.<"));
+  EXPECT_TRUE(contains(text, "<th>statement</th>"));
+  EXPECT_TRUE(contains(text, "<th>dip</th>"));
+  EXPECT_TRUE(contains(text, "<td>–</td><td>0.1000</td><td>0.1100</td>"));
+  EXPECT_FALSE(contains(text, "0.1149"));
+  EXPECT_FALSE(contains(text, "1e-08"));
+  EXPECT_FALSE(contains(text, "rest before"));
+}
+
+
+
+TEST(Report, SlidesAfterRestsAreToldByTheRests)
+{
+  std::vector<SlideSummary> slides = {make_slide(2, 1., 0., 0.12, 0.11),
+                                      make_slide(4, 1., 0.1, 0.112, 0.11),
+                                      make_slide(6, 1., 0.1, 0.125, 0.11)};
+  slides[1].rest                   = 10.;
+  slides[2].rest                   = 1000.;
+  const std::string text           = told_of({make_slides("rests", slides)});
+  EXPECT_TRUE(contains(text,
+                       "The peak after a rest rises from 0.1120 after 10 s to "
+                       "0.1250 after 1000 s.<"));
+  EXPECT_TRUE(contains(text, "<th>rest before [s]</th>"));
+  EXPECT_FALSE(contains(text, "dip"));
+  EXPECT_FALSE(contains(text, "Kinetic friction is"));
+}
+
+
+
+TEST(Report, PressuresAndLawsAreToldByWhatVaries)
+{
+  std::vector<SlideSummary> slides = {make_slide(2, 1., 0., 0.12, 0.12),
+                                      make_slide(4, 1., 0., 0.1, 0.1)};
+  slides[1].pressure               = 50.;
+  slides[1].rest                   = 1.;
+  const std::string trend = "inetic friction falls from 0.1200 at 5 MPa to "
+                            "0.1000 at 50 MPa.";
+  std::string       text  = told_of({make_slides("thin", slides)});
+  EXPECT_TRUE(contains(text, "K" + trend));
+  EXPECT_TRUE(contains(text, "<th>pressure [MPa]</th>"));
+  EXPECT_FALSE(contains(text, "rest before"));
+  EXPECT_FALSE(contains(text, "<th>peak</th>"));
+  // Two laws in one report.
+  text = told_of({make_slides("thin", slides), make_slides("thick", slides)});
+  EXPECT_TRUE(contains(text, "thin: k" + trend.substr(0, trend.size() - 1)));
+  EXPECT_TRUE(contains(text, "thick: k" + trend));
+}
+
+
+
+TEST(Report, AFrontThatDoesNotGetThroughHasNoKineticFriction)
+{
+  SlideSummary slide     = make_slide(2, 1., 0., 0.09, 0.09);
+  slide.slip_fraction    = 0.4;
+  const std::string text = told_of({make_slides("front", {slide})});
+  EXPECT_TRUE(contains(text,
+                       "Only 40 % of the contact slips at the end of the "
+                       "slide, where friction is 0.0900"));
+  EXPECT_FALSE(contains(text, "<th>kinetic</th>"));
+  EXPECT_FALSE(contains(text, "<th>r</th>"));
+  EXPECT_TRUE(contains(text, "<th>slipping [%]</th>"));
+  const std::string table =
+    result_table(parameters_with({}), {{"front", test_folder() / "front"}});
+  EXPECT_FALSE(contains(table, "kinetic"));
+}
+
+
+
+TEST(Report, WhatHasNotComeToSlidingHasNoKineticFriction)
+{
+  SlideSummary slide     = make_slide(2, 1., 0., 0.09, 0.09);
+  slide.growth           = 0.03;
+  const std::string text = told_of({make_slides("short", {slide})});
+  EXPECT_TRUE(contains(text,
+                       "The contact has not come to steady sliding at the end "
+                       "of the slide, where friction is 0.0900: that is no "
+                       "kinetic friction yet."))
+    << text;
+  EXPECT_FALSE(contains(text, "<th>kinetic</th>"));
+  EXPECT_TRUE(contains(text, "<th>at the end</th>"));
+  EXPECT_FALSE(contains(text, "<th>slipping [%]</th>"));
+}
+
+
+
+TEST(Report, FrictionThatSwingsIsNotKinetic)
+{
+  std::vector<SlideSummary> slides = {make_slide(2, 60., 0., 0.3, 0.21),
+                                      make_slide(3, 6., 0., 0.3, 0.2),
+                                      make_slide(4, 3., 0., 0.3, 0.1)};
+  slides[0].swing_from             = 0.1;
+  slides[0].swing_to               = 0.25;
+  slides[2].slip_fraction          = 0.;
+  const std::string text           = told_of({make_slides("soft", slides)});
+  EXPECT_TRUE(contains(text,
+                       "At 60 mm/min friction still swings between 0.1000 and "
+                       "0.2500 when the slide ends: sliding is not steady "
+                       "there. In 1 of the other 2 slides, only 0 % of the "
+                       "contact slips"))
+    << text;
+}
+
+
+
+TEST(Report, LoadsAndEnergiesHaveTheUnitsOfTheirRuns)
+{
+  const auto of = [](const std::string &label, const unsigned int dimension) {
+    const ReportedRun run  = make_slides(label, {});
+    Summary           read = read_summary(run.folder / "summary.json");
+    read.dimension         = dimension;
+    read.work              = 7.;
+    read.quantities        = {{"force", 2., "N" + per_size(dimension)}};
+    write_summary(run.folder / "summary.json", read);
+    return run;
+  };
+  const auto page = [](const std::vector<ReportedRun> &runs) {
+    write_report(test_folder(), parameters_with({}), runs);
+    return content(test_folder() / "report.html");
+  };
+  std::string text = page({of("plane", 2), of("strip", 2)});
+  EXPECT_TRUE(contains(text, "<th>work put in [N mm/mm]</th>"));
+  EXPECT_TRUE(contains(text, "<th>force [N/mm]</th>"));
+  text = page({of("plane", 2), of("block", 3)});
+  EXPECT_TRUE(contains(text, "<th>work put in</th>"));
+  EXPECT_TRUE(contains(text, "<td>7 N mm/mm</td>"));
+  EXPECT_TRUE(contains(text, "<td>7 N mm</td>"));
+  EXPECT_TRUE(contains(text, "<td>2 N/mm</td>"));
+}
+
+
+
+// What is a list in a label is not taken apart.
+TEST(Report, LawsAreToldByAllOfTheirEffects)
+{
+  const std::vector<SlideSummary> slides = {make_slide(2, 1., 0., 0.2, 0.1)};
+  const std::string               text =
+    told_of({make_slides("subloading, softening", slides),
+             make_slides("subloading, overstress, softening", slides)});
+  EXPECT_TRUE(contains(text, "subloading, overstress, softening"));
+}
+
+
+
+TEST(Report, StickSlipHasAPeakAndNoKineticFriction)
+{
+  const ReportedRun run =
+    make_slides("soft", {make_slide(2, 60., 0., 0.3, 0.21)});
+  Summary summary = read_summary(run.folder / "summary.json");
+  summary.stability.push_back({1., 5., 0.2, 1., 2., 7.});
+  write_summary(run.folder / "summary.json", summary);
+  const std::string text = told_of({run});
+  EXPECT_TRUE(contains(text, "too soft for steady sliding at 60 mm/min"));
+  EXPECT_FALSE(contains(text, "0.2100"));
+  EXPECT_FALSE(contains(text, "<th>kinetic</th>"));
+  EXPECT_TRUE(contains(text, "<th>peak</th>"));
+}
+
+
+
+TEST(Report, WhatIsPushedIsNotSlid)
+{
+  const ReportedRun run = make_slides("pushed", {});
+  std::ofstream(run.folder / "history.csv").close();
+  {
+    HistoryWriter writer(run.folder / "history.csv");
+    for (int i = 0; i < 5; ++i)
+      {
+        HistoryRow row;
+        row.time = i;
+        row.slip = 0.001 * i;
+        writer.write(row);
+      }
+  }
+  EXPECT_TRUE(contains(told_of({run}),
+                       "The programme has no straight slide; in the end the "
+                       "contact has slipped 0.004 mm."));
+  Summary summary   = read_summary(run.folder / "summary.json");
+  summary.is_pushed = true;
+  write_summary(run.folder / "summary.json", summary);
+  const std::string text = told_of({run});
+  EXPECT_TRUE(
+    contains(text,
+             "pushed by a load, not slid; in the end it has slipped 0.004 mm."))
+    << text;
+  EXPECT_FALSE(contains(text, "No slide"));
+  EXPECT_FALSE(contains(text, "<table"));
+}
+
+
+
+TEST(Report, SlidesToAndFroAreNoTrend)
+{
+  SlideSummary back = make_slide(3, 1., -0.11, 0.12, 0.11);
+  back.angle        = 3.14159265358979323846;
+  const std::string text =
+    told_of({make_slides("cycle", {make_slide(2, 1., 0., 0.13, 0.11), back})});
+  EXPECT_TRUE(contains(
+    text, "Kinetic friction is 0.1100 in 2 slides; it is 8.3 to 15.4 % lower"));
+  EXPECT_TRUE(contains(text, "<td>-1</td>"));
+  EXPECT_FALSE(contains(text, "rises"));
+}
+
+
+
+TEST(Report, ASlideThatIsCutShortHasNoKineticFriction)
+{
+  const ReportedRun run     = make_run(1., "tipped");
+  Summary           summary = read_summary(run.folder / "summary.json");
+  summary.slides.front().is_complete = false;
+  write_summary(run.folder / "summary.json", summary);
+  const std::string table = result_table(parameters_with({}), {run});
+  EXPECT_TRUE(contains(table, "0.1122"));
+  EXPECT_FALSE(contains(table, "kinetic"));
+}
