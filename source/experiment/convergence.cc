@@ -84,7 +84,14 @@ namespace SlipStep
         (values[n - 3] - values[n - 2]) * (values[n - 2] - values[n - 1]) > 0.;
       const double order = richardson(sizes, values).order;
       if (is_one_sided && std::isnan(order))
-        return infinite;
+        {
+          // They go on, but at a pace that no mesh or step lasts for.
+          constexpr double pace = 1e-4, lasts = 50.;
+          const double last = std::max(std::abs(values[n - 3] - values[n - 2]),
+                                       std::abs(values[n - 2] - values[n - 1]));
+          return last <= pace * std::abs(values[n - 1]) ? lasts * last :
+                                                          infinite;
+        }
       // More values than three would show the order, if there is one.
       const double q =
         n == 3 && is_one_sided ? std::min(std::max(order / 2., 0.5), 1.) : 0.5;

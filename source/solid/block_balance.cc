@@ -192,7 +192,12 @@ namespace SlipStep
   template <int dim>
   std::string Block<dim>::remedy_of_jumps() const
   {
-    const Segment &now = programme.segment_at(control.end_of_step());
+    const Segment &now     = programme.segment_at(control.end_of_step());
+    const auto    &effects = contact.friction_law().effects();
+    if (contact_share < 1. &&
+        std::find(effects.begin(), effects.end(), "adhesion") != effects.end())
+      return "; where the face lifts off, its bonds (effect adhesion) break at "
+             "once, and there may be no equilibrium between";
     if (inertia.exists() || now.end.velocity.norm() == 0.)
       return "";
     return "; where friction falls with slip or speed a block this soft may "
@@ -298,6 +303,18 @@ namespace SlipStep
       summary.warnings.push_back(
         "the programme presses, but no face has 'pressure programme': only the "
         "other loads of section Block/Faces press the block on the plane");
+    constexpr double noticed = 0.005;
+    if (std::abs(strength_error) > noticed)
+      {
+        std::ostringstream message;
+        message << "the contact points see the map Contact/Strength too "
+                << (strength_error > 0. ? "high" : "low") << ", by "
+                << std::setprecision(2) << 100. * std::abs(strength_error)
+                << " % on average: they are too far apart for it; more "
+                   "Block/Subdivisions, with borders of cells where the map "
+                   "jumps, tell it better";
+        summary.warnings.push_back(message.str());
+      }
     // Round-off of sums of areas opens nothing.
     if (opening.share > 1e-9)
       {

@@ -57,8 +57,26 @@ namespace SlipStep
     find_groups_of_unknowns();
     find_driven_unknowns();
     contact.reinit(dof_handler);
+    check_map_of_strength();
     assemble_loads();
     choose_solver();
+  }
+
+
+
+  // What is narrower than their distance may lie between contact points.
+  template <int dim>
+  void Block<dim>::check_map_of_strength()
+  {
+    if (!parameters.surface.has_map_of_strength())
+      return;
+    double sum = 0.;
+    for (const auto &cell_face : contact.cell_faces())
+      for (const auto &point : cell_face.points)
+        sum += point.JxW * point.point.committed().strength_factor;
+    const double mean = Utilities::MPI::sum(sum, communicator) /
+                        parameters.nominal_contact_area();
+    strength_error = mean / parameters.surface.mean_strength() - 1.;
   }
 
 

@@ -47,19 +47,23 @@ namespace SlipStep
 
 
     // Dense enough for what meshes resolve, and with both ends.
+    // @param visit is given a place and its share of the face
     void at_many_places(
-      const PlaceNames                                         &face,
-      const std::function<void(const GapAndStrength::Place &)> &visit)
+      const PlaceNames                                                 &face,
+      const std::function<void(const GapAndStrength::Place &, double)> &visit)
     {
       const bool         is_line = face.names.size() == 1;
       const unsigned int n       = is_line ? 2000 : 200;
+      const auto         share   = [n](const unsigned int i) {
+        return (i == 0 || i == n ? 0.5 : 1.) / n;
+      };
       for (unsigned int j = 0; j <= (is_line ? 0 : n); ++j)
         for (unsigned int i = 0; i <= n; ++i)
           {
             GapAndStrength::Place place = {face.lengths[0] * i / n};
             if (!is_line)
               place.push_back(face.lengths[1] * j / n);
-            visit(place);
+            visit(place, share(i) * (is_line ? 1. : share(j)));
           }
     }
 
@@ -120,7 +124,8 @@ namespace SlipStep
       }
     gap_formula      = read_face_formula(parameters, gap_key, face);
     strength_formula = read_face_formula(parameters, strength_key, face);
-    at_many_places(face, [&](const Place &place) {
+    mean_factor      = 0.;
+    at_many_places(face, [&](const Place &place, const double share) {
       const double gap = gap_formula(place);
       if (!std::isfinite(gap) || gap < 0.)
         reject_value(
@@ -136,6 +141,7 @@ namespace SlipStep
       has_gap      = has_gap || gap != 0.;
       is_graded    = is_graded || factor != 1.;
       smallest_gap = std::min(smallest_gap, gap);
+      mean_factor += share * factor;
     });
     if (falls)
       datum = smallest_gap;

@@ -364,6 +364,10 @@ namespace SlipStep
                          " is given twice, first at " + origin);
       value  = statement.value;
       origin = where;
+      if (value.empty())
+        throw InputError(where + ": Sweep/" + statement.name +
+                         " is empty; to run a case without the sweep that it "
+                         "includes, write an empty subsection Variants");
       if (is_key)
         known.check_path(value, where);
     }

@@ -108,7 +108,11 @@ TEST(CommandLine, WhatOnlyAFileCanSayIsToldSo)
 TEST(CommandLine, AnUnknownVariantNamesThoseThatExist)
 {
   const SlipstepProcess process;
-  std::string           values;
+  process.write("empty.prm",
+                std::string(right) + "subsection Sweep\nset Key =\nend\n");
+  expect_refusal(process.run({"point", "empty.prm"}),
+                 {"Sweep/Key is empty", "an empty subsection Variants"});
+  std::string values;
   for (unsigned int i = 1; i < 30; ++i)
     values += (i > 1 ? ", " : "") + std::to_string(i) + " mm/s";
   process.write("sweep.prm",

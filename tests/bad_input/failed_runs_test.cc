@@ -99,6 +99,30 @@ namespace
 
 
 
+// Its bonds break at once where the face lifts off.
+TEST(FailedRun, OfBondsIsToldSo)
+{
+  const SlipstepProcess process;
+  process.write("bonds.prm",
+                "set Loading/Programme = press 5 MPa in 1 s; "
+                "slide 1 mm/min for 0.05 mm\n"
+                "set Friction/Effects = subloading, adhesion\n"
+                "set Friction/Static coefficient = 0.4\n"
+                "set Friction/adhesion/Strength = 0.05\n"
+                "set Block/Dimension = 2\n"
+                "set Block/Size = 10 mm, 8 mm\n"
+                "set Block/Subdivisions = 8, 6\n"
+                "set Block/Young modulus = 5000 MPa\n"
+                "set Output/Fields = none\n");
+  const auto result = process.run({"run", "bonds.prm", "--output", "o"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(contains(result.err, "its bonds (effect adhesion) break at once"))
+    << result.err;
+  EXPECT_FALSE(contains(result.err, "falls with slip or speed"));
+}
+
+
+
 TEST(FailedRun, ATippingBlockIsToldAndKept)
 {
   const SlipstepProcess process;

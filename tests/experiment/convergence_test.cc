@@ -241,6 +241,10 @@ TEST(ReferenceUncertainty, follows_its_formulas)
   EXPECT_TRUE(std::isinf(
     extrapolated_reference({1., 0.5, 0.25}, {1., 2., 4.}).uncertainty));
   EXPECT_TRUE(std::isnan(finest_reference({}, {}).value));
+  // One that hardly moves is known, wherever it goes.
+  const auto slow =
+    finest_reference({1., 0.5, 0.25}, {5.79454, 5.794541, 5.794542});
+  EXPECT_NEAR(slow.uncertainty, 5e-5, 1e-8);
   // All the same: round-off is left.
   const auto same = extrapolated_reference({1., 0.5, 0.25}, {2., 2., 2.});
   EXPECT_EQ(same.value, 2.);

@@ -243,6 +243,33 @@ TEST(StrengthMap, HoldsAtEveryPoint)
 
 
 
+// A strip between the contact points, and one that they see well.
+TEST(StrengthMap, IsWarnedOfWhereContactPointsMissIt)
+{
+  const auto result = [](const std::string &subdivisions) {
+    return run_block_case<2>(make_parameters(
+      coulomb_law + flat_2d +
+      Settings{{"Contact/Strength", "1 - 0.5*(abs(x - 5) < 0.5)"},
+               {"Block/Subdivisions", subdivisions},
+               {"Block/Poisson ratio", "0"},
+               {"Loading/Programme",
+                "press 5.8 MPa in 1 s; slide 1 mm/s for 0.05 mm"}}));
+  };
+  const auto coarse = result("2, 1");
+  EXPECT_NEAR(coarse.history.back().friction, 0.1, 1e-6);
+  ASSERT_FALSE(coarse.summary.warnings.empty());
+  EXPECT_NE(coarse.summary.warnings[0].find(
+              "see the map Contact/Strength too high, by 5.3 % on average"),
+            std::string::npos)
+    << coarse.summary.warnings[0];
+  const auto fine = result("20, 1");
+  EXPECT_NEAR(fine.history.back().friction, 0.095, 1e-6);
+  for (const std::string &warning : fine.summary.warnings)
+    EXPECT_EQ(warning.find("the map"), std::string::npos) << warning;
+}
+
+
+
 // A factor of the strength is one of the coefficient, for all effects that
 // multiply; tangents follow.
 TEST(StrengthMap, IsAFactorOfTheCoefficient)

@@ -185,6 +185,7 @@ namespace SlipStep
     void find_supports();
     void constrain(Vector &displacement) const;
     void find_groups_of_unknowns();
+    void check_map_of_strength();
     void assemble_load(const LoadPart part, Vector &load) const;
     void assemble_loads();
 
@@ -358,10 +359,12 @@ namespace SlipStep
     std::vector<MeshChange> mesh_changes;
 
     // Bookkeeping.
-    double         external_work         = 0.;
-    double         damped_energy         = 0.; // by the viscosity of the body
-    double         largest_imbalance     = 0.;
-    double         largest_normal_load   = 0.;
+    double external_work       = 0.;
+    double damped_energy       = 0.; // by the viscosity of the body
+    double largest_imbalance   = 0.;
+    double largest_normal_load = 0.;
+    // By how much the map of the strength is off as the contact points see it.
+    double         strength_error        = 0.;
     double         contact_share         = 1.;
     double         largest_contact_share = 0.; // that of a flat face is 1
     OpeningSummary opening;

@@ -58,6 +58,12 @@ namespace SlipStep
       return is_graded;
     }
 
+    /// Of the factor of the strength, over the face.
+    double mean_strength() const
+    {
+      return mean_factor;
+    }
+
     /// Of the places that were tried, in a block that does not fall [mm].
     double least_gap() const
     {
@@ -68,6 +74,7 @@ namespace SlipStep
     ParsedFormula gap_formula{"0"}, strength_formula{"1"};
     bool          has_gap = false, is_graded = false;
     double        smallest_gap = 0., datum = 0.; // [mm]
+    double        mean_factor = 1.;
   };
 } // namespace SlipStep
 
