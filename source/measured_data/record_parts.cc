@@ -43,6 +43,35 @@ namespace SlipStep
       return duration;
     }
 
+    /// Where strokes end: of a rest between them the first row, wherever noise
+    /// makes another one of it the farthest.
+    std::vector<std::size_t> ends_of_strokes(const MeasuredTest &record)
+    {
+      constexpr double scatter = 8., longer = 4.;
+
+      const std::vector<double> &x = record.displacement, &t = record.time;
+      const double               noise = noise_level(x);
+      std::vector<std::size_t>   rows =
+        turning_rows(x, std::max(4. * noise, 0.005 * range_of(x)));
+      const double speed =
+        (rows.size() + 1) * range_of(x) / (t.back() - t.front());
+      for (std::size_t &row : rows)
+        {
+          const auto is_near = [&, turn = row](const std::size_t other) {
+            return std::abs(x[other] - x[turn]) <= scatter * noise;
+          };
+          std::size_t first = row, last = row;
+          while (first > 0 && is_near(first - 1))
+            --first;
+          while (last + 1 < x.size() && is_near(last + 1))
+            ++last;
+          // To and fro takes some time, too.
+          if ((t[last] - t[first]) * speed > longer * 2. * scatter * noise)
+            row = first;
+        }
+      return rows;
+    }
+
     /// Rests of at least a duration.
     std::vector<RecordPart> rests(const MeasuredTest &record,
                                   const double        duration)
@@ -145,8 +174,7 @@ namespace SlipStep
   std::vector<RecordPart> cut_record(const MeasuredTest &record,
                                      const std::string  &cut)
   {
-    const std::size_t          n = record.time.size();
-    const std::vector<double> &x = record.displacement;
+    const std::size_t n = record.time.size();
 
     const std::string text = cut.empty() ? "none" : cut;
     if (text == "none")
@@ -167,8 +195,7 @@ namespace SlipStep
 
     if (text == "at reversals" || begins_with(text, "every", rest))
       {
-        const std::vector<std::size_t> turns =
-          turning_rows(x, std::max(4. * noise_level(x), 0.005 * range_of(x)));
+        const std::vector<std::size_t> turns = ends_of_strokes(record);
         if (turns.empty())
           throw InputError("the motion of the record never turns");
         if (text == "at reversals")

@@ -48,6 +48,7 @@ namespace SlipStep
            {"nm", 1, 1e6},
            {"cm", 10, 1},
            {"m", 1e3, 1},
+           {"in", 25.4, 1},
            {"µm", 1, 1e3}}}},
         {Dimension::time,
          {"a time",
@@ -67,6 +68,8 @@ namespace SlipStep
            {"cm/s", 10, 1},
            {"m/s", 1e3, 1},
            {"m/min", 1e3, 60},
+           {"in/s", 25.4, 1},
+           {"in/min", 25.4, 60},
            {"µm/s", 1, 1e3}}}},
         {Dimension::stress,
          {"a stress",
@@ -75,6 +78,8 @@ namespace SlipStep
            {"kPa", 1, 1e3},
            {"GPa", 1e3, 1},
            {"bar", 1, 10},
+           {"psi", 4.4482216152605, 645.16},
+           {"ksi", 4448.2216152605, 645.16},
            {"N/mm^2", 1, 1}}}},
         {Dimension::stiffness,
          {"a stiffness",
@@ -134,6 +139,7 @@ namespace SlipStep
            {"mN", 1, 1e3},
            {"uN", 1, 1e6},
            {"MN", 1e6, 1},
+           {"daN", 10, 1},
            {"kgf", 9.80665, 1},
            {"gf", 9.80665, 1e3},
            {"lbf", 4.4482216152605, 1}}}},
@@ -142,6 +148,7 @@ namespace SlipStep
           {{"mm^2", 1, 1},
            {"um^2", 1, 1e6},
            {"cm^2", 100, 1},
+           {"in^2", 645.16, 1},
            {"m^2", 1e6, 1}}}},
         {Dimension::temperature,
          {"a temperature",
@@ -184,23 +191,13 @@ namespace SlipStep
              at             = unit.find(written))
           unit.replace(at, written.size(), plain);
       const std::vector<std::pair<std::string, std::string>> words = {
-        {"sec", "s"},
-        {"secs", "s"},
-        {"second", "s"},
-        {"seconds", "s"},
-        {"msec", "ms"},
-        {"minutes", "min"},
-        {"hours", "h"},
-        {"micron", "um"},
-        {"microns", "um"},
-        {"micrometer", "um"},
-        {"Newton", "N"},
-        {"newton", "N"},
-        {"N/mm2", "N/mm^2"},
-        {"mm2", "mm^2"},
-        {"Celsius", "degC"},
-        {"deg C", "degC"},
-        {"deg. C", "degC"}};
+        {"sec", "s"},         {"secs", "s"},     {"second", "s"},
+        {"seconds", "s"},     {"msec", "ms"},    {"minutes", "min"},
+        {"hours", "h"},       {"micron", "um"},  {"microns", "um"},
+        {"micrometer", "um"}, {"inch", "in"},    {"inches", "in"},
+        {"in2", "in^2"},      {"Newton", "N"},   {"newton", "N"},
+        {"N/mm2", "N/mm^2"},  {"mm2", "mm^2"},   {"Celsius", "degC"},
+        {"deg C", "degC"},    {"deg. C", "degC"}};
       for (const auto &[written, plain] : words)
         if (unit == written)
           return plain;

@@ -136,7 +136,7 @@ TEST(MeasuredTest, AMissingOrWrongUnitIsAsked)
     message("time_s,displacement_mm, pressure,friction\n" + rows);
   EXPECT_EQ(text.substr(0, 7), ":1:25: ");
   EXPECT_TRUE(contains(text, "'pressure_MPa'"));
-  text = message("time_s,displacement_inch,pressure_MPa,friction\n" + rows);
+  text = message("time_s,displacement_furlong,pressure_MPa,friction\n" + rows);
   EXPECT_EQ(text.substr(0, 6), ":1:8: ");
   EXPECT_TRUE(contains(text, "not a unit of a length"));
   text = message("time_s,displacement_mm,pressure_MPA,friction\n" + rows);

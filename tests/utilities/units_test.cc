@@ -41,6 +41,18 @@ TEST(Units, ConvertToBaseUnits)
   EXPECT_EQ(parse_quantity("1 1/m", Dimension::per_length), 1e-3);
   EXPECT_EQ(parse_quantity("4 GPa/m", Dimension::stiffness), 4.);
   EXPECT_EQ(parse_quantity("3 s/m", Dimension::viscosity), 3e-3);
+  // The international yard and pound of 1959, standard gravity.
+  EXPECT_EQ(parse_quantity("2 in", Dimension::length), 50.8);
+  EXPECT_DOUBLE_EQ(parse_quantity("30 in/min", Dimension::speed), 12.7);
+  EXPECT_NEAR(parse_quantity("1000 psi", Dimension::stress),
+              6.89475729317,
+              1e-10);
+  EXPECT_NEAR(parse_quantity("1 ksi", Dimension::stress), 6.89475729317, 1e-10);
+  EXPECT_EQ(parse_quantity("3 daN", Dimension::force), 30.);
+  EXPECT_DOUBLE_EQ(parse_quantity("2 in^2", Dimension::area), 1290.32);
+  EXPECT_DOUBLE_EQ(parse_quantity("1 lbf", Dimension::force) /
+                     parse_quantity("1 in^2", Dimension::area),
+                   parse_quantity("1 psi", Dimension::stress));
   EXPECT_EQ(parse_quantity("6 1/min", Dimension::per_time), 0.1);
   EXPECT_DOUBLE_EQ(parse_quantity("180 deg", Dimension::angle),
                    dealii::numbers::PI);

@@ -18,7 +18,9 @@ namespace SlipStep
   /// Cut a record, of which time and displacement are filled and in order.
   ///
   /// - "none": one part
-  /// - "at reversals": a part for each stroke; it begins where the motion turns
+  /// - "at reversals": a part for each stroke; it begins where the motion
+  /// turns,
+  ///   with the rest there, if there is one
   /// - "every 5 cycles": the same for so many strokes forth and back; rows
   ///   before the first turn and after the last full part are left out
   /// - "at holds of 2 s": a part begins where a rest of at least so long does
