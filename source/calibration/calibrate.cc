@@ -419,9 +419,13 @@ namespace SlipStep
           (ratio > far ? "the law does not describe these tests, which differ "
                          "from it by " :
                          "these tests differ from the fitted law by ") +
-          rounded_text(ratio, 2) +
-          " times their noise: slipstep diagnose looks for what is missing; a "
-          "unit, a scale or a zero of the records may be wrong, too.");
+          rounded_text(ratio, 2) + " times their noise" +
+          (ratio > far ?
+             ": slipstep diagnose looks for what is missing" :
+             ", by which neighbouring rows scatter: noise that lasts for many "
+             "rows does so, or something is missing, which slipstep diagnose "
+             "looks for") +
+          "; a unit, a scale or a zero of the records may be wrong, too.");
     }
 
 

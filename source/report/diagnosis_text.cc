@@ -196,11 +196,22 @@ namespace SlipStep
     /// "; not all of it is explained, most of the rest is ..."
     std::string remainder_words(const Diagnosis &diagnosis)
     {
-      if (!has_after(diagnosis) || diagnosis.effects.empty() ||
-          !diagnosis.is_incomplete)
+      constexpr double hardly_less = 0.8;
+
+      if (!has_after(diagnosis) || diagnosis.effects.empty())
         return "";
+      const Shrink     &shrink = diagnosis.shrink;
+      const std::string little =
+        shrink.systematic_after > hardly_less * shrink.systematic_before ?
+          "; hardly any of what is beyond the noise is explained, so that the "
+          "verdict is worth little" :
+          "";
+      if (!diagnosis.is_incomplete)
+        return little;
       std::string text =
-        diagnosis.shrink.systematic_after > 0. ?
+        !little.empty() ?
+          little :
+        shrink.systematic_after > 0. ?
           "; not all of it is explained" :
           "; what remains is no larger than noise, but has a pattern";
       if (diagnosis.remains.empty())

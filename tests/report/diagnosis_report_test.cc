@@ -70,6 +70,24 @@ TEST(DiagnosisHeadline, ItNamesWhatIsMissingWithTheNumbers)
 
 
 
+TEST(DiagnosisHeadline, ANameThatExplainsLittleIsWorthLittle)
+{
+  Diagnosis diagnosis                = SyntheticDiagnosis::named();
+  diagnosis.shrink.systematic_before = 0.0116;
+  diagnosis.shrink.systematic_after  = 0.0103;
+  for (const bool is_incomplete : {false, true})
+    {
+      diagnosis.is_incomplete = is_incomplete;
+      EXPECT_TRUE(contains(headline(diagnosis), "the verdict is worth little"))
+        << headline(diagnosis);
+    }
+  diagnosis.is_incomplete           = false;
+  diagnosis.shrink.systematic_after = 0.001;
+  EXPECT_FALSE(contains(headline(diagnosis), "worth little"));
+}
+
+
+
 TEST(DiagnosisHeadline, AFormulaAndARestAreTold)
 {
   const Diagnosis diagnosis = SyntheticDiagnosis::incomplete();
