@@ -291,11 +291,14 @@ namespace SlipStep
               "" :
               "A zero of the sensor, " + diagnosis.sensor_zero +
                 ", explains these tests as well: take it off if it is one "
-                "(Correction/Zero of an import). If not: ") +
+                "(Correction/Zero of an import). If not, ") +
            (is_stated ?
-              "If the stated noise is right (there are no replicates), " +
+              (diagnosis.sensor_zero.empty() ? "If" : "and if") +
+                std::string(" the stated noise is right (there are no "
+                            "replicates), ") +
                 words :
-              capitalised(words)) +
+            diagnosis.sensor_zero.empty() ? capitalised(words) :
+                                            words) +
            completed_words(diagnosis) + remainder_words(diagnosis) +
            outlier_words(diagnosis.outliers) + ".";
   }
@@ -328,7 +331,8 @@ namespace SlipStep
 
   std::string reservation(const Diagnosis &diagnosis)
   {
-    return diagnosis.n_replicate_pairs == 0 ? "if the stated noise is right" :
+    return !diagnosis.sensor_zero.empty()   ? "or a zero of the sensor" :
+           diagnosis.n_replicate_pairs == 0 ? "if the stated noise is right" :
            diagnosis.n_conditions == 1 && diagnosis.has_gap ?
                                               "under the one condition tested" :
                                               "";

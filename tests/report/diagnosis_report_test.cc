@@ -88,6 +88,21 @@ TEST(DiagnosisHeadline, ANameThatExplainsLittleIsWorthLittle)
 
 
 
+TEST(DiagnosisHeadline, AZeroOfTheSensorComesFirst)
+{
+  Diagnosis diagnosis   = SyntheticDiagnosis::named();
+  diagnosis.sensor_zero = "0.1 MPa";
+  EXPECT_EQ(headline(diagnosis).find(
+              "A zero of the sensor, 0.1 MPa, explains these tests as well: "),
+            0u)
+    << headline(diagnosis);
+  EXPECT_TRUE(contains(headline(diagnosis), " If not, overstress is missing"))
+    << headline(diagnosis);
+  EXPECT_TRUE(contains(page_of(diagnosis), "or a zero of the sensor"));
+}
+
+
+
 TEST(DiagnosisHeadline, AFormulaAndARestAreTold)
 {
   const Diagnosis diagnosis = SyntheticDiagnosis::incomplete();
