@@ -527,73 +527,111 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    std::array<double, 3> ratios_of(const ContactState &state)
+    {
+      return {{state.loading_ratio, state.normal_ratio, state.coefficient}};
+    }
+
+    /// Integrals over the points in contact; of the last three times pressure.
+    struct ContactSums
+    {
+      double                normal_load, traction_x, traction_y, strength, area;
+      double                slip_area, stored;
+      double                dissipated; // of all points
+      std::array<double, 3> ratios;
+      double                slip;
+      std::array<double, ContactState::most_memories> memories;
+
+      void add(const ContactState &state, const double JxW)
+      {
+        const double                load  = JxW * state.normal_traction;
+        const std::array<double, 3> added = ratios_of(state);
+        normal_load += load;
+        traction_x += JxW * state.traction[0];
+        traction_y += JxW * state.traction[1];
+        strength += JxW * state.strength;
+        area += JxW;
+        for (unsigned int i = 0; i < ratios.size(); ++i)
+          ratios[i] += load * added[i];
+        slip += load * state.slip_path;
+        for (unsigned int i = 0; i < memories.size(); ++i)
+          memories[i] += load * state.memories[i];
+      }
+    };
+    static_assert(sizeof(ContactSums) ==
+                    (12 + ContactState::most_memories) * sizeof(double),
+                  "MPI takes it for an array of numbers.");
+
+    /// @param maxima of the ratios, and of their negatives
+    ContactTotals totals_of(const ContactSums           &sums,
+                            const std::array<double, 6> &maxima)
+    {
+      ContactTotals totals;
+      totals.normal_load        = sums.normal_load;
+      totals.tangential_load[0] = sums.traction_x;
+      totals.tangential_load[1] = sums.traction_y;
+      totals.limit_load         = sums.strength;
+      totals.area               = sums.area;
+      totals.dissipated         = sums.dissipated;
+      totals.slip_area          = sums.slip_area;
+      totals.stored             = sums.stored;
+      if (!(sums.normal_load > 0.))
+        return totals;
+      const auto spread = [&](const unsigned int i) {
+        return Spread{sums.ratios[i] / sums.normal_load,
+                      -maxima[3 + i],
+                      maxima[i]};
+      };
+      totals.loading_ratio = spread(0);
+      totals.normal_ratio  = spread(1);
+      totals.coefficient   = spread(2);
+      totals.slip          = sums.slip / sums.normal_load;
+      for (unsigned int i = 0; i < sums.memories.size(); ++i)
+        totals.memories[i] = sums.memories[i] / sums.normal_load;
+      return totals;
+    }
+  } // namespace
+
+
+
   template <int dim>
   ContactTotals ContactFace<dim>::totals(const MPI_Comm &communicator) const
   {
-    constexpr unsigned int n_memories = ContactState::most_memories;
-    ContactTotals          totals;
-    std::array<double, 12 + n_memories> sums{};
-    // Maxima of (r, r_s, mu) and of their negatives.
+    ContactSums           sums{};
     std::array<double, 6> maxima;
     maxima.fill(std::numeric_limits<double>::lowest());
     for (const CellFace &cell_face : faces)
       for (const QuadraturePoint &point : cell_face.points)
         {
           const ContactState &state = point.point.trial();
-          sums[5] += point.JxW * state.dissipation;
+          sums.dissipated += point.JxW * state.dissipation;
           if (state.normal_traction <= 0.)
             continue;
-          const double load = point.JxW * state.normal_traction;
-          sums[0] += load;
-          sums[1] += point.JxW * state.traction[0];
-          sums[2] += point.JxW * state.traction[1];
-          sums[3] += point.JxW * state.strength;
-          sums[4] += point.JxW;
-          sums[6] += point.slips ? point.JxW : 0.;
-          sums[7] +=
+          sums.add(state, point.JxW);
+          sums.slip_area += point.slips ? point.JxW : 0.;
+          sums.stored +=
             point.JxW * (state.normal_traction * state.normal_traction /
                            (2. * law.normal_stiffness()) +
                          law.stored_energy(state));
-          const std::array<double, 3> ratios = {
-            {state.loading_ratio, state.normal_ratio, state.coefficient}};
+          const std::array<double, 3> ratios = ratios_of(state);
           for (unsigned int i = 0; i < 3; ++i)
             {
-              sums[8 + i] += load * ratios[i];
-              maxima[2 * i]     = std::max(maxima[2 * i], ratios[i]);
-              maxima[2 * i + 1] = std::max(maxima[2 * i + 1], -ratios[i]);
+              maxima[i]     = std::max(maxima[i], ratios[i]);
+              maxima[3 + i] = std::max(maxima[3 + i], -ratios[i]);
             }
-          sums[11] += load * state.slip_path;
-          for (unsigned int i = 0; i < n_memories; ++i)
-            sums[12 + i] += load * state.memories[i];
         }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+    const ArrayView<double> all_sums(reinterpret_cast<double *>(&sums),
+                                     sizeof(sums) / sizeof(double));
+    const ArrayView<double> all_maxima(maxima.data(), maxima.size());
+    Utilities::MPI::sum(ArrayView<const double>(all_sums),
                         communicator,
-                        ArrayView<double>(sums.data(), sums.size()));
-    Utilities::MPI::max(ArrayView<const double>(maxima.data(), maxima.size()),
+                        all_sums);
+    Utilities::MPI::max(ArrayView<const double>(all_maxima),
                         communicator,
-                        ArrayView<double>(maxima.data(), maxima.size()));
-
-    totals.normal_load        = sums[0];
-    totals.tangential_load[0] = sums[1];
-    totals.tangential_load[1] = sums[2];
-    totals.limit_load         = sums[3];
-    totals.area               = sums[4];
-    totals.dissipated         = sums[5];
-    totals.slip_area          = sums[6];
-    totals.stored             = sums[7];
-    if (totals.normal_load > 0.)
-      {
-        std::array<Spread *, 3> spreads = {
-          {&totals.loading_ratio, &totals.normal_ratio, &totals.coefficient}};
-        for (unsigned int i = 0; i < 3; ++i)
-          *spreads[i] = {sums[8 + i] / totals.normal_load,
-                         -maxima[2 * i + 1],
-                         maxima[2 * i]};
-        totals.slip = sums[11] / totals.normal_load;
-        for (unsigned int i = 0; i < n_memories; ++i)
-          totals.memories[i] = sums[12 + i] / totals.normal_load;
-      }
-    return totals;
+                        all_maxima);
+    return totals_of(sums, maxima);
   }
 
 
