@@ -272,7 +272,8 @@ namespace SlipStep
 
   std::string StudyPoint::error_text() const
   {
-    return std::isfinite(error)       ? short_text(error, 3) :
+    return error_bound == 0.          ? "0" :
+           std::isfinite(error)       ? short_text(error, 3) :
            std::isfinite(error_bound) ? "< " + short_text(error_bound, 2) :
            std::isfinite(value)       ? "?" :
                                         "–";

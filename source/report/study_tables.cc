@@ -71,7 +71,9 @@ namespace SlipStep
                 ", order " + fixed_text(curve.order, 2) :
                 "")
           << "), ";
-      if (std::isfinite(curve.uncertainty))
+      if (curve.uncertainty == 0.)
+        out << "the same in all runs";
+      else if (std::isfinite(curve.uncertainty))
         out << "uncertain by " << short_text(curve.uncertainty, 2)
             << (curve.reference == 0. ?
                   "" :
