@@ -337,16 +337,21 @@ namespace SlipStep
                           const Eigen::Index               which,
                           const std::vector<ProposedTest> &proposed)
     {
-      const Eigen::VectorXd direction = optimum.directions.col(which);
-      const double          before    = optimum.bounded_deviations(which);
-      double                best      = before;
-      std::string           words;
+      Eigen::VectorXd direction = optimum.directions.col(which);
+      for (Eigen::Index i = 0; i < direction.size(); ++i)
+        if (!optimum.has_part_in(i, which))
+          direction(i) = 0.;
+      const double before      = optimum.bounded_deviations(which);
+      double       best        = before;
+      unsigned int n_simulated = 0;
+      std::string  words;
       for (const ProposedTest &test : proposed)
         {
           double gained = 0.;
           try
             {
               gained = information(simulator, optimum, direction, test);
+              ++n_simulated;
             }
           catch (const InputError &)
             {}
@@ -362,8 +367,10 @@ namespace SlipStep
               words = test.words;
             }
         }
-      if (words.empty() || best > 0.5 * before)
+      if (words.empty() && n_simulated > proposed.size() / 2)
         return "; no other speed, pressure, path, rest or direction would tell";
+      if (best > 0.5 * before)
+        return "";
       return "; " + words +
              " would bring the standard deviation down by a factor of " +
              rounded(before / best);
@@ -373,7 +380,7 @@ namespace SlipStep
 
     // Parameters that fit nearly as well, as far along a direction as there
     // are any: one is moved, the others follow.
-    // @return the changes, in natural terms
+    // @return the changes, in natural terms; 0 if none was found
     Eigen::VectorXd companion(Simulator           &simulator,
                               const Linearisation &optimum,
                               const Eigen::Index   which)
@@ -416,7 +423,7 @@ namespace SlipStep
                 throw_if_stopped();
               }
           }
-      return step * direction;
+      return Eigen::VectorXd::Zero(direction.size());
     }
 
 
@@ -459,14 +466,21 @@ namespace SlipStep
           changes.push_back(
             change_in_words(campaign.fitted[i], weak.change[i]));
         }
+      // Where nothing was found to fit, no values are told.
+      const bool has_values =
+        std::any_of(weak.change.begin(), weak.change.end(), [](const double x) {
+          return x != 0.;
+        });
       if (weak.members.size() == 1)
-        return names[0] +
-               " is hardly determined by these tests: " + changes[0] +
-               " fits nearly as well. Fix it";
+        return names[0] + " is hardly determined by these tests" +
+               (has_values ? ": " + changes[0] + " fits nearly as well" : "") +
+               ". Fix it";
       return listing(names) + " cannot " +
              (names.size() == 2 ? "both" : "all") +
-             " be found from these tests: " + listing(changes) +
-             " fit nearly as well. Fix one of them";
+             " be found from these tests" +
+             (has_values ? ": " + listing(changes) + " fit nearly as well" :
+                           "") +
+             ". Fix one of them";
     }
   } // namespace
 
@@ -512,10 +526,6 @@ namespace SlipStep
                                   0.5 * weak_deviation;
                          }))
           continue;
-        // Shown such that the first grows.
-        if (weak.change[weak.members.front()] < 0.)
-          for (double &change : weak.change)
-            change = -change;
         weak.words = words_of(weak, campaign) +
                      best_test(simulator, optimum, k, proposed) + ".";
         result.push_back(weak);

@@ -265,6 +265,10 @@ namespace SlipStep
                             .transpose()
                             .cwiseProduct(optimum.bounded_deviations)
                             .norm();
+      for (std::size_t i = 0; i < best.size(); ++i)
+        if (std::isinf(optimum.deviations(i)) &&
+            std::abs(gradient(i)) > 1e-3 * gradient.cwiseAbs().maxCoeff())
+          derived.deviation = std::numeric_limits<double>::infinity();
       return derived;
     }
 

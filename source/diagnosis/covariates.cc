@@ -232,7 +232,7 @@ namespace SlipStep
     double order_of(const MeasuredTest &rows)
     {
       const auto note = rows.notes.find("order");
-      return note == rows.notes.end() ?
+      return note == rows.notes.end() || note->second.empty() ?
                0. :
                parse_quantity(note->second, Dimension::number);
     }

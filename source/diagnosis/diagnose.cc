@@ -163,11 +163,11 @@ namespace SlipStep
       if (!result.has_gap || ingested.workspace->is_late())
         return;
       stage("whether a zero of the sensor explains as much");
-      const std::optional<SensorZero> zero =
-        find_sensor_zero(*ingested.workspace, ingested.base, final_model);
+      const std::optional<SensorZero> zero = find_sensor_zero(
+        *ingested.workspace, ingested.base, final_model, judgement.gap.excess);
       if (zero.has_value())
-        result.sensor_zero =
-          rounded_text(zero->value, 3) + (zero->is_load ? " MPa" : "");
+        result.sensor_zero = rounded_text(zero->value, 3) +
+                             (zero->is_load ? " MPa of load" : " of friction");
     }
 
 

@@ -13,8 +13,9 @@ namespace SlipStep
     {
       for (CampaignTest &test : tests)
         for (std::size_t i = 0; i < test.rows.friction.size(); ++i)
-          test.rows.friction[i] -=
-            zero.is_load ? zero.value / test.rows.pressure[i] : zero.value;
+          if (test.rows.pressure[i] > 0.)
+            test.rows.friction[i] -=
+              zero.is_load ? zero.value / test.rows.pressure[i] : zero.value;
       return tests;
     }
 
@@ -23,11 +24,12 @@ namespace SlipStep
     // What a unit of it adds to the numbers compared.
     Eigen::VectorXd unit_of_zero(const Workspace &workspace, const bool is_load)
     {
-      const Covariates &at = workspace.covariates;
-      return (at.axis.array() > 0.5)
-        .select(0.,
-                is_load ? at.pressure.cwiseInverse().eval() :
-                          Eigen::VectorXd::Ones(at.pressure.size()).eval());
+      const Covariates &at     = workspace.covariates;
+      Eigen::VectorXd   result = Eigen::VectorXd::Zero(at.axis.size());
+      for (Eigen::Index i = 0; i < result.size(); ++i)
+        if (at.axis(i) < 0.5 && at.pressure(i) > 0.)
+          result(i) = is_load ? 1. / at.pressure(i) : 1.;
+      return result;
     }
 
 
@@ -46,15 +48,16 @@ namespace SlipStep
 
   std::optional<SensorZero> find_sensor_zero(const Workspace &workspace,
                                              const Model     &base,
-                                             const Model     &found)
+                                             const Model     &found,
+                                             const double     excess)
   {
     constexpr unsigned int n_steps = 3; // it is nearly linear
-    constexpr double       as_well = 4., most_left = 0.2;
+    constexpr double       as_well = 4., most = 0.8;
 
-    const double              n     = workspace.comparison.n_rows();
-    const double              bound = found.parts.empty() ?
-                                        n + most_left * (base.objective - n) :
-                                        found.objective + as_well;
+    // What makes the gap has to go, too.
+    double bound = base.objective - std::max(most * excess, as_well);
+    if (!found.parts.empty())
+      bound = std::min(bound, found.objective + as_well);
     std::optional<SensorZero> result;
     double                    least = bound;
     for (const bool is_load : {false, true})

@@ -368,7 +368,9 @@ namespace SlipStep
                             [](const SlideRow &a, const SlideRow &b) {
                               return a.friction < b.friction;
                             });
-      if (turns(half, rows.end(), noticed * std::abs(high->friction)) > 2)
+      const double largest =
+        std::max(std::abs(low->friction), std::abs(high->friction));
+      if (turns(half, rows.end(), noticed * largest) > 2)
         {
           slide.swing_from = low->friction;
           slide.swing_to   = high->friction;

@@ -119,7 +119,9 @@ namespace SlipStep
           if (at == std::string::npos || at == 0)
             continue;
           const std::string behind = heading.substr(at + mark.size());
-          if (!dimension_of_unit(behind).has_value())
+          // "Encoder in" is an input.
+          if (!dimension_of_unit(behind).has_value() ||
+              (behind == "in" && mark != " in "))
             continue;
           name = split_heading(heading.substr(0, at)).name;
           unit = behind;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 
 namespace SlipStep
 {
@@ -65,8 +66,21 @@ namespace SlipStep
             --first;
           while (last + 1 < x.size() && is_near(last + 1))
             ++last;
-          // To and fro takes some time, too.
-          if ((t[last] - t[first]) * speed > longer * 2. * scatter * noise)
+          // To and fro takes some time, too, and a crank slows down; but then
+          // the middle is farther than the rest.
+          const auto mean = [&](const std::size_t begin,
+                                const std::size_t end) {
+            return std::accumulate(x.begin() + begin, x.begin() + end, 0.) /
+                   (end - begin);
+          };
+          const std::size_t n = last - first + 1, third = n / 3;
+          if (third == 0 ||
+              (t[last] - t[first]) * speed < longer * 2. * scatter * noise)
+            continue;
+          const double ends =
+            (mean(first, first + third) + mean(last + 1 - third, last + 1)) /
+            2.;
+          if (std::abs(mean(first + third, last + 1 - third) - ends) < noise)
             row = first;
         }
       return rows;

@@ -538,7 +538,8 @@ namespace SlipStep
 
   double coarse_step(const std::vector<double> &values)
   {
-    constexpr double digits = 1e-3, least_repeats = 3.;
+    constexpr double      digits = 0.01, least_repeats = 3.;
+    constexpr std::size_t least_levels = 4;
 
     std::vector<double> levels = values;
     std::sort(levels.begin(), levels.end());
@@ -551,16 +552,22 @@ namespace SlipStep
                                return b - a <= 1e-9 * size;
                              }),
                  levels.end());
-    if (levels.size() < 2 || least_repeats * levels.size() > values.size())
+    if (levels.size() < least_levels ||
+        least_repeats * levels.size() > values.size())
       return 0.;
     double step = std::numeric_limits<double>::infinity();
     for (std::size_t i = 1; i < levels.size(); ++i)
       step = std::min(step, levels[i] - levels[i - 1]);
-    for (const double level : levels)
-      if (std::abs(level / step - std::round(level / step)) >
-          digits * std::max(1., std::abs(level / step)))
-        return 0.;
-    return step;
+    // Scatter visits neighbouring steps; a few constants are no scatter.
+    std::size_t n_next = 0;
+    for (std::size_t i = 1; i < levels.size(); ++i)
+      {
+        const double n_steps = (levels[i] - levels[i - 1]) / step;
+        if (std::abs(n_steps - std::round(n_steps)) > digits * n_steps)
+          return 0.;
+        n_next += n_steps < 1.5;
+      }
+    return 2 * n_next >= levels.size() - 1 ? step : 0.;
   }
 
 

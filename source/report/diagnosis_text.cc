@@ -190,7 +190,7 @@ namespace SlipStep
                  (effects.size() > 1 ? " are" : " is") +
                  " not quite right: a factor of " +
                  diagnosis.completed[0].covariate +
-                 " completes it, with which alone its parameters make sense";
+                 " completes it, and its parameters hold with that factor only";
     }
 
     /// "; not all of it is explained, most of the rest is ..."
@@ -331,11 +331,14 @@ namespace SlipStep
 
   std::string reservation(const Diagnosis &diagnosis)
   {
-    return !diagnosis.sensor_zero.empty()   ? "or a zero of the sensor" :
-           diagnosis.n_replicate_pairs == 0 ? "if the stated noise is right" :
+    const bool is_stated = diagnosis.n_replicate_pairs == 0;
+    if (!diagnosis.sensor_zero.empty())
+      return std::string("or a zero of the sensor") +
+             (is_stated ? ", if the stated noise is right" : "");
+    return is_stated ? "if the stated noise is right" :
            diagnosis.n_conditions == 1 && diagnosis.has_gap ?
-                                              "under the one condition tested" :
-                                              "";
+                       "under the one condition tested" :
+                       "";
   }
 
 

@@ -194,7 +194,7 @@ namespace SlipStep
   {
     const Segment &now     = programme.segment_at(control.end_of_step());
     const auto    &effects = contact.friction_law().effects();
-    if (contact_share < 1. &&
+    if (opening.share > 1e-9 &&
         std::find(effects.begin(), effects.end(), "adhesion") != effects.end())
       return "; where the face lifts off, its bonds (effect adhesion) break at "
              "once, and there may be no equilibrium between";

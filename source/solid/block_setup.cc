@@ -76,7 +76,11 @@ namespace SlipStep
         sum += point.JxW * point.point.committed().strength_factor;
     const double mean = Utilities::MPI::sum(sum, communicator) /
                         parameters.nominal_contact_area();
-    strength_error = mean / parameters.surface.mean_strength() - 1.;
+    const GapAndStrength &surface = parameters.surface;
+    strength_error                = mean / surface.mean_strength() - 1.;
+    if (std::abs(strength_error) <
+        2. * surface.error_of_mean_strength() / surface.mean_strength())
+      strength_error = 0.;
   }
 
 

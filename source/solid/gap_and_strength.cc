@@ -47,24 +47,41 @@ namespace SlipStep
 
 
     // Dense enough for what meshes resolve, and with both ends.
-    // @param visit is given a place and its share of the face
     void at_many_places(
-      const PlaceNames                                                 &face,
-      const std::function<void(const GapAndStrength::Place &, double)> &visit)
+      const PlaceNames                                         &face,
+      const std::function<void(const GapAndStrength::Place &)> &visit)
     {
       const bool         is_line = face.names.size() == 1;
       const unsigned int n       = is_line ? 2000 : 200;
-      const auto         share   = [n](const unsigned int i) {
-        return (i == 0 || i == n ? 0.5 : 1.) / n;
-      };
       for (unsigned int j = 0; j <= (is_line ? 0 : n); ++j)
         for (unsigned int i = 0; i <= n; ++i)
           {
             GapAndStrength::Place place = {face.lengths[0] * i / n};
             if (!is_line)
               place.push_back(face.lengths[1] * j / n);
-            visit(place, share(i) * (is_line ? 1. : share(j)));
+            visit(place);
           }
+    }
+
+
+
+    // By midpoints, n of them along each axis.
+    double mean_of(const ParsedFormula &formula,
+                   const PlaceNames    &face,
+                   const unsigned int   n)
+    {
+      const bool         is_line = face.names.size() == 1;
+      const unsigned int n_lines = is_line ? 1 : n;
+      double             sum     = 0.;
+      for (unsigned int j = 0; j < n_lines; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            GapAndStrength::Place place = {face.lengths[0] * (i + 0.5) / n};
+            if (!is_line)
+              place.push_back(face.lengths[1] * (j + 0.5) / n);
+            sum += formula(place);
+          }
+      return sum / n / n_lines;
     }
 
 
@@ -124,8 +141,7 @@ namespace SlipStep
       }
     gap_formula      = read_face_formula(parameters, gap_key, face);
     strength_formula = read_face_formula(parameters, strength_key, face);
-    mean_factor      = 0.;
-    at_many_places(face, [&](const Place &place, const double share) {
+    at_many_places(face, [&](const Place &place) {
       const double gap = gap_formula(place);
       if (!std::isfinite(gap) || gap < 0.)
         reject_value(
@@ -141,8 +157,15 @@ namespace SlipStep
       has_gap      = has_gap || gap != 0.;
       is_graded    = is_graded || factor != 1.;
       smallest_gap = std::min(smallest_gap, gap);
-      mean_factor += share * factor;
     });
+    if (is_graded)
+      {
+        // The difference of two tells how well it is known.
+        const unsigned int n = axes.size() == 1 ? 6000 : 400;
+        mean_factor          = mean_of(strength_formula, face, n);
+        mean_error =
+          std::abs(mean_factor - mean_of(strength_formula, face, 3 * n / 4));
+      }
     if (falls)
       datum = smallest_gap;
   }

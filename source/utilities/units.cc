@@ -48,7 +48,7 @@ namespace SlipStep
            {"nm", 1, 1e6},
            {"cm", 10, 1},
            {"m", 1e3, 1},
-           {"in", 25.4, 1},
+           {"inch", 25.4, 1},
            {"µm", 1, 1e3}}}},
         {Dimension::time,
          {"a time",
@@ -194,7 +194,7 @@ namespace SlipStep
         {"sec", "s"},         {"secs", "s"},     {"second", "s"},
         {"seconds", "s"},     {"msec", "ms"},    {"minutes", "min"},
         {"hours", "h"},       {"micron", "um"},  {"microns", "um"},
-        {"micrometer", "um"}, {"inch", "in"},    {"inches", "in"},
+        {"micrometer", "um"}, {"in", "inch"},    {"inches", "inch"},
         {"in2", "in^2"},      {"Newton", "N"},   {"newton", "N"},
         {"N/mm2", "N/mm^2"},  {"mm2", "mm^2"},   {"Celsius", "degC"},
         {"deg C", "degC"},    {"deg. C", "degC"}};

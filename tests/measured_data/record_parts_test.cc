@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 using namespace SlipStep;
@@ -42,4 +43,27 @@ TEST(RecordParts, RestsAtReversalsBelongToTheNextStroke)
                       0.06 + 60. * noise)
             << noise << ' ' << rest;
       }
+}
+
+
+
+// A crank is slow where it turns, but does not rest there.
+TEST(RecordParts, StrokesOfACrankAreCutWhereItTurns)
+{
+  std::mt19937                     random(6);
+  std::normal_distribution<double> normal(0., 0.005);
+  MeasuredTest                     record;
+  for (int i = 0; i < 2000; ++i)
+    {
+      const double t = 0.01 * i;
+      record.time.push_back(t);
+      record.displacement.push_back(2.5 * (1. - std::cos(3.14159265 * t)) +
+                                    normal(random));
+      record.pressure.push_back(5.);
+      record.friction.push_back(0.1);
+    }
+  const auto parts = cut_record(record, "at reversals");
+  ASSERT_GE(parts.size(), 19u);
+  for (std::size_t i = 1; i + 1 < parts.size(); ++i)
+    EXPECT_NEAR(record.time[parts[i].begin], i, 0.025);
 }

@@ -106,12 +106,13 @@ TEST(DiagnosisHeadline, AZeroOfTheSensorComesFirst)
 TEST(DiagnosisHeadline, AFormulaAndARestAreTold)
 {
   const Diagnosis diagnosis = SyntheticDiagnosis::incomplete();
-  EXPECT_TRUE(contains(headline(diagnosis),
-                       "; the formula of overstress is not quite right: a "
-                       "factor of log10 speed completes it, with which alone "
-                       "its parameters make sense; not all of it is "
-                       "explained: the rest is felt most under pressures of 12 "
-                       "… 20 MPa in high pressure."))
+  EXPECT_TRUE(
+    contains(headline(diagnosis),
+             "; the formula of overstress is not quite right: a "
+             "factor of log10 speed completes it, and its "
+             "parameters hold with that factor only; not all of it is "
+             "explained: the rest is felt most under pressures of 12 "
+             "… 20 MPa in high pressure."))
     << headline(diagnosis);
   EXPECT_EQ(short_verdict(diagnosis), "named, incomplete");
   EXPECT_TRUE(contains(diagnosis_table(diagnosis),

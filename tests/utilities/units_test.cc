@@ -42,7 +42,7 @@ TEST(Units, ConvertToBaseUnits)
   EXPECT_EQ(parse_quantity("4 GPa/m", Dimension::stiffness), 4.);
   EXPECT_EQ(parse_quantity("3 s/m", Dimension::viscosity), 3e-3);
   // The international yard and pound of 1959, standard gravity.
-  EXPECT_EQ(parse_quantity("2 in", Dimension::length), 50.8);
+  EXPECT_EQ(parse_quantity("2 inch", Dimension::length), 50.8);
   EXPECT_DOUBLE_EQ(parse_quantity("30 in/min", Dimension::speed), 12.7);
   EXPECT_NEAR(parse_quantity("1000 psi", Dimension::stress),
               6.89475729317,

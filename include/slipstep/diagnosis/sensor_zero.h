@@ -21,9 +21,11 @@ namespace SlipStep
   /// like a share that does not depend on pressure.
   /// @param base the starting model, fitted
   /// @param found the model with the effects named
+  /// @param excess of the objective that makes the gap
   std::optional<SensorZero> find_sensor_zero(const Workspace &workspace,
                                              const Model     &base,
-                                             const Model     &found);
+                                             const Model     &found,
+                                             const double     excess);
 } // namespace SlipStep
 
 #endif

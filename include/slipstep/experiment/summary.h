@@ -6,6 +6,7 @@
 #include <slipstep/experiment/programme.h>
 #include <slipstep/experiment/quantities.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -45,7 +46,7 @@ namespace SlipStep
     /// as fast as it is driven, with a loading ratio that has stopped to rise.
     bool is_settled() const
     {
-      return !swings() && relative_rate > 0.9 && growth < 0.01;
+      return !swings() && std::abs(relative_rate - 1.) < 0.1 && growth < 0.01;
     }
   };
 

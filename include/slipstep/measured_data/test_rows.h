@@ -61,8 +61,9 @@ namespace SlipStep
   /// differences, and not less than that of rounding to the recorded digits.
   double noise_level(const std::vector<double> &values);
 
-  /// The step to which a series was rounded, if it takes few values, all of
-  /// them multiples of it; else 0.
+  /// The step to which a series was rounded, in its unit, if it takes few
+  /// values, most of them one step apart and all of them whole steps; else, and
+  /// of fewer than four values, 0.
   double coarse_step(const std::vector<double> &values);
 
   /// The same as noise_level() of friction, the larger of the axes', and not

@@ -64,6 +64,12 @@ namespace SlipStep
       return mean_factor;
     }
 
+    /// How well that is known.
+    double error_of_mean_strength() const
+    {
+      return mean_error;
+    }
+
     /// Of the places that were tried, in a block that does not fall [mm].
     double least_gap() const
     {
@@ -74,7 +80,7 @@ namespace SlipStep
     ParsedFormula gap_formula{"0"}, strength_formula{"1"};
     bool          has_gap = false, is_graded = false;
     double        smallest_gap = 0., datum = 0.; // [mm]
-    double        mean_factor = 1.;
+    double        mean_factor = 1., mean_error = 0.;
   };
 } // namespace SlipStep
 

@@ -327,9 +327,11 @@ TEST_F(CampaignFolder, KnowsWhereAnEffectIsFelt)
   ASSERT_EQ(effect_names(judgement.found.model.parts),
             std::vector<std::string>{"overstress"});
   const Workspace &workspace = *ingested.workspace;
-  EXPECT_FALSE(
-    find_sensor_zero(workspace, judgement.base, judgement.found.model)
-      .has_value());
+  EXPECT_FALSE(find_sensor_zero(workspace,
+                                judgement.base,
+                                judgement.found.model,
+                                judgement.gap.excess)
+                 .has_value());
   unsigned int n_told = 0;
   for (const Localisation &place :
        localise(workspace, judgement.base, judgement.gap))
@@ -541,8 +543,10 @@ TEST_F(CampaignFolder, TellsAZeroOfTheSensorThatExplainsAsMuch)
     [](const std::string &text) { return with_zero(zero, text); });
   const Judgement spoilt = judged();
   EXPECT_LE(spoilt.gap.p, ingested.workspace->level);
-  const std::optional<SensorZero> found =
-    find_sensor_zero(*ingested.workspace, spoilt.base, spoilt.found.model);
+  const std::optional<SensorZero> found = find_sensor_zero(*ingested.workspace,
+                                                           spoilt.base,
+                                                           spoilt.found.model,
+                                                           spoilt.gap.excess);
   ASSERT_TRUE(found.has_value());
   EXPECT_FALSE(found->is_load);
   EXPECT_NEAR(found->value, zero, 0.1 * zero);
