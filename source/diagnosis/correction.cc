@@ -52,16 +52,14 @@ namespace SlipStep
       if (!is_needed(base.objective - corrected.objective,
                      left_out_gain(workspace, base, corrected)))
         return false;
-      const Comparison &comparison = workspace.comparison;
-      const auto        rms        = [&](const Model &model) {
-        return relative_rms(comparison, model);
-      };
-      const auto left_out_rms = [&](const Model &model) {
+      const Comparison &comparison   = workspace.comparison;
+      const auto        left_out_rms = [&](const Model &model) {
         Eigen::VectorXd differences;
         left_out_squares(workspace, model, &differences);
         return relative_rms(comparison, differences);
       };
-      return rms(corrected) < rms(base) &&
+      return relative_rms(comparison, corrected) <
+               relative_rms(comparison, base) &&
              (comparison.conditions.size() < 2 ||
               left_out_rms(corrected) < left_out_rms(base));
     }

@@ -254,11 +254,9 @@ namespace SlipStep
             refit_without(workspace, final_model, i);
           if (!bare.has_value())
             continue;
-          const auto difference = [&](const Model &model) {
-            return workspace.comparison.difference(model);
-          };
-          const Eigen::VectorXd left    = difference(*bare);
-          const std::string     section = "Friction/expression/";
+          const Comparison     &comparison = workspace.comparison;
+          const Eigen::VectorXd left       = comparison.difference(*bare);
+          const std::string     section    = "Friction/expression/";
           const std::string     covariate =
             part.formula.texts.at(section + "Covariate");
           result.completed.push_back(
@@ -268,7 +266,8 @@ namespace SlipStep
              bare->objective - final_model.objective,
              covariate_panel(workspace,
                              left,
-                             {{part.name, difference(final_model) - left}},
+                             {{part.name,
+                               comparison.difference(final_model) - left}},
                              covariate_of_expression(covariate))});
         }
     }

@@ -276,18 +276,17 @@ namespace SlipStep
 
 
 
-    // Of slides that are steady, over their speeds [mm/min].
-    Rows steady_ratios(const std::vector<RunResults> &runs, Range &speeds)
+    // Of slides with kinetic friction, over their speeds [mm/min].
+    Rows steady_ratios(const RunFigures &figures, Range &speeds)
     {
       Rows ratios;
-      for (const RunResults &run : runs)
-        for (const SlideSummary &slide : run.summary.slides)
-          if (slide.is_complete && slide.slip_fraction >= 0.999 &&
-              slide.is_settled() && !run.summary.is_unstable(slide))
-            {
-              ratios.push_back({slide.speed * mm_min, slide.dynamic_ratio});
-              speeds.add(slide.speed * mm_min);
-            }
+      for (const ResultRow &row : result_rows(figures.runs, figures.reference))
+        if (row.has_kinetic())
+          {
+            ratios.push_back(
+              {row.slide.speed * mm_min, row.slide.dynamic_ratio});
+            speeds.add(row.slide.speed * mm_min);
+          }
       return ratios;
     }
 
@@ -312,7 +311,7 @@ namespace SlipStep
       const auto &runs      = figures.runs;
       const auto &reference = figures.reference;
       Range       speeds;
-      const Rows  simulated = steady_ratios(runs, speeds);
+      const Rows  simulated = steady_ratios(figures, speeds);
       if (simulated.empty() || speeds.upper < 1.001 * speeds.lower)
         return;
 

@@ -226,7 +226,8 @@ namespace SlipStep
     double excess = 0.;              ///< of the objective
     std::vector<Localisation> where; ///< most first
 
-    /// A zero of the sensor that would explain as much, "0.1 MPa", or "".
+    /// A zero of the sensor that would explain as much, "0.1 MPa of load", or
+    /// "".
     std::string sensor_zero;
 
     // ---- verdict

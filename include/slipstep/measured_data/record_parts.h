@@ -18,8 +18,7 @@ namespace SlipStep
   /// Cut a record, of which time and displacement are filled and in order.
   ///
   /// - "none": one part
-  /// - "at reversals": a part for each stroke; it begins where the motion
-  /// turns,
+  /// - "at reversals": a part for each stroke, from where the motion turns on,
   ///   with the rest there, if there is one
   /// - "every 5 cycles": the same for so many strokes forth and back; rows
   ///   before the first turn and after the last full part are left out
