@@ -288,7 +288,7 @@ namespace SlipStep
       if (!is_finished(summary))
         result.push_back(label + " failed: " + summary.reason);
       for (const std::string &doubt :
-           {summary.missing_energy(), summary.missed_tolerance()})
+           {summary.missing_energy(), summary.mesh_error.missed()})
         if (!doubt.empty())
           result.push_back(label + ": warning: " + doubt);
     };

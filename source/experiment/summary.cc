@@ -464,9 +464,9 @@ namespace SlipStep
 
 
 
-  std::string Summary::missed_tolerance() const
+  std::string MeshErrorSummary::missed() const
   {
-    if (mesh_error.n_missed == 0)
+    if (n_missed == 0)
       return "";
     char text[200];
     std::snprintf(text,
@@ -474,12 +474,12 @@ namespace SlipStep
                   "the estimated error of the mesh is %.2g at worst (t = %.4g "
                   "s) and %.2g at the end, the tolerance is %g; it was missed "
                   "in %llu of %llu steps looked at",
-                  mesh_error.largest,
-                  mesh_error.time_of_largest,
-                  mesh_error.last,
-                  mesh_error.tolerance,
-                  mesh_error.n_missed,
-                  mesh_error.n_checked);
+                  largest,
+                  time_of_largest,
+                  last,
+                  tolerance,
+                  n_missed,
+                  n_checked);
     return text;
   }
 

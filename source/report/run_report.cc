@@ -497,9 +497,9 @@ namespace SlipStep
         text += "  " + run_name(run) +
                 ": warning: " + run.summary.missing_energy() + "\n";
     for (const RunResults &run : results)
-      if (!run.summary.missed_tolerance().empty())
+      if (!run.summary.mesh_error.missed().empty())
         text += "  " + run_name(run) +
-                ": warning: " + run.summary.missed_tolerance() + "\n";
+                ": warning: " + run.summary.mesh_error.missed() + "\n";
     for (const std::string &problem : problems)
       text += "  " + problem + "\n";
     return text;

@@ -383,6 +383,23 @@ TEST(Failure, tall_block_tips_over)
 
 
 
+// Sinking into a soft contact strains nothing.
+TEST(Failure, a_block_may_sink_into_a_soft_contact)
+{
+  const auto result = run_block_case<2>(make_parameters(Settings{
+    {"Block/Dimension", "2"},
+    {"Block/Size", "10 mm, 5 mm"},
+    {"Block/Subdivisions", "4, 2"},
+    {"Block/Young modulus", "3000 MPa"},
+    {"Block/Poisson ratio", "0"},
+    {"Friction/Normal stiffness", "10"},
+    {"Loading/Programme", "press 5 MPa in 1 s; slide 1 mm/s for 0.05 mm"}}));
+  EXPECT_EQ(result.failure, "");
+  EXPECT_NEAR(result.history.back().pressure, 5., 1e-6);
+}
+
+
+
 // The motion along a strip is small for its length, if not for its height.
 TEST(Failure, thin_strip_may_be_stretched)
 {

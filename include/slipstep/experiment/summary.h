@@ -78,6 +78,10 @@ namespace SlipStep
     unsigned long long n_checked       = 0;  ///< steps
     unsigned long long n_missed        = 0;  ///< with more than the tolerance
 
+    /// In words, by how much and how often the mesh missed its tolerance, or ""
+    /// if it never did.
+    std::string missed() const;
+
     /// For boost::serialization.
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
@@ -91,6 +95,12 @@ namespace SlipStep
   {
     double share = 0.; ///< of the nominal area
     double time  = 0.; ///< [s]
+
+    /// Round-off of sums of areas opens nothing.
+    bool has_happened() const
+    {
+      return share > 1e-9;
+    }
   };
 
   /// The content of summary.json.
@@ -144,10 +154,6 @@ namespace SlipStep
     /// In words, which share of the work is missing in the energy balance, or
     /// "" if that is at most 1 %.
     std::string missing_energy() const;
-
-    /// In words, by how much and how often the mesh missed its tolerance, or ""
-    /// if it never did.
-    std::string missed_tolerance() const;
   };
 
   /// Write atomically (a temporary file renamed into place).

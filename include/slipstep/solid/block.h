@@ -196,9 +196,6 @@ namespace SlipStep
     void         note_failure_of_solver();
     bool         take_next_solver(std::string &failures);
     void         begin_with_first_solver();
-    std::string  warning_of_solver() const;
-    std::string  warning_of_opening() const;
-    std::string  remedy_of_jumps() const;
 
     // Another mesh during the run.
     bool        adapt_to_trial(BlockOutput<dim> *output);
@@ -212,27 +209,26 @@ namespace SlipStep
     bool        find_equilibrium_at_start();
 
     // One time step.
-    bool        make_step();
-    void        begin_stage(const double end_time, const double time_step);
-    bool        finish_stage(const double weight);
-    void        predict();
-    bool        is_put_down() const;
-    bool        bring_to_touch();
-    bool        settle();
-    void        add_loads(const double factor, Vector &vector) const;
-    void        impose_displacements();
-    bool        solve_stage();
-    double      compute_residual();
-    double      least_force_scale() const;
-    double      wanted_norm() const;
-    void        forget_iterations();
-    bool        only_round_off_is_left() const;
-    double      linear_tolerance(const double norm) const;
-    double      line_search(const Vector               &update,
-                            const dealii::Tensor<1, 2> &motion,
-                            const double                old_norm);
-    void        accept_step(const ContactTotals &totals, HistoryRow &row);
-    std::string reason_of_failure() const;
+    bool   make_step();
+    void   begin_stage(const double end_time, const double time_step);
+    bool   finish_stage(const double weight);
+    void   predict();
+    bool   is_put_down() const;
+    bool   bring_to_touch();
+    bool   settle();
+    void   add_loads(const double factor, Vector &vector) const;
+    void   impose_displacements();
+    bool   solve_stage();
+    double compute_residual();
+    double least_force_scale() const;
+    double wanted_norm() const;
+    void   forget_iterations();
+    bool   only_round_off_is_left() const;
+    double linear_tolerance(const double norm) const;
+    double line_search(const Vector               &update,
+                       const dealii::Tensor<1, 2> &motion,
+                       const double                old_norm);
+    void   accept_step(const ContactTotals &totals, HistoryRow &row);
 
     // Inertia of the body.
     const Vector          &strained_displacement();
@@ -263,7 +259,17 @@ namespace SlipStep
     void                   check_balance_of_forces();
     dealii::Tensor<1, dim> sum_by_component(const Vector &forces) const;
     double                 elastic_energy();
-    void                   check_contact(const ContactTotals &totals);
+
+    // What the user is told.
+    void                     check_contact(const ContactTotals &totals);
+    bool                     tips_over() const;
+    std::string              reason_of_failure() const;
+    std::string              remedy_of_jumps() const;
+    std::string              warning_of_loads() const;
+    std::string              warning_of_pressure() const;
+    std::string              warning_of_opening() const;
+    std::string              warning_of_solver() const;
+    std::vector<std::string> warnings() const;
 
     // Constant through the run.
     const BlockParameters parameters;

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/solid/block.h>
+
+#include <slipstep/utilities/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace SlipStep
+{
+  using namespace dealii;
+
+  // @sect3{When it goes wrong}
+
+  // A block without contact is free to move, so there is nothing left to
+  // compute, unless it is held and has yet to touch.
+  template <int dim>
+  void Block<dim>::check_contact(const ContactTotals &totals)
+  {
+    largest_normal_load = std::max(largest_normal_load, totals.normal_load);
+    contact_share       = totals.area / parameters.nominal_contact_area();
+    // What a flat face has not reached by then is open as well.
+    largest_contact_share = parameters.surface.is_curved() ?
+                              std::max(largest_contact_share, contact_share) :
+                              1.;
+    if (largest_contact_share - contact_share > opening.share &&
+        control.time() > parameters.time_of_first_wave())
+      opening = {largest_contact_share - contact_share, control.time()};
+    const bool has_yet_to_touch =
+      parameters.surface.is_curved() && parameters.is_held_along_normal() &&
+      largest_normal_load == 0. && !control.is_finished();
+    // With a density a block may come off the plane and return.
+    const bool is_off = totals.normal_load <= 1e-6 * largest_normal_load &&
+                        !has_yet_to_touch && !parameters.is_dynamic();
+    if (is_off || (control.is_finished() && largest_normal_load == 0.))
+      {
+        std::ostringstream message;
+        message << "no contact pressure is left at t = " << control.time()
+                << (largest_normal_load > 0. ?
+                      " s: the block has come off the plane" :
+                      " s: the block has not touched the plane");
+        throw RunError(message.str());
+      }
+
+    // Along a side of the block the motion is measured by that side: a thin
+    // strip may be stretched by more than its height, but not rise as much, and
+    // the load on a high block must stay above its foot. What all points do
+    // alike strains and turns nothing.
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        for (const auto dof : dofs_of_component[d])
+          {
+            least = std::min(least, solution(dof));
+            most  = std::max(most, solution(dof));
+          }
+        least = Utilities::MPI::min(least, communicator);
+        most  = Utilities::MPI::max(most, communicator);
+        const double motion =
+          std::min(most - least, std::max(std::abs(least), std::abs(most)));
+        if (motion <= 0.05 * parameters.size[d])
+          continue;
+        std::ostringstream message;
+        message << "points of the block have moved by " << motion
+                << " mm along "
+                << "xyz"[d]
+                << " with respect to the drive and to each other, which is too "
+                   "much for small strains and rotations";
+        failure = message.str();
+        throw RunError("At t = " + std::to_string(control.time()) + " s " +
+                       (tips_over() ? reason_of_failure() : failure));
+      }
+  }
+
+
+
+  template <int dim>
+  bool Block<dim>::tips_over() const
+  {
+    return largest_normal_load > 0. && contact_share < 0.6 &&
+           !parameters.surface.is_curved();
+  }
+
+
+
+  // The state of the contact tells more than the algebra, unless that has a
+  // remedy of its own.
+  template <int dim>
+  std::string Block<dim>::reason_of_failure() const
+  {
+    std::ostringstream message;
+    if (tips_over())
+      message << "the block tips over: only "
+              << std::round(100. * contact_share)
+              << " % of its face is still in contact (" << failure << ")";
+    else if (control.time() == 0. &&
+             failure.find("'set Solver = automatic'") == std::string::npos)
+      message << "not even the beginning of the loads is in equilibrium: they "
+                 "lift the block or tip it over, or, if they do hold it on the "
+                 "plane, more Block/Newton iterations than "
+              << parameters.newton_iterations
+              << " or, where round-off is in the way, a larger Block/Newton "
+                 "tolerance may help ("
+              << failure << ")";
+    else if (drive.is_unknown() && drive.mass() == 0. && !inertia.exists())
+      message << drive.reason_of_failure() << " (" << failure << ")";
+    else
+      message << failure << remedy_of_jumps();
+    return message.str();
+  }
+
+
+
+  // Between stick and slip there is no equilibrium then, however short the
+  // step.
+  template <int dim>
+  std::string Block<dim>::remedy_of_jumps() const
+  {
+    const Segment &now     = programme.segment_at(control.end_of_step());
+    const auto    &effects = contact.friction_law().effects();
+    if (opening.has_happened() &&
+        std::find(effects.begin(), effects.end(), "adhesion") != effects.end())
+      return "; where the face lifts off, its bonds (effect adhesion) break at "
+             "once, and there may be no equilibrium between";
+    if (inertia.exists() || now.end.velocity.norm() == 0.)
+      return "";
+    return "; where friction falls with slip or speed a block this soft may "
+           "jump, which a Block/Density lets it do, or viscous friction "
+           "(effect viscous) slow down";
+  }
+
+
+
+  namespace
+  {
+    // Subdivisions that cannot be halved leave a coarsest mesh for multigrid
+    // which is factorised in every Newton step; others nearby can. "" if it is
+    // small enough.
+    std::string warning_of_subdivisions(const BlockParameters &parameters)
+    {
+      const auto   begin = parameters.subdivisions.begin();
+      const auto   end   = begin + parameters.dimension;
+      unsigned int most = 1, factor = 1; // powers of 2
+      while (2 * most <= std::min(*std::min_element(begin, end), 8u))
+        most *= 2;
+      const auto is_divisible = [&](const unsigned int n) {
+        return n % (2 * factor) == 0;
+      };
+      while (std::all_of(begin, end, is_divisible))
+        factor *= 2;
+      double             n_coarse = parameters.dimension;
+      std::ostringstream present, better;
+      for (auto n = begin; n != end; ++n)
+        {
+          n_coarse *= 1. + *n / factor;
+          present << (n == begin ? "" : ", ") << *n;
+          better << (n == begin ? "" : ", ") << (*n + most / 2) / most * most;
+        }
+      if (n_coarse < 3000. || factor >= most)
+        return "";
+      return "the subdivisions " + present.str() +
+             " cannot be halved often enough for multigrid: its coarsest mesh "
+             "has " +
+             std::to_string(std::lround(n_coarse)) +
+             " unknowns, and they are solved directly in every iteration; "
+             "'set Subdivisions = " +
+             better.str() +
+             "' in section Block is "
+             "cheaper";
+    }
+
+
+
+    std::string warning_of_map(const double strength_error)
+    {
+      constexpr double noticed = 0.005;
+      if (std::abs(strength_error) <= noticed)
+        return "";
+      std::ostringstream message;
+      message << "the contact points see the map Contact/Strength too "
+              << (strength_error > 0. ? "high" : "low") << ", by "
+              << std::setprecision(2) << 100. * std::abs(strength_error)
+              << " % on average: they are too far apart for it; more "
+                 "Block/Subdivisions, with borders of cells where the map "
+                 "jumps, tell it better";
+      return message.str();
+    }
+
+
+
+    std::string warning_of_jump(const double largest_jump)
+    {
+      if (largest_jump <= 1e-3)
+        return "";
+      std::ostringstream message;
+      message << "the friction force jumped by up to " << std::setprecision(2)
+              << 100. * largest_jump
+              << " % when the mesh changed (see refinement.csv); a smaller "
+                 "'Tolerance' in section Block/Adaptivity or more "
+                 "subdivisions make it smoother";
+      return message.str();
+    }
+  } // namespace
+
+
+
+  // The edge of a contact with a gap moves, and so does the mesh: what is less
+  // than 1 % of the face is not worth a word there.
+  template <int dim>
+  std::string Block<dim>::warning_of_opening() const
+  {
+    const bool is_curved = parameters.surface.is_curved();
+    if (!opening.has_happened() || (is_curved && opening.share < 0.01))
+      return "";
+    std::ostringstream message;
+    message << "part of the contact face lifted off the plane: at worst "
+            << std::setprecision(3) << 100. * opening.share << " % of it "
+            << (is_curved ? "had touched and " : "")
+            << "was open, at t = " << std::setprecision(6) << opening.time
+            << " s (";
+    if (is_curved)
+      message << "less pressure or friction leaves a gap open again";
+    else if (inertia.exists())
+      message << "waves lift a block with density, or friction turns it; "
+                 "slower statements or a 'Damping time' calm waves";
+    else
+      message << "friction turns a block that is high for its length, or what "
+                 "holds and pulls its faces lifts it";
+    message << ')';
+    return message.str();
+  }
+
+
+
+  template <int dim>
+  std::string Block<dim>::warning_of_loads() const
+  {
+    if (load_cases[gradual].force.l2_norm() == 0. ||
+        programme.segments().front().end.velocity.norm() == 0.)
+      return "";
+    return "loads of the faces grow during the first statement of the "
+           "programme, while the block slides; 'hold 1 s' before it, or 'at "
+           "once' behind the load, lets them act before it slides";
+  }
+
+
+
+  template <int dim>
+  std::string Block<dim>::warning_of_pressure() const
+  {
+    const auto &segments = programme.segments();
+    if (load_cases[programme_pressure].force.l2_norm() > 0. ||
+        std::none_of(segments.begin(), segments.end(), [](const Segment &now) {
+          return now.end.pressure > 0.;
+        }))
+      return "";
+    return "the programme presses, but no face has 'pressure programme': only "
+           "the other loads of section Block/Faces press the block on the "
+           "plane";
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string> Block<dim>::warnings() const
+  {
+    const bool is_multigrid =
+      parameters.solver_for(dof_handler.n_dofs()) == SolverType::multigrid;
+    std::vector<std::string> texts = {warning_of_loads(),
+                                      warning_of_pressure(),
+                                      warning_of_map(strength_error),
+                                      warning_of_opening(),
+                                      warning_of_solver(),
+                                      is_multigrid ?
+                                        warning_of_subdivisions(parameters) :
+                                        ""};
+    if (most_cells_wanted > 0.)
+      texts.push_back(
+        "the mesh reached the limit set in section Block/Adaptivity: at worst " +
+        std::to_string(std::llround(most_cells_wanted)) +
+        " more cells were wanted than are allowed");
+    if (const std::string missed = tolerance.summary().missed();
+        !missed.empty())
+      texts.push_back(missed + ": " + tolerance.remedy());
+    texts.push_back(warning_of_jump(largest_jump));
+    texts.erase(std::remove(texts.begin(), texts.end(), ""), texts.end());
+    return texts;
+  }
+
+
+
+  template <int dim>
+  void Block<dim>::fill(Summary &summary) const
+  {
+    summary.dimension         = dim;
+    summary.cells             = triangulation.n_global_active_cells();
+    summary.dofs              = dof_handler.n_dofs();
+    summary.ranks             = Utilities::MPI::n_mpi_processes(communicator);
+    summary.steps             = control.n_accepted();
+    summary.rejected_steps    = control.n_rejected();
+    summary.newton_iterations = n_newton_total;
+    summary.linear_iterations = n_linear_total;
+    summary.mesh_error        = tolerance.summary();
+    if (opening.has_happened())
+      summary.opening = opening;
+    summary.warnings = warnings();
+  }
+
+
+
+#ifndef SLIPSTEP_UNITY_BUILD
+  template class Block<2>;
+  template class Block<3>;
+#endif
+} // namespace SlipStep
