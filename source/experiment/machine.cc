@@ -299,8 +299,12 @@ namespace SlipStep
     std::optional<ContactResponse> response;
     Tensor<1, 2>                   slip;
     if (areal_mass == 0.)
-      response =
-        push_contact(law, point, load, normal_traction, time_step, slip);
+      {
+        response =
+          push_contact(law, point, load, normal_traction, time_step, slip);
+        if (slip.norm() > fastest_slip * time_step)
+          response.reset();
+      }
     else
       {
         const double       softness = time_step * time_step / areal_mass;

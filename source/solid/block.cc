@@ -235,6 +235,16 @@ namespace SlipStep
     if (!solve_stage())
       return false;
     drive.end_stage(loading.displacement, force_on_drive(unbalanced));
+    if (drive.is_faster_than_waves() && !inertia.exists())
+      {
+        // Or what sticks is soft, and pushed that fast.
+        const ContactTotals totals = contact.totals(communicator);
+        if (totals.slip_area > 0.99 * totals.area)
+          {
+            failure = "the block would slip faster than waves go";
+            return false;
+          }
+      }
     trial_work += weight * work_of_stage();
     if (inertia.exists())
       {
@@ -351,10 +361,12 @@ namespace SlipStep
   template <int dim>
   double Block<dim>::wanted_norm() const
   {
-    return std::max(parameters.newton_tolerance * force_scale,
-                    inertia.round_off(solution,
-                                      loading.displacement.norm(),
-                                      stage_time));
+    const double of_drive =
+      drive.is_unknown() ? drive_weight * drive.round_off() : 0.;
+    return std::max(
+      {parameters.newton_tolerance * force_scale,
+       of_drive,
+       inertia.round_off(solution, loading.displacement.norm(), stage_time)});
   }
 
 

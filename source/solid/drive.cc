@@ -136,6 +136,14 @@ namespace SlipStep
 
 
 
+  bool Drive::is_faster_than_waves() const
+  {
+    return pushes && machine.mass() == 0. &&
+           stage_end.velocity.norm() > fastest_slip;
+  }
+
+
+
   std::string Drive::reason_of_failure() const
   {
     if (pushes)

@@ -238,6 +238,46 @@ TEST(Push, beyond_friction_fails_at_that_load)
 
 
 
+// An overstress holds more the faster the contact slips, up to its maximum.
+TEST(Push, beyond_the_largest_overstress_fails_at_once)
+{
+  const Parameters parameters = point_parameters(
+    {{"Friction/Effects", "subloading, overstress, softening"},
+     {"Friction/Static coefficient", "0.3"},
+     {"Friction/softening/Kinetic coefficient", "0.2"},
+     {"Friction/softening/Rate", "20"},
+     {"Friction/overstress/Viscosity", "100"},
+     {"Friction/overstress/Exponent", "50"},
+     {"Friction/overstress/Maximum ratio", "1.8"},
+     {"Loading/Programme", "press 5 MPa in 1 s; push 2 MPa in 1 s"}});
+  const FrictionLaw law(parameters);
+  const Programme   programme = parse_programme(parameters);
+  HistoryRow        last;
+  unsigned int      n_steps = 0;
+  std::string       reason;
+  try
+    {
+      drive_point(law,
+                  programme,
+                  StepControl(parameters, programme, law),
+                  [&](const HistoryRow &row) {
+                    last = row;
+                    ++n_steps;
+                  });
+    }
+  catch (const RunError &error)
+    {
+      reason = error.what();
+    }
+  EXPECT_TRUE(contains(reason, "friction cannot hold the push")) << reason;
+  EXPECT_LT(n_steps, 20000u);
+  // mu p r_m of mu softened, or what slip at that speed holds of it.
+  EXPECT_LT(last.tangential_load, 1.8);
+  EXPECT_GT(last.tangential_load, 1.4);
+}
+
+
+
 TEST(Push, moves_a_mass_beyond_friction)
 {
   // m g'' = F - f_t with constant F and sliding friction.

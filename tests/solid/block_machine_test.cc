@@ -174,6 +174,44 @@ TEST(BlockMachine, sticks_and_slips_as_the_point)
 
 
 
+// The shorter the steps, the more round-off of where it is the forces of its
+// inertia hold.
+TEST(BlockMachine, comes_to_rest_after_a_long_way)
+{
+  const Settings coulomb  = {{"Friction/Effects", ""},
+                             {"Friction/Static coefficient", "0.2"},
+                             {"Friction/Tangential stiffness", "1e4"},
+                             {"Friction/Normal stiffness", "1e4"},
+                             {"Loading/Machine stiffness", "1 MPa/mm"},
+                             {"Loading/Machine mass", "1e4 kg/m^2"},
+                             {"Loading/Programme",
+                              "press 5 MPa in 1 s; slide 1000 mm/s for 10 mm; "
+                               "hold 0.02 s"}};
+  const Settings block_2d = {{"Block/Dimension", "2"},
+                             {"Block/Size", "10 mm, 1 mm"},
+                             {"Block/Subdivisions", "1, 1"},
+                             {"Block/Degree", "1"},
+                             {"Block/Young modulus", "1e5 MPa"},
+                             {"Block/Poisson ratio", "0"}};
+  const auto     block    = run_block_case<2>(make_parameters(
+    coulomb + block_2d + Settings{{"Time stepping/Tolerance", "1e-4"}}));
+  EXPECT_EQ(block.failure, "");
+  // The closed form of the mass on its spring, friction being 1 MPa: it starts
+  // when the spring holds that, and turns half a period after the load point
+  // has stopped.
+  const double w = std::sqrt(1. / 1e-5), t = 0.01 - 0.001; // [1/s], [s]
+  const double farthest = 9. + std::hypot(1000. / w * std::sin(w * t),
+                                          1000. * (1. - std::cos(w * t)) / w);
+  const auto   turned =
+    std::find_if(block.history.begin(),
+                 block.history.end(),
+                 [](const HistoryRow &row) { return row.friction < -0.1; });
+  ASSERT_NE(turned, block.history.end());
+  EXPECT_NEAR(turned->slip, farthest, 2e-3);
+}
+
+
+
 // Faster than waves go through the block: the inertia that the driven face
 // meets is no spring, however short the step.
 TEST(BlockMachine, pushes_and_pulls_a_body_with_mass)

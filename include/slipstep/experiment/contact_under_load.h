@@ -44,6 +44,10 @@ namespace SlipStep
                                               const double time_step,
                                               dealii::Tensor<1, 2> &slip);
 
+  /// Slip [mm/s] at which a contact under a load, without any mass, has given
+  /// way: no wave goes much faster through a solid.
+  constexpr double fastest_slip = 1e6;
+
   /// Why a push ends a run.
   /// @param load tangential, that is not held [MPa]
   /// @param held last load that was [MPa]

@@ -5,6 +5,8 @@
 #include <slipstep/experiment/machine.h>
 #include <slipstep/experiment/programme.h>
 
+#include <limits>
+
 namespace SlipStep
 {
   /// What moves the driven faces of a block: a load point, which the programme
@@ -82,6 +84,14 @@ namespace SlipStep
       return area * resistance;
     }
 
+    /// Force that is nothing but round-off of a displacement such as that at
+    /// the beginning of the stage [N].
+    double round_off() const
+    {
+      return stiffness() * stage_start.slip.norm() *
+             std::numeric_limits<double>::epsilon();
+    }
+
     /// Work of the load point in the stage that ended, beyond that of the
     /// reactions on the driven faces [N mm].
     double work_beyond(const dealii::Tensor<1, 2> &reaction) const;
@@ -126,6 +136,10 @@ namespace SlipStep
     {
       return area * machine.kinetic_energy(at_start);
     }
+
+    /// Whether a push without a mass has moved the driven faces, in the stage
+    /// that ended, faster than a contact can slip that holds it.
+    bool is_faster_than_waves() const;
 
     /// Why there is no equilibrium.
     std::string reason_of_failure() const;
