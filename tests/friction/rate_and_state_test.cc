@@ -196,14 +196,29 @@ TEST(RateAndState, pressure_memory_after_a_step_of_pressure)
       fresh = go_on(*law, fresh, p, 0.5, 0.01 * length, 20);
       EXPECT_NEAR(fresh.traction[0], p * mu, 1e-9) << n;
     }
-  // One that slips while the pressure grows like the slip to s, to
-  // ln p_m = ln p - 1 where s is short: the mean over the slip.
-  for (const unsigned int n : {400, 800})
+  // One that slips while the pressure grows like the slip: ln p_m is the mean
+  // of ln p over the slip, the last of it counting most, of which it remembers
+  // nothing at first.
+  for (const double s : {1e-3, 0.02, 0.3, 2.}) // L
     {
-      ContactState fresh = law->initial_state();
-      for (unsigned int i = 1; i <= n; ++i)
-        fresh = go_on(*law, fresh, i * p / n, 0.5, 1e-3 * length / n, 1);
-      EXPECT_NEAR(fresh.traction[0] / (p * mu), std::exp(-0.3), 3. / n) << n;
+      double sum = 0., weights = 0.;
+      for (unsigned int i = 0; i < 100000; ++i)
+        {
+          const double x      = (i + 0.5) / 100000.;
+          const double weight = std::exp(-s * (1. - x));
+          sum += weight * std::log(x);
+          weights += weight;
+        }
+      const double expected =
+        std::exp(0.3 * (1. - std::exp(-20. * s)) * sum / weights);
+      for (const unsigned int n : {400, 1600})
+        {
+          ContactState fresh = law->initial_state();
+          for (unsigned int i = 1; i <= n; ++i)
+            fresh = go_on(*law, fresh, i * p / n, 0.5, s * length / n, 1);
+          EXPECT_NEAR(fresh.traction[0] / (p * mu), expected, 3. / n)
+            << s << ' ' << n;
+        }
     }
   // Open, it forgets.
   ContactState open, closed;

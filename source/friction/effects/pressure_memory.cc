@@ -17,22 +17,25 @@ namespace SlipStep
 
     /// A change of pressure acts on the coefficient of friction at once, and
     /// slip makes it forgotten:
-    /// \f[ G = \left(\frac{p_m}{f_n}\right)^\alpha, \qquad
+    /// \f[ G = \left(\frac{p_m}{f_n}\right)^{\alpha v}, \qquad
     ///     \frac{d \ln p_m}{d\lambda} = \frac{\ln f_n - \ln p_m}{w L}, \qquad
     ///     \frac{d w}{d\lambda} = \frac{1 - w}{L}, \f]
     /// \f$w = 1 - e^{-s/L}\f$ after slip s since the contact closed: a fresh
     /// one has adapted to the pressure at which it first slips, whatever it was
-    /// pressed from. A contact that has slipped some L has w = 1:
-    /// Linker and Dieterich (1992), J. Geophys. Res. 97, 4923: a change of
-    /// normal stress changes the state of rate-and-state friction by
-    /// \f$d\theta = -\alpha_{LD}\theta/(b f_n)\,df_n\f$. With the slip law,
-    /// d ln theta/d lambda = -ln(lambda theta/D_c)/D_c, that is linear in
-    /// ln theta, so what pressure adds to the state has the equation of its own
-    /// above, with w = 1, \f$b\,\Delta\ln\theta = -\alpha_{LD}\ln(f_n/p_m)\f$,
-    /// with L = D_c and \f$\alpha_{LD} = \alpha\f$ times the coefficient of
-    /// friction. The power instead of \f$1 - \alpha\ln(f_n/p_m)\f$, its first
-    /// two terms, is chosen: it is positive for every pressure. \f$\alpha <
-    /// 1\f$: the strength grows with pressure at once, by \f$f_n^{1-\alpha}\f$.
+    /// pressed from, and \f$v = 1 - (1 - w)^{20}\f$: what it
+    /// remembers grows within a twentieth of L, or friction of one that slips
+    /// while it is pressed from nothing would have no beginning. Slipped some L
+    /// it has v = w = 1: Linker and Dieterich (1992), J. Geophys. Res. 97,
+    /// 4923: a change of normal stress changes the state of rate-and-state
+    /// friction by \f$d\theta = -\alpha_{LD}\theta/(b f_n)\,df_n\f$. With the
+    /// slip law, d ln theta/d lambda = -ln(lambda theta/D_c)/D_c, that is
+    /// linear in ln theta, so what pressure adds to the state has the equation
+    /// of its own above, with w = 1, \f$b\,\Delta\ln\theta =
+    /// -\alpha_{LD}\ln(f_n/p_m)\f$, with L = D_c and \f$\alpha_{LD} = \alpha\f$
+    /// times the coefficient of friction. The power instead of \f$1 -
+    /// \alpha\ln(f_n/p_m)\f$, its first two terms, is chosen: it is positive
+    /// for every pressure. \f$\alpha < 1\f$: the strength grows with pressure
+    /// at once, by \f$f_n^{1-\alpha}\f$.
     class PressureMemory : public StrengthEffect
     {
     public:
@@ -44,14 +47,16 @@ namespace SlipStep
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
         const double kept = share_kept(step), away = log_ratio(step);
+        const double forgotten  = std::pow(1. - share(step), beginning);
+        const double remembered = 1. - forgotten;
         Strength     factor;
-        factor.value = std::exp(alpha * kept * away);
+        factor.value = std::exp(alpha * remembered * kept * away);
         if (kept > 0. && step.normal_traction > 0.)
           {
-            factor.d_slip =
-              -factor.value * alpha * kept * away / (L * share(step));
+            factor.d_slip = factor.value * alpha * kept * away / L *
+                            (beginning * forgotten - remembered / share(step));
             factor.d_normal =
-              -factor.value * alpha * kept / step.normal_traction;
+              -factor.value * alpha * remembered * kept / step.normal_traction;
           }
         return factor;
       }
@@ -78,11 +83,13 @@ namespace SlipStep
         info.name  = "pressure_memory";
         info.words = "a change of pressure to which friction adapts by slip";
         info.formula =
-          "G = (p_m/f_n)^alpha, d ln(p_m)/d lambda = (ln(f_n) - "
-          "ln(p_m))/(w L), w = 1 - exp(-s/L), s: slip since closing";
-        info.latex      = "G = \\left(\\frac{p_m}{f_n}\\right)^\\alpha, \\quad "
-                          "\\frac{d \\ln p_m}{d\\lambda} = \\frac{\\ln f_n - \\ln "
-                          "p_m}{w L}, \\quad w = 1 - e^{-s/L}";
+          "G = (p_m/f_n)^(alpha v), d ln(p_m)/d lambda = (ln(f_n) - "
+          "ln(p_m))/(w L), w = 1 - exp(-s/L), v = 1 - exp(-20 s/L), s: slip "
+          "since closing";
+        info.latex =
+          "G = \\left(\\frac{p_m}{f_n}\\right)^{\\alpha v}, \\quad "
+          "\\frac{d \\ln p_m}{d\\lambda} = \\frac{\\ln f_n - \\ln p_m}{w L}, "
+          "\\quad w = 1 - e^{-s/L}, \\quad v = 1 - e^{-20 s/L}";
         info.source     = "Linker and Dieterich (1992), J. Geophys. Res. 97, "
                           "4923-4940; power chosen";
         info.neutral    = "Change = 0";
@@ -153,8 +160,9 @@ namespace SlipStep
                  0.;
       }
 
-      const double alpha;
-      const double L;
+      static constexpr double beginning = 20.; // L over it
+      const double            alpha;
+      const double            L;
     };
 
     const RegisterEffect pressure_memory_registration =
