@@ -39,30 +39,33 @@ namespace SlipStep
 
 
 
-    // In the order of the sweep, if the folder tells, or else of their names.
+    // Those of the last sweep in its order, if the folder tells; else all, in
+    // the order of their names. Others are of an earlier sweep.
     std::vector<fs::path> folders_of_runs(const fs::path &folder)
     {
-      std::vector<fs::path> folders;
+      std::vector<fs::path> folders, others;
+      bool                  is_sweep = false;
       if (fs::exists(folder / "used_parameters.prm"))
         {
           Parameters parameters = declared_parameters();
           parameters.read(folder / "used_parameters.prm");
+          is_sweep = !parameters.variants().empty();
           for (const Variant &variant : parameters.variants())
-            folders.push_back(folder / variant.folder);
+            if (is_run(folder / variant.folder))
+              folders.push_back(folder / variant.folder);
         }
-      std::vector<fs::path> others;
       for (const auto &entry : fs::directory_iterator(folder))
-        if (std::find(folders.begin(), folders.end(), entry.path()) ==
-            folders.end())
+        if (is_run(entry.path()) &&
+            std::find(folders.begin(), folders.end(), entry.path()) ==
+              folders.end())
           others.push_back(entry.path());
       std::sort(others.begin(), others.end());
-      folders.insert(folders.end(), others.begin(), others.end());
-      folders.erase(std::remove_if(folders.begin(),
-                                   folders.end(),
-                                   [](const fs::path &path) {
-                                     return !is_run(path);
-                                   }),
-                    folders.end());
+      if (!is_sweep)
+        return others;
+      for (const fs::path &other : others)
+        print_warnings({other.string() +
+                        " is not of the last sweep in this folder, and left "
+                        "out; name it to compare it"});
       return folders;
     }
 

@@ -350,6 +350,9 @@ namespace SlipStep
     // one that takes its effects from the case. The same holds for adaptivity.
     void Runner::write_case_parameters() const
     {
+      // It takes the place of an earlier run of the case alone.
+      if (fs::exists(output / "history.csv"))
+        remove_earlier_results(output);
       std::map<std::string, unsigned int> n_variants_without;
       for (unsigned int i = 0; i < the_case.complete.size(); ++i)
         {

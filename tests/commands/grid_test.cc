@@ -272,3 +272,34 @@ TEST_F(Grid, IsComparedWithOtherResults)
   refused({"test.csv"}, {"no folder of results"});
   refused({"nowhere"}, {"there is no such folder"});
 }
+
+
+
+// What a folder had before is not taken for a part of the sweep.
+TEST_F(Grid, TakesThePlaceOfEarlierRunsInItsFolder)
+{
+  const auto point = [&](const std::vector<std::string> &more) {
+    std::vector<std::string> arguments = {
+      "point", "one.prm", "--output", "here", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    run(arguments);
+  };
+  const auto compared = [&]() {
+    return run({"compare", "here", "--output", "page"});
+  };
+  const auto shows = [](const std::string &table, const std::string &speed) {
+    return contains(table, "\n  " + speed + " ");
+  };
+  point({});
+  EXPECT_TRUE(shows(compared().out, "1"));
+  point({"--sweep", "Loading/Speed=2 mm/min|3 mm/min"});
+  const std::string first = compared().out;
+  EXPECT_FALSE(shows(first, "1")) << first;
+  EXPECT_TRUE(shows(first, "2") && shows(first, "3")) << first;
+  EXPECT_FALSE(fs::exists(process.folder() / "here" / "history.csv"));
+  point({"--sweep", "Loading/Speed=3 mm/min|4 mm/min"});
+  const auto last = compared();
+  EXPECT_FALSE(shows(last.out, "2")) << last.out;
+  EXPECT_TRUE(shows(last.out, "3") && shows(last.out, "4")) << last.out;
+  EXPECT_TRUE(contains(last.err, "is not of the last sweep"));
+}
