@@ -80,14 +80,20 @@ namespace SlipStep
     void declare_convention(Parameters &map)
     {
       using namespace dealii::Patterns;
-      for (const std::string name : {"Friction sign", "Displacement sign"})
-        map.declare("Convention/" + name,
-                    "as recorded",
-                    Selection("as recorded|reversed"),
-                    "Friction is positive where it resists motion in the "
-                    "positive direction; reversed: the record has it the other "
-                    "way. A record with friction that drives the motion is "
-                    "refused.");
+      const std::string convention =
+        "Friction is positive where it resists motion in the positive "
+        "direction; reversed: the record has it the other way";
+      map.declare("Convention/Friction sign",
+                  "as recorded",
+                  Selection("as recorded|reversed|of the motion"),
+                  convention +
+                    "; of the motion: the record has no sign, and gets that of "
+                    "the last motion. A record with friction that drives the "
+                    "motion is refused.");
+      map.declare("Convention/Displacement sign",
+                  "as recorded",
+                  Selection("as recorded|reversed"),
+                  convention + ".");
       map.declare("Convention/Start from zero",
                   "true",
                   Bool(),

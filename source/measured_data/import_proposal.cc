@@ -333,7 +333,9 @@ namespace SlipStep
       if (words.key == "Time")
         {
           const std::vector<double> &time = finite[column];
-          if (!varies || !std::is_sorted(time.begin(), time.end()))
+          // The newest row may stand first.
+          if (!varies || !(std::is_sorted(time.begin(), time.end()) ||
+                           std::is_sorted(time.rbegin(), time.rend())))
             return 0;
         }
       if (words.key == "Displacement" && !varies)
@@ -555,7 +557,12 @@ namespace SlipStep
         friction = taken_as("Tangential load");
       if (displacement == nullptr || friction == nullptr)
         return;
-      const double share = share_of_resistance(values[displacement->number - 1],
+      const SeenColumn *time = taken_as("Time");
+      const bool        is_later =
+        time == nullptr || std::is_sorted(finite[time->number - 1].begin(),
+                                          finite[time->number - 1].end());
+      const double share = (is_later ? 1. : -1.) *
+                           share_of_resistance(values[displacement->number - 1],
                                                values[friction->number - 1]);
       const std::string words =
         rounded_text(50. * (1. + share), 3) +

@@ -313,9 +313,19 @@ namespace SlipStep
             result[i] =
               load[i] == 0. && result[i] == 0. ? 0. : result[i] / load[i];
         }
-      if (map.text("Convention/Friction sign") == "reversed")
+      const std::string sign = map.text("Convention/Friction sign");
+      if (sign == "reversed")
         for (double &value : result)
           value = -value;
+      else if (sign == "of the motion")
+        try
+          {
+            give_sign_of_motion(time, motion, result);
+          }
+        catch (const InputError &error)
+          {
+            map.reject("Convention/Friction sign", error.what());
+          }
       return result;
     }
 
@@ -326,6 +336,8 @@ namespace SlipStep
                                    const std::vector<double> &motion,
                                    std::vector<double>       &signal)
     {
+      constexpr double alike = 2.;
+
       std::string       what  = key;
       const std::string unit  = key.rfind("Tangential", 0) == 0 ? " N" : "";
       const std::string drift = map.text("Correction/Drift"),
@@ -336,8 +348,17 @@ namespace SlipStep
         {
           const double slope = take_off_drift(drift, time, motion, signal);
           path               = "Correction/Zero";
+          const auto   sign  = zero == "mean of strokes" ?
+                                 friction_of_one_sign(time, motion, signal) :
+                                 std::nullopt;
           const double value = take_off_zero(zero, time, motion, signal);
-          std::string &note  = notes["corrected"];
+          if (sign.has_value() &&
+              std::abs(sign->forth - sign->back) <= alike * sign->scatter)
+            throw InputError("it takes off nearly all, " +
+                             rounded_text(value, 4) + unit +
+                             ": has the record no sign (Convention/Friction "
+                             "sign = of the motion)?");
+          std::string &note = notes["corrected"];
           if (drift != "none")
             note += (note.empty() ? "" : "; ") + what + " less a drift of " +
                     rounded_text(slope, 4) + unit + "/s about mid-time";

@@ -19,14 +19,19 @@ namespace SlipStep
       double path;   ///< [mm]
       double time;   ///< in its middle [s]
       double signal; ///< in its middle
+      double place;  ///< likewise [mm]
     };
 
     /// Those forth and those back.
     using StepsByWay = std::array<std::vector<MovingStep>, 2>;
 
+    // What turns within a band trembles.
+    constexpr double least_band = 0.005; // of the range
+
     StepsByWay moving_steps(const std::vector<double> &time,
                             const std::vector<double> &displacement,
-                            const std::vector<double> &signal)
+                            const std::vector<double> &signal,
+                            const double               multiple_of_noise = 0.)
     {
       std::vector<std::size_t> rows;
       std::vector<double>      positions;
@@ -38,14 +43,19 @@ namespace SlipStep
             positions.push_back(displacement[i]);
           }
       const std::vector<double> smooth =
-        without_jitter(positions, 0.005 * range_of(positions));
+        without_jitter(positions,
+                       std::max(least_band * range_of(positions),
+                                multiple_of_noise > 0. ?
+                                  multiple_of_noise * noise_level(positions) :
+                                  0.));
       StepsByWay steps;
       for (std::size_t k = 1; k < rows.size(); ++k)
         if (smooth[k] != smooth[k - 1])
           steps[smooth[k] < smooth[k - 1]].push_back(
             {std::abs(smooth[k] - smooth[k - 1]),
              0.5 * (time[rows[k]] + time[rows[k - 1]]),
-             0.5 * (signal[rows[k]] + signal[rows[k - 1]])});
+             0.5 * (signal[rows[k]] + signal[rows[k - 1]]),
+             0.5 * (smooth[k] + smooth[k - 1])});
       return steps;
     }
 
@@ -66,15 +76,40 @@ namespace SlipStep
       return sum / path_of_steps(steps);
     }
 
+    bool goes_both_ways(const StepsByWay &steps)
+    {
+      constexpr double least_share = 0.2;
+
+      const double forth = path_of_steps(steps[0]),
+                   back  = path_of_steps(steps[1]);
+      return std::min(forth, back) > least_share * std::max(forth, back);
+    }
+
+    // By the path, not by time.
+    double correlation(const std::vector<MovingStep> &steps,
+                       double MovingStep::*a,
+                       double MovingStep::*b)
+    {
+      const double mean_a = mean_over_path(steps, a),
+                   mean_b = mean_over_path(steps, b);
+      double aa = 0., ab = 0., bb = 0.;
+      for (const MovingStep &step : steps)
+        {
+          aa += step.path * std::pow(step.*a - mean_a, 2);
+          bb += step.path * std::pow(step.*b - mean_b, 2);
+          ab += step.path * (step.*a - mean_a) * (step.*b - mean_b);
+        }
+      return ab / std::sqrt(std::max(aa * bb, 1e-300));
+    }
+
     double mean_of_strokes(const std::vector<double> &time,
                            const std::vector<double> &displacement,
                            const std::vector<double> &signal)
     {
-      constexpr double least_share = 0.2;
-      const StepsByWay steps       = moving_steps(time, displacement, signal);
-      const double     forth       = path_of_steps(steps[0]),
-                   back            = path_of_steps(steps[1]);
-      if (std::min(forth, back) <= least_share * std::max(forth, back))
+      const StepsByWay steps = moving_steps(time, displacement, signal);
+      const double     forth = path_of_steps(steps[0]),
+                   back      = path_of_steps(steps[1]);
+      if (!goes_both_ways(steps))
         throw InputError("it takes strokes both ways, and the record moves " +
                          rounded_text(forth, 3) + " mm forth and " +
                          rounded_text(back, 3) + " mm back");
@@ -169,5 +204,95 @@ namespace SlipStep
     for (std::size_t i = 0; i < signal.size(); ++i)
       signal[i] -= slope * (time[i] - middle);
     return slope;
+  }
+
+
+
+  std::optional<OneSign>
+  friction_of_one_sign(const std::vector<double> &time,
+                       const std::vector<double> &displacement,
+                       const std::vector<double> &friction)
+  {
+    constexpr double steady = 0.3, most_of_it = 0.6, elastic = 0.5;
+    constexpr double multiple_of_noise = 6.;
+
+    // A counter that wraps jumps back.
+    constexpr std::size_t jumps = 10;
+
+    const StepsByWay steps =
+      moving_steps(time, displacement, friction, multiple_of_noise);
+    if (!goes_both_ways(steps) || jumps * steps[1].size() < steps[0].size() ||
+        jumps * steps[0].size() < steps[1].size())
+      return {};
+    const std::array<double, 2> means = {
+      {mean_over_path(steps[0], &MovingStep::signal),
+       mean_over_path(steps[1], &MovingStep::signal)}};
+    if (!(means[0] * means[1] > 0.))
+      return {};
+    double scatter = 0.;
+    for (const unsigned int way : {0, 1})
+      {
+        const double whole = path_of_steps(steps[way]);
+        double       path = 0., square = 0.;
+        for (const MovingStep &step : steps[way])
+          {
+            const double off = step.signal - means[way];
+            square += step.path * off * off / whole;
+            if (std::abs(off) <= steady * std::abs(means[way]))
+              path += step.path;
+          }
+        if (path < most_of_it * whole ||
+            std::abs(correlation(steps[way],
+                                 &MovingStep::signal,
+                                 &MovingStep::place)) > elastic)
+          return {};
+        scatter = std::max(scatter, std::sqrt(square));
+      }
+    return OneSign{means[0], means[1], scatter};
+  }
+
+
+
+  void give_sign_of_motion(const std::vector<double> &time,
+                           const std::vector<double> &displacement,
+                           std::vector<double>       &friction)
+  {
+    const auto is_known = [](const double value) { return !std::isnan(value); };
+    const auto first    = std::find_if(time.begin(), time.end(), is_known);
+    const auto last     = std::find_if(time.rbegin(), time.rend(), is_known);
+    const bool is_newest_first =
+      first != time.end() && last != time.rend() && *first > *last;
+    const auto turn_round = [&](std::vector<double> &values) {
+      if (is_newest_first)
+        std::reverse(values.begin(), values.end());
+    };
+    std::vector<double> positions = displacement;
+    turn_round(positions);
+    turn_round(friction);
+    // Gaps stay where the row before them is.
+    const auto known =
+      std::find_if(positions.begin(), positions.end(), is_known);
+    double before = known == positions.end() ? 0. : *known;
+    for (double &position : positions)
+      position = before = is_known(position) ? position : before;
+    const std::vector<double> smooth =
+      without_jitter(positions, least_band * range_of(positions));
+    const auto way_of = [&](const std::size_t i) {
+      return i > 0 && smooth[i] != smooth[i - 1] ?
+               std::copysign(1., smooth[i] - smooth[i - 1]) :
+               0.;
+    };
+    double way = 0.;
+    for (std::size_t i = 0; i < smooth.size() && way == 0.; ++i)
+      way = way_of(i);
+    if (way == 0.)
+      throw InputError("the record does not move, so that its friction gets no "
+                       "sign of a motion");
+    for (std::size_t i = 0; i < friction.size(); ++i)
+      {
+        way         = way_of(i) != 0. ? way_of(i) : way;
+        friction[i] = way * std::abs(friction[i]);
+      }
+    turn_round(friction);
   }
 } // namespace SlipStep

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/odd_rows.h>
+#include <slipstep/measured_data/sensor_zero.h>
 #include <slipstep/measured_data/test_rows.h>
 
 #include <slipstep/utilities/text.h>
@@ -82,6 +83,8 @@ namespace SlipStep
       void check_pressure() const;
 
       void check_sign_of_friction() const;
+
+      void check_friction_has_sign() const;
 
       std::size_t size() const
       {
@@ -281,7 +284,10 @@ namespace SlipStep
       add_work(test.displacement, bounded(test.friction), work);
       add_work(test.displacement_y, bounded(test.friction_y), work);
       if (work.done >= -0.5 * work.possible)
-        return;
+        {
+          check_friction_has_sign();
+          return;
+        }
 
       std::size_t row = 0;
       while (test.friction[row] == 0. && row + 1 < kept.size())
@@ -292,6 +298,36 @@ namespace SlipStep
                     "nearly throughout: is its sign, or that of the "
                     "displacement, to be reversed? Say so in a map of "
                     "slipstep import (Convention)");
+    }
+
+
+
+    void RowsOfTest::check_friction_has_sign() const
+    {
+      // Beside a motion along one axis the other only runs out.
+      constexpr double runs_out = 0.2;
+
+      const double widest =
+        std::max(range_of(test.displacement), range_of(test.displacement_y));
+      for (const bool is_y : {false, true})
+        {
+          const auto &motion   = is_y ? test.displacement_y : test.displacement;
+          const auto &friction = is_y ? test.friction_y : test.friction;
+          if (motion.empty() || friction.empty() ||
+              range_of(motion) < runs_out * widest)
+            continue;
+          const auto found = friction_of_one_sign(test.time, motion, friction);
+          if (found.has_value())
+            origin.reject(
+              kept[0],
+              is_y ? "friction_y" : "friction",
+              "friction has the same sign forth and back, " +
+                rounded_text(found->forth, 3) + " and " +
+                rounded_text(found->back, 3) +
+                " on the average: has it lost its sign (in a map of slipstep "
+                "import: Convention/Friction sign = of the motion), or is a "
+                "zero of the sensor in it (Correction/Zero)?");
+        }
     }
   } // namespace
 

@@ -377,7 +377,7 @@ TEST(Programme, FollowReplaysMotionAcrossAndPressure)
   const auto folder = test_folder();
   std::ofstream(folder / "path.csv")
     << "time_s,displacement_mm,pressure_MPa,friction,displacement_y_mm\n"
-       "0,1,5,0,3\n1,2,5,0.1,3\n2,2,7,0.1,5\n3,1,4,0.1,5\n";
+       "0,1,5,0,3\n1,2,5,0.1,3\n2,2,7,0.1,5\n3,1,4,-0.1,5\n";
   const Programme programme("press 5 MPa in 1 s; follow path.csv",
                             default_speed,
                             folder);

@@ -479,6 +479,27 @@ TEST(Import, RecordsAreCutAtHoldsAndTimes)
 
 
 
+// Magnitudes get the sign of the motion; they are no zero.
+TEST(Import, FrictionWithoutASignGetsThatOfTheMotion)
+{
+  std::string text = "t,x,mu\n";
+  for (int i = 0; i <= 200; ++i)
+    {
+      const int place = i <= 100 ? std::min(i, 80) : std::max(180 - i, 0);
+      text += std::to_string(i) + ',' + std::to_string(place) +
+              (i < 100 ? ",0.12\n" : ",0.1\n");
+    }
+  const auto raw = write("magnitudes.csv", text);
+  expect_refused(simple, raw, "of the motion");
+  const auto test = import_test(
+    map_of(simple_with("Convention/Friction sign", "of the motion")), raw);
+  EXPECT_DOUBLE_EQ(test.friction[0], 0.12);
+  EXPECT_DOUBLE_EQ(test.friction[90], 0.12);
+  EXPECT_DOUBLE_EQ(test.friction[150], -0.1);
+}
+
+
+
 // The closed form: what was added comes off again.
 TEST(Import, ZeroAndDriftOfASensorAreTakenOff)
 {

@@ -288,11 +288,12 @@ TEST(TestRows, ScalesOfNoLaboratoryAreWarnedOf)
 // turns, jitter at rest and a step between two rests are no such thing.
 TEST(TestRows, ACounterThatWrapsIsTold)
 {
-  const auto record = [](const std::function<double(int)> &displacement) {
+  const auto record = [](const std::function<double(int)> &displacement,
+                         const int                         turns = 1000) {
     std::string rows;
     for (int i = 0; i <= 200; ++i)
       rows += std::to_string(0.1 * i) + "," + std::to_string(displacement(i)) +
-              ",5,0.2\n";
+              (i > turns ? ",5,-0.2\n" : ",5,0.2\n");
     return read(rows);
   };
   expect_warning(record([](const int i) {
@@ -309,9 +310,11 @@ TEST(TestRows, ACounterThatWrapsIsTold)
         return true;
     return false;
   };
-  EXPECT_FALSE(has_jump(record([](const int i) {
-    return 0.01 * std::min(i, 100) - 0.01 * std::max(0, i - 150);
-  })));
+  EXPECT_FALSE(has_jump(record(
+    [](const int i) {
+      return 0.01 * std::min(i, 100) - 0.01 * std::max(0, i - 150);
+    },
+    150)));
   EXPECT_FALSE(has_jump(record([](const int i) { return i > 100 ? 1. : 0.; })));
   std::mt19937 random(1);
   EXPECT_FALSE(has_jump(record([&](const int i) {
@@ -337,6 +340,41 @@ namespace
     return read(rows);
   }
 } // namespace
+
+
+
+// Strokes forth and back without a sign, or with a zero larger than friction;
+// but elastic contacts under a load that pulsates.
+TEST(TestRows, FrictionWithoutASignIsRefused)
+{
+  using Friction    = std::function<double(double, double)>;
+  const auto record = [](const Friction &friction, const double track) {
+    std::string rows;
+    for (int i = 0; i <= 400; ++i)
+      {
+        const int    phase = i % 200;
+        const double place = (phase < 100 ? phase : 200 - phase) / 100.;
+        rows += std::to_string(0.1 * i) + "," + std::to_string(track * place) +
+                ",5," +
+                std::to_string(friction(place, phase < 100 ? 1. : -1.)) + "\n";
+      }
+    return message_about_rows(rows);
+  };
+  const auto sliding = [](const double zero, const double size) {
+    return [=](const double, const double way) { return zero + size * way; };
+  };
+  EXPECT_TRUE(
+    contains(record(sliding(0.12, 0.), 10.),
+             "the same sign forth and back, 0.12 and 0.12 on the average"));
+  EXPECT_TRUE(
+    contains(record(sliding(0.2, 0.12), 10.), "a zero of the sensor"));
+  EXPECT_EQ(record(sliding(0., 0.12), 10.), "");
+  EXPECT_EQ(record(sliding(0.1, 0.12), 10.), "");
+  EXPECT_EQ(record([](const double place,
+                      const double) { return 0.18 + 0.04 * place; },
+                   0.01),
+            "");
+}
 
 
 

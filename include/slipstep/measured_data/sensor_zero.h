@@ -2,6 +2,7 @@
 #ifndef slipstep_measured_data_sensor_zero_h
 #define slipstep_measured_data_sensor_zero_h
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,30 @@ namespace SlipStep
                         const std::vector<double> &time,
                         const std::vector<double> &displacement,
                         std::vector<double>       &signal);
+  /// What is left of friction that has one sign whichever way it slides.
+  struct OneSign
+  {
+    double forth, back; ///< means
+    double scatter;     ///< within the strokes of one way
+  };
+
+  /// Friction that is steady and of one sign whichever way the contact slides:
+  /// it has lost its sign, or a zero of the sensor is larger than it is. An
+  /// elastic contact that is pushed to and fro has friction of one sign, too,
+  /// but that goes with the displacement; and what only trembles does not
+  /// slide.
+  /// @return nothing if it is not like that
+  std::optional<OneSign>
+  friction_of_one_sign(const std::vector<double> &time,
+                       const std::vector<double> &displacement,
+                       const std::vector<double> &friction);
+
+  /// Give the sign of the last motion to friction that was recorded without.
+  /// The newest row may stand first.
+  /// @throws InputError if it does not move
+  void give_sign_of_motion(const std::vector<double> &time,
+                           const std::vector<double> &displacement,
+                           std::vector<double>       &friction);
 } // namespace SlipStep
 
 #endif

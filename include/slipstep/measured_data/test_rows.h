@@ -36,7 +36,7 @@ namespace SlipStep
   /// Pressure must be positive; it may be zero where friction is, too, as
   /// before the first touch. Friction that drives the motion instead of
   /// resisting it is an error, since only the user knows what the sign of the
-  /// record means.
+  /// record means; so is friction of one sign in strokes forth and back.
   ///
   /// @throws InputError through @p origin, or if fewer than two rows are left
   void tidy_rows(MeasuredTest &test, const RowOrigin &origin);
