@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/campaign.h>
 #include <slipstep/measured_data/rounded_motion.h>
+#include <slipstep/measured_data/sensor_noise.h>
 #include <slipstep/measured_data/resample.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/exceptions.h>
+
+#include <boost/algorithm/string/erase.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -197,16 +200,20 @@ namespace SlipStep
                          const Parameters   &parameters,
                          const Replay       *of_same_motion)
     {
-      // Stairs of more make the contact stick and slip in each; what is less is
-      // not felt.
+      // Stairs or noise of more make the contact stick and slip in each row;
+      // what is less is not felt.
       constexpr double stick_share = 0.1;
 
       MeasuredTest test = measured;
       double       step = rounding_of_motion(test);
-      if (step > 0. && step > stick_share * elastic_slip(test, parameters))
+      const double felt = stick_share * elastic_slip(test, parameters);
+      if (step > 0. && step > felt)
         undo_rounding_of_motion(test);
       else
-        step = 0.;
+        {
+          step = 0.;
+          take_off_noise_of_motion(test, felt);
+        }
       const double             skip  = parameters.number(skip_key);
       const double             begin = test.time.front() + skip;
       std::vector<std::size_t> rows;
@@ -356,13 +363,45 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // What is warned of, whatever the test and its numbers.
+    std::string kind_of_warning(std::string text, const std::string &file)
+    {
+      boost::algorithm::erase_all(text, file);
+      text.erase(std::remove_if(text.begin(),
+                                text.end(),
+                                [](const char c) {
+                                  return std::string("0123456789.e+-")
+                                           .find(c) != std::string::npos;
+                                }),
+                 text.end());
+      return text;
+    }
+  } // namespace
+
+
+
   std::vector<std::string> Campaign::warnings() const
   {
-    std::vector<std::string> result;
+    constexpr std::size_t most_alike = 3;
+
+    std::vector<std::string>                        result;
+    std::map<std::string, std::vector<std::string>> alike;
     for (const CampaignTest &test : tests)
-      result.insert(result.end(),
-                    test.rows.warnings.begin(),
-                    test.rows.warnings.end());
+      for (const std::string &warning : test.rows.warnings)
+        {
+          auto &others =
+            alike[kind_of_warning(warning, test.rows.file.string())];
+          others.push_back(warning);
+          if (others.size() <= most_alike)
+            result.push_back(warning);
+        }
+    for (const auto &[kind, warnings] : alike)
+      if (warnings.size() > most_alike)
+        *std::find(result.begin(), result.end(), warnings[most_alike - 1]) +=
+          " (and so in " + std::to_string(warnings.size() - most_alike) +
+          " more)";
     return result;
   }
 } // namespace SlipStep

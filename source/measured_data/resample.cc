@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/measured_data/bends.h>
 #include <slipstep/measured_data/resample.h>
 
 #include <slipstep/measured_data/test_rows.h>
@@ -6,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 namespace SlipStep
 {
@@ -15,12 +15,6 @@ namespace SlipStep
     /// A displacement trembles at least by this share of its range without
     /// turning.
     constexpr double least_stroke = 0.005;
-
-    struct Series
-    {
-      const std::vector<double> *values;
-      double                     tolerance;
-    };
 
     /// Chooses the rows to keep.
     class Selection
@@ -41,8 +35,6 @@ namespace SlipStep
       void keep_extremes_of_friction(const std::size_t begin,
                                      const std::size_t end);
 
-      std::pair<std::size_t, double> farthest(const std::size_t begin,
-                                              const std::size_t end) const;
 
       const MeasuredTest   &test;
       const ResampleOptions options;
@@ -168,54 +160,12 @@ namespace SlipStep
 
 
 
-    // The row between two others that is farthest from the line between them,
-    // and how many tolerances that is.
-    std::pair<std::size_t, double>
-    Selection::farthest(const std::size_t begin, const std::size_t end) const
-    {
-      std::pair<std::size_t, double> result{begin, 0.};
-      const std::vector<double>     &time = test.time;
-      for (const Series &one : series)
-        {
-          const std::vector<double> &values = *one.values;
-          if (one.tolerance == 0.)
-            continue; // constant
-          const double slope =
-            (values[end] - values[begin]) / (time[end] - time[begin]);
-          for (std::size_t i = begin + 1; i < end; ++i)
-            {
-              const double distance =
-                std::abs(values[i] - values[begin] -
-                         slope * (time[i] - time[begin])) /
-                one.tolerance;
-              if (distance > result.second)
-                result = {i, distance};
-            }
-        }
-      return result;
-    }
-
-
-
     std::vector<std::size_t> Selection::rows(const double factor) const
     {
-      std::vector<std::size_t> kept(landmarks.begin(), landmarks.end());
-      std::vector<std::pair<std::size_t, std::size_t>> open;
-      for (std::size_t i = 1; i < kept.size(); ++i)
-        open.emplace_back(kept[i - 1], kept[i]);
-      while (!open.empty())
-        {
-          const auto [begin, end] = open.back();
-          open.pop_back();
-          const auto [row, distance] = farthest(begin, end);
-          if (distance <= factor)
-            continue;
-          kept.push_back(row);
-          open.emplace_back(begin, row);
-          open.emplace_back(row, end);
-        }
-      std::sort(kept.begin(), kept.end());
-      return kept;
+      return rows_of_bends(test.time,
+                           series,
+                           {landmarks.begin(), landmarks.end()},
+                           factor);
     }
   } // namespace
 
