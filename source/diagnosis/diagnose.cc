@@ -12,7 +12,7 @@
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/localisation.h>
 #include <slipstep/diagnosis/refits.h>
-#include <slipstep/diagnosis/sensor_zero.h>
+#include <slipstep/diagnosis/look_alike.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>
@@ -77,7 +77,7 @@ namespace SlipStep
 
       void name();
 
-      void suspect_sensor();
+      void suspect_look_alikes();
 
       void suspect_condition();
 
@@ -157,17 +157,16 @@ namespace SlipStep
 
 
 
-    // What looks like an effect may be a zero of the sensor.
-    void Diagnostician::suspect_sensor()
+    // What looks like an effect may be something else.
+    void Diagnostician::suspect_look_alikes()
     {
       if (!result.has_gap || ingested.workspace->is_late())
         return;
-      stage("whether a zero of the sensor explains as much");
-      const std::optional<SensorZero> zero = find_sensor_zero(
-        *ingested.workspace, ingested.base, final_model, judgement.gap.excess);
-      if (zero.has_value())
-        result.sensor_zero = rounded_text(zero->value, 3) +
-                             (zero->is_load ? " MPa of load" : " of friction");
+      stage("whether a zero, a drift or a held parameter explains as much");
+      result.look_alike = find_look_alike(*ingested.workspace,
+                                          ingested.base,
+                                          final_model,
+                                          judgement.gap.excess);
     }
 
 
@@ -364,7 +363,7 @@ namespace SlipStep
                                     judgement.found.model,
                                     judgement.remainder);
         }
-      suspect_sensor();
+      suspect_look_alikes();
       if (result.verdict == Verdict::unnamed && !ingested.workspace->is_late())
         {
           suspect_condition();

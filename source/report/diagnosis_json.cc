@@ -174,8 +174,12 @@ namespace SlipStep
               {"ambiguous_with", diagnosis.ambiguous_with},
               {"rival_of", diagnosis.rival_of},
               {"withdrawn", diagnosis.withdrawn},
-              {"sensor_zero", diagnosis.sensor_zero},
+              {"look_alike",
+               diagnosis.look_alike.has_value() ?
+                 look_alike_words(*diagnosis.look_alike) :
+                 ""},
               {"incomplete", diagnosis.is_incomplete},
+              {"worth_little", is_worth_little(diagnosis)},
               {"remainder_where", list(diagnosis.remains)},
               {"formulas_not_quite_right", list(diagnosis.completed)},
               {"explained_share", diagnosis.explained_share},

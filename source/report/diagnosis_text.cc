@@ -196,13 +196,11 @@ namespace SlipStep
     /// "; not all of it is explained, most of the rest is ..."
     std::string remainder_words(const Diagnosis &diagnosis)
     {
-      constexpr double hardly_less = 0.8;
-
       if (!has_after(diagnosis) || diagnosis.effects.empty())
         return "";
       const Shrink     &shrink = diagnosis.shrink;
       const std::string little =
-        shrink.systematic_after > hardly_less * shrink.systematic_before ?
+        is_worth_little(diagnosis) ?
           "; hardly any of what is beyond the noise is explained, so that the "
           "verdict is worth little" :
           "";
@@ -275,7 +273,50 @@ namespace SlipStep
                                          0.5 * (above + below));
       return fitted;
     }
+
+
+
+    std::string look_alike_remedy(const LookAlike &look_alike)
+    {
+      switch (look_alike.kind)
+        {
+          case LookAlike::Kind::drift:
+            return "run the first tests again, or all in random order, to "
+                   "tell.";
+          case LookAlike::Kind::held_parameter:
+            return "let it be fitted (Calibration/Parameters) if it is not "
+                   "known.";
+          default:
+            return "take it off if it is one (Correction/Zero of an import).";
+        }
+    }
   } // namespace
+
+
+
+  std::string look_alike_words(const LookAlike &look_alike)
+  {
+    switch (look_alike.kind)
+      {
+        case LookAlike::Kind::friction_zero:
+          return "a zero of the sensor, " + rounded_text(look_alike.value, 3) +
+                 " of friction";
+        case LookAlike::Kind::load_zero:
+          return "a zero of the sensor, " + rounded_text(look_alike.value, 3) +
+                 " MPa of load";
+        case LookAlike::Kind::drift:
+          return "a drift over the campaign, " +
+                 std::string(look_alike.value > 0. ? "+" : "") +
+                 rounded_text(100. * look_alike.value, 2) +
+                 " % of friction from one test to the next in the order in "
+                 "which they were run";
+        case LookAlike::Kind::held_parameter:
+          return look_alike.path + " = " + look_alike.text +
+                 " instead of the " + look_alike.held_text +
+                 " that the case holds";
+      }
+    return "";
+  }
 
 
 
@@ -283,22 +324,21 @@ namespace SlipStep
   {
     const bool        is_stated = diagnosis.n_replicate_pairs == 0;
     const std::string words     = verdict_words(diagnosis);
-    return (diagnosis.is_cut_short ?
-              "Not decided, the search was cut short (Diagnosis/Most time). So "
-              "far: " :
-              "") +
-           (diagnosis.sensor_zero.empty() ?
-              "" :
-              "A zero of the sensor, " + diagnosis.sensor_zero +
-                ", explains these tests as well: take it off if it is one "
-                "(Correction/Zero of an import). If not, ") +
-           (is_stated ?
-              (diagnosis.sensor_zero.empty() ? "If" : "and if") +
-                std::string(" the stated noise is right (there are no "
-                            "replicates), ") +
-                words :
-            diagnosis.sensor_zero.empty() ? capitalised(words) :
-                                            words) +
+    std::string       text;
+    if (diagnosis.is_cut_short)
+      text = "Not decided, the search was cut short (Diagnosis/Most time). So "
+             "far: ";
+    const bool is_doubted = diagnosis.look_alike.has_value();
+    if (is_doubted)
+      text += capitalised(look_alike_words(*diagnosis.look_alike)) +
+              (diagnosis.look_alike->kind == LookAlike::Kind::held_parameter ?
+                 " explains these tests as well: " :
+                 ", explains these tests as well: ") +
+              look_alike_remedy(*diagnosis.look_alike) + " If not, ";
+    if (is_stated)
+      text += std::string(is_doubted ? "and if" : "If") +
+              " the stated noise is right (there are no replicates), ";
+    return text + (is_doubted || is_stated ? words : capitalised(words)) +
            completed_words(diagnosis) + remainder_words(diagnosis) +
            outlier_words(diagnosis.outliers) + ".";
   }
@@ -332,8 +372,13 @@ namespace SlipStep
   std::string reservation(const Diagnosis &diagnosis)
   {
     const bool is_stated = diagnosis.n_replicate_pairs == 0;
-    if (!diagnosis.sensor_zero.empty())
-      return std::string("or a zero of the sensor") +
+    if (diagnosis.look_alike.has_value())
+      return std::string(diagnosis.look_alike->kind == LookAlike::Kind::drift ?
+                           "or a drift over the campaign" :
+                         diagnosis.look_alike->kind ==
+                             LookAlike::Kind::held_parameter ?
+                           "or a parameter that the case holds" :
+                           "or a zero of the sensor") +
              (is_stated ? ", if the stated noise is right" : "");
     return is_stated ? "if the stated noise is right" :
            diagnosis.n_conditions == 1 && diagnosis.has_gap ?
@@ -530,5 +575,16 @@ namespace SlipStep
   {
     return !diagnosis.effects.empty() ||
            !diagnosis.correction_covariate.empty();
+  }
+
+
+
+  bool is_worth_little(const Diagnosis &diagnosis)
+  {
+    constexpr double hardly_less = 0.8;
+
+    return !diagnosis.effects.empty() &&
+           diagnosis.shrink.systematic_after >
+             hardly_less * diagnosis.shrink.systematic_before;
   }
 } // namespace SlipStep

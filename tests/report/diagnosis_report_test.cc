@@ -88,17 +88,25 @@ TEST(DiagnosisHeadline, ANameThatExplainsLittleIsWorthLittle)
 
 
 
-TEST(DiagnosisHeadline, AZeroOfTheSensorComesFirst)
+TEST(DiagnosisHeadline, WhatOnlyLooksLikeAnEffectComesFirst)
 {
-  Diagnosis diagnosis   = SyntheticDiagnosis::named();
-  diagnosis.sensor_zero = "0.1 MPa";
+  Diagnosis diagnosis  = SyntheticDiagnosis::named();
+  diagnosis.look_alike = LookAlike{LookAlike::Kind::load_zero, 0.1};
   EXPECT_EQ(headline(diagnosis).find(
-              "A zero of the sensor, 0.1 MPa, explains these tests as well: "),
+              "A zero of the sensor, 0.1 MPa of load, explains these tests "
+              "as well: "),
             0u)
     << headline(diagnosis);
   EXPECT_TRUE(contains(headline(diagnosis), " If not, overstress is missing"))
     << headline(diagnosis);
   EXPECT_TRUE(contains(page_of(diagnosis), "or a zero of the sensor"));
+
+  diagnosis.look_alike = LookAlike{LookAlike::Kind::drift, 0.0042};
+  EXPECT_EQ(headline(diagnosis).find(
+              "A drift over the campaign, +0.42 % of friction from one test"),
+            0u)
+    << headline(diagnosis);
+  EXPECT_TRUE(contains(page_of(diagnosis), "or a drift over the campaign"));
 }
 
 

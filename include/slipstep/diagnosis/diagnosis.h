@@ -2,10 +2,12 @@
 #ifndef slipstep_diagnosis_diagnosis_h
 #define slipstep_diagnosis_diagnosis_h
 
+#include <slipstep/diagnosis/look_alike.h>
 #include <slipstep/utilities/parameters.h>
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -226,9 +228,8 @@ namespace SlipStep
     double excess = 0.;              ///< of the objective
     std::vector<Localisation> where; ///< most first
 
-    /// A zero of the sensor that would explain as much, "0.1 MPa of load", or
-    /// "".
-    std::string sensor_zero;
+    /// What is no missing effect and would explain as much.
+    std::optional<LookAlike> look_alike;
 
     // ---- verdict
     Verdict                  verdict = Verdict::no_gap;

@@ -15,6 +15,9 @@ namespace SlipStep
   /// The verdict in one sentence with its numbers.
   std::string headline(const Diagnosis &diagnosis);
 
+  /// "a zero of the sensor, 0.1 MPa of load"
+  std::string look_alike_words(const LookAlike &look_alike);
+
   /// The verdict in two or three words.
   std::string short_verdict(const Diagnosis &diagnosis);
 
@@ -66,6 +69,9 @@ namespace SlipStep
   /// Whether something was added to the starting model, so that there is an
   /// after.
   bool has_after(const Diagnosis &diagnosis);
+
+  /// Whether what is named explains hardly any of what is beyond the noise.
+  bool is_worth_little(const Diagnosis &diagnosis);
 
   /// What the terminal shows at the end: verdict, gap, where, the candidates,
   /// parameters named, how far the gap shrank, the next test.
