@@ -2,6 +2,7 @@
 #include <slipstep/calibration/advice.h>
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/calibration/fit.h>
+#include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>
@@ -47,6 +48,10 @@ namespace SlipStep
       void warn();
 
       void warn_of_misfit();
+
+      bool noise_is_stated() const;
+
+      std::string noise_words(const double some) const;
 
       void warn_of_few_tests();
 
@@ -401,7 +406,8 @@ namespace SlipStep
     // What a fit hides in parameters, and what it cannot hide.
     void Calibrator::warn_of_misfit()
     {
-      constexpr double some = 2., far = 10.;
+      constexpr double      some = 2., far = 10.;
+      constexpr std::size_t many_rows = 50;
 
       std::vector<std::string> wider;
       for (std::size_t i = 0; i < best.size(); ++i)
@@ -423,13 +429,51 @@ namespace SlipStep
           (ratio > far ? "the law does not describe these tests, which differ "
                          "from it by " :
                          "these tests differ from the fitted law by ") +
-          rounded_text(ratio, 2) + " times their noise" +
+          rounded_text(ratio, 2) + " times " + noise_words(some) +
           (ratio > far ?
              ": slipstep diagnose looks for what is missing" :
-             ", by which neighbouring rows scatter: noise that lasts for many "
-             "rows does so, or something is missing, which slipstep diagnose "
-             "looks for") +
+             ": noise that lasts for many rows does so, or something is "
+             "missing, which slipstep diagnose looks for") +
           "; a unit, a scale or a zero of the records may be wrong, too.");
+      // Whatever the law, it is not closer to rows than these to one another.
+      if (ratio < 1. / some && noise_is_stated() && result.n_rows > many_rows)
+        result.warnings.push_back(
+          "these tests differ from the fitted law by only " +
+          rounded_text(ratio, 2) +
+          " times the noise that is stated (Calibration/Noise, or '# noise' in "
+          "a test): that is too much, and the intervals are too wide.");
+    }
+
+
+
+    bool Calibrator::noise_is_stated() const
+    {
+      return std::any_of(campaign.tests.begin(),
+                         campaign.tests.end(),
+                         [](const CampaignTest &test) {
+                           return test.noise_is_stated;
+                         });
+    }
+
+
+
+    // "their noise", by which rows scatter, or is stated, in spite of these.
+    std::string Calibrator::noise_words(const double some) const
+    {
+      if (!noise_is_stated())
+        return "their noise, by which neighbouring rows scatter";
+      // Of few rows that were kept for their bends, these seem to be noise.
+      std::vector<double> ratios;
+      for (const CampaignTest &test : campaign.tests)
+        if (test.rows.notes.count("resampled") == 0)
+          ratios.push_back(noise_of_friction(test.rows) / test.noise);
+      const double scatter = median(ratios);
+      return "the noise that is stated (Calibration/Noise, or '# noise' in a "
+             "test)" +
+             (scatter > some ?
+                ", which is too little, since neighbouring rows scatter by " +
+                  rounded_text(scatter, 2) + " times as much" :
+                "");
     }
 
 

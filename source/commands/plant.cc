@@ -87,7 +87,7 @@ namespace SlipStep
       options.seed = whole_number(line, "seed", options.seed);
       options.n_tests =
         std::min<std::uint64_t>(whole_number(line, "tests", options.n_tests),
-                                1000);
+                                std::numeric_limits<unsigned int>::max());
       options.edition =
         std::min<std::uint64_t>(whole_number(line, "edition", options.edition),
                                 1000);

@@ -18,6 +18,29 @@ namespace SlipStep
              name == "md"     ? Parameters::Format::markdown :
                                 Parameters::Format::prm;
     }
+
+
+
+    // That a key is one of maps, or of cases.
+    std::string where_else(const std::string &name, const bool of_a_map)
+    {
+      Parameters others;
+      if (of_a_map)
+        declare_all_parameters(others);
+      else
+        declare_import_parameters(others);
+      try
+        {
+          others.find(name, "");
+        }
+      catch (const InputError &)
+        {
+          return "";
+        }
+      return of_a_map ?
+               "; it is one of cases: slipstep parameters " + name :
+               "; it is one of maps: slipstep parameters import " + name;
+    }
   } // namespace
 
 
@@ -33,9 +56,17 @@ namespace SlipStep
     apply_settings(line, parameters);
     std::vector<std::string> only;
     for (std::size_t i = of_a_map ? 1 : 0; i < line.files.size(); ++i)
-      for (const std::string &path :
-           parameters.find(line.files[i].string(), "slipstep parameters"))
-        only.push_back(path);
+      try
+        {
+          for (const std::string &path :
+               parameters.find(line.files[i].string(), "slipstep parameters"))
+            only.push_back(path);
+        }
+      catch (const InputError &error)
+        {
+          throw InputError(error.what() +
+                           where_else(line.files[i].string(), of_a_map));
+        }
     if (line.format == "html")
       std::cout << parameters_page(parameters, only);
     else

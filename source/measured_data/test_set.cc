@@ -208,12 +208,16 @@ namespace SlipStep
   {
     const auto [least, most] =
       std::minmax_element(test.friction.begin(), test.friction.end());
+    const auto noted = test.notes.find("noise");
     return std::to_string(test.time.size()) + " rows, " +
            rounded_text(test.time.back() - test.time.front(), 4) + " s, path " +
            rounded_text(path_of(test), 4) + " mm, " +
            rounded_text(typical_pressure(test), 4) + " MPa, friction " +
            rounded_text(*least, 3) + " to " + rounded_text(*most, 3) +
-           ", noise " + rounded_text(noise_of_friction(test), 2);
+           ", noise " +
+           (noted == test.notes.end() ?
+              rounded_text(noise_of_friction(test), 2) :
+              noted->second);
   }
 
 
