@@ -81,5 +81,14 @@ while read -r lines file; do
 done < <(find include source tests -type f \( -name '*.h' -o -name '*.cc' \) \
            -exec wc -l {} \; 2>/dev/null)
 
+# Two types of one name are one to the linker, which mixes their functions.
+while read -r name files; do
+  complain "$name is defined twice: $files"
+done < <(find include -name '*.h' -exec awk '
+           /^  (struct|class) [A-Za-z0-9_]+/ && !/;/ { name = $2; next }
+           name != "" && /^  (\{|:)/ { print name, FILENAME }
+           { name = "" }' {} + | sort |
+         awk '$1 == name { print name, file, $2 } { name = $1; file = $2 }')
+
 [ "$violations" -eq 0 ] && echo "The layers hold."
 exit $((violations > 0))

@@ -12,13 +12,13 @@ namespace SlipStep
     // The row between two others that is farthest from the line between them,
     // and how many tolerances that is.
     std::pair<std::size_t, double>
-    farthest_row(const std::vector<double> &time,
-                 const std::vector<Series> &series,
-                 const std::size_t          begin,
-                 const std::size_t          end)
+    farthest_row(const std::vector<double>         &time,
+                 const std::vector<BendingChannel> &series,
+                 const std::size_t                  begin,
+                 const std::size_t                  end)
     {
       std::pair<std::size_t, double> result{begin, 0.};
-      for (const Series &one : series)
+      for (const BendingChannel &one : series)
         {
           const std::vector<double> &values = *one.values;
           if (one.tolerance == 0.)
@@ -41,10 +41,11 @@ namespace SlipStep
 
 
 
-  std::vector<std::size_t> rows_of_bends(const std::vector<double> &time,
-                                         const std::vector<Series> &series,
-                                         std::vector<std::size_t>   rows,
-                                         const double               factor)
+  std::vector<std::size_t>
+  rows_of_bends(const std::vector<double>         &time,
+                const std::vector<BendingChannel> &series,
+                std::vector<std::size_t>           rows,
+                const double                       factor)
   {
     std::vector<std::pair<std::size_t, std::size_t>> open;
     for (std::size_t i = 1; i < rows.size(); ++i)

@@ -36,10 +36,10 @@ namespace SlipStep
                                      const std::size_t end);
 
 
-      const MeasuredTest   &test;
-      const ResampleOptions options;
-      std::vector<Series>   series;
-      std::set<std::size_t> landmarks;
+      const MeasuredTest         &test;
+      const ResampleOptions       options;
+      std::vector<BendingChannel> series;
+      std::set<std::size_t>       landmarks;
     };
 
 
@@ -71,7 +71,7 @@ namespace SlipStep
 
     double Selection::tolerance(const std::vector<double> &values) const
     {
-      for (const Series &one : series)
+      for (const BendingChannel &one : series)
         if (one.values == &values)
           return one.tolerance;
       return 0.;

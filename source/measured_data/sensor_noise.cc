@@ -357,8 +357,8 @@ namespace SlipStep
       *std::max_element(deviations.begin(), deviations.end());
     if (!(largest > 0.))
       return false;
-    std::vector<Signal> signals;
-    std::vector<Series> series;
+    std::vector<Signal>         signals;
+    std::vector<BendingChannel> series;
     for (std::size_t i = 0; i < channels.size(); ++i)
       {
         const double deviation = std::max(deviations[i], finest * largest);

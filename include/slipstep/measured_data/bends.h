@@ -8,7 +8,7 @@
 namespace SlipStep
 {
   /// A channel, and how far its rows may be from straight lines.
-  struct Series
+  struct BendingChannel
   {
     const std::vector<double> *values;
     double                     tolerance; ///< 0: it is not looked at
@@ -20,10 +20,11 @@ namespace SlipStep
   /// equal times.
   /// @param rows to begin with, in order, the first and the last one of all
   ///   among them
-  std::vector<std::size_t> rows_of_bends(const std::vector<double> &time,
-                                         const std::vector<Series> &series,
-                                         std::vector<std::size_t>   rows,
-                                         const double factor = 1.);
+  std::vector<std::size_t>
+  rows_of_bends(const std::vector<double>         &time,
+                const std::vector<BendingChannel> &series,
+                std::vector<std::size_t>           rows,
+                const double                       factor = 1.);
 } // namespace SlipStep
 
 #endif
