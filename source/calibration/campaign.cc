@@ -286,18 +286,21 @@ namespace SlipStep
         measured.push_back(read_measured_test(file));
     check_conditions(measured);
     warn_of_oddities(measured);
-    std::vector<CampaignTest>     tests;
-    std::map<std::size_t, Replay> replays;
-    std::set<fs::path>            files;
+    std::vector<CampaignTest>           tests;
+    std::map<std::size_t, CampaignTest> leaders;
+    std::set<fs::path>                  files;
     for (const MeasuredTest &test : measured)
       {
         if (!files.insert(fs::canonical(test.file)).second)
           parameters.reject(tests_key, test.file.string() + " is listed twice");
         const std::size_t leader = leader_of_motion(measured, tests.size());
-        if (replays.count(leader) == 0)
-          replays.emplace(
-            leader, prepare(measured[leader], parameters, nullptr).replay);
-        tests.push_back(prepare(test, parameters, &replays.at(leader)));
+        if (leaders.count(leader) == 0)
+          leaders.emplace(leader,
+                          prepare(measured[leader], parameters, nullptr));
+        tests.push_back(
+          leader == tests.size() ?
+            leaders.at(leader) :
+            prepare(test, parameters, &leaders.at(leader).replay));
       }
     keep_noise_visible(tests);
     return tests;

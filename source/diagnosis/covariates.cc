@@ -226,17 +226,18 @@ namespace SlipStep
       find_phases();
       return result;
     }
-
-
-
-    double order_of(const MeasuredTest &rows)
-    {
-      const auto note = rows.notes.find("order");
-      return note == rows.notes.end() || note->second.empty() ?
-               0. :
-               parse_quantity(note->second, Dimension::number);
-    }
   } // namespace
+
+
+
+  std::optional<double> order_of(const MeasuredTest &test)
+  {
+    const auto note = test.notes.find("order");
+    return note == test.notes.end() || note->second.empty() ?
+             std::nullopt :
+             std::make_optional(
+               parse_quantity(note->second, Dimension::number));
+  }
 
 
 
@@ -414,7 +415,7 @@ namespace SlipStep
       covariates.is_reverse(k) =
         rows.speed[row] > 0. && std::cos(rows.angle[row]) < -0.5 ? 1. : 0.;
       covariates.heat(k)  = rows.heat[row];
-      covariates.order(k) = order_of(test);
+      covariates.order(k) = order_of(test).value_or(0.);
       covariates.phase[k] = rows.phase[row];
     }
   } // namespace

@@ -25,10 +25,10 @@ namespace SlipStep
       std::vector<double> orders;
       for (const CampaignTest &test : workspace.tests)
         {
-          const auto note = test.rows.notes.find("order");
-          if (note == test.rows.notes.end() || note->second.empty())
+          const std::optional<double> order = order_of(test.rows);
+          if (!order.has_value())
             return {};
-          orders.push_back(parse_quantity(note->second, Dimension::number));
+          orders.push_back(*order);
         }
       const std::set<double> moments(orders.begin(), orders.end());
       if (moments.size() < least)

@@ -11,6 +11,7 @@
 
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <random>
 #include <regex>
 #include <sstream>
@@ -157,14 +158,28 @@ namespace
     {
       std::mt19937_64            random(1);
       std::normal_distribution<> normal;
+      rewrite([&](const std::string &text) {
+        return with_noise_of_sensors(
+          5e-4, 0.003, [&]() { return normal(random); }, text);
+      });
+    }
+
+    template <class Change>
+    void rewrite(const Change &change)
+    {
       rewrite(
         [](const unsigned int i) {
           return "test_" + std::to_string(100 + i) + ".csv";
         },
-        [&](const std::string &text) {
-          return with_noise_of_sensors(
-            5e-4, 0.003, [&]() { return normal(random); }, text);
-        });
+        change);
+    }
+
+    std::optional<LookAlike> look_alike(const Judgement &judgement)
+    {
+      return find_look_alike(*ingested.workspace,
+                             judgement.base,
+                             judgement.found.model,
+                             judgement.gap.excess);
     }
 
     // Calls change(text of the file) for every test and stores the result
@@ -214,12 +229,8 @@ TEST_F(CampaignFolder, KnowsWhereAnEffectIsFelt)
   const Judgement judgement = judged();
   ASSERT_EQ(effect_names(judgement.found.model.parts),
             std::vector<std::string>{"overstress"});
-  Workspace &workspace = *ingested.workspace;
-  EXPECT_FALSE(find_look_alike(workspace,
-                               judgement.base,
-                               judgement.found.model,
-                               judgement.gap.excess)
-                 .has_value());
+  const Workspace &workspace = *ingested.workspace;
+  EXPECT_FALSE(look_alike(judgement).has_value());
   unsigned int n_told = 0;
   for (const Localisation &place :
        localise(workspace, judgement.base, judgement.gap))
@@ -378,15 +389,11 @@ TEST_F(CampaignFolder, KeepsItsNameBesideAFewBadRows)
   ASSERT_EQ(before.verdict, Verdict::named);
   EXPECT_TRUE(before.outlying.empty());
   unsigned int n_spoilt = 0;
-  rewrite(
-    [](const unsigned int i) {
-      return "test_" + std::to_string(100 + i) + ".csv";
-    },
-    [&](const std::string &text) {
-      return text.find("friction_y") == std::string::npos && n_spoilt++ < 2 ?
-               with_bad_rows(text) :
-               text;
-    });
+  rewrite([&](const std::string &text) {
+    return text.find("friction_y") == std::string::npos && n_spoilt++ < 2 ?
+             with_bad_rows(text) :
+             text;
+  });
   const Judgement after = judged();
   EXPECT_EQ(name_of(after.verdict), name_of(Verdict::named));
   EXPECT_EQ(effect_names(after.found.model.parts),
@@ -402,15 +409,11 @@ TEST_F(CampaignFolder, KeepsItsNameBesideAFewBadRows)
 TEST_F(CampaignFolder, HasNoGapThatAFewBadRowsMake)
 {
   plant(CampaignClass::none, 2);
-  rewrite(
-    [](const unsigned int i) {
-      return "test_" + std::to_string(100 + i) + ".csv";
-    },
-    [](const std::string &text) {
-      return text.find("friction_y") == std::string::npos ?
-               with_rows_that_go_with_pressure(text) :
-               text;
-    });
+  rewrite([](const std::string &text) {
+    return text.find("friction_y") == std::string::npos ?
+             with_rows_that_go_with_pressure(text) :
+             text;
+  });
   const Judgement judgement = judged();
   EXPECT_EQ(name_of(judgement.verdict), name_of(Verdict::no_gap));
   EXPECT_FALSE(judgement.outlying.empty());
@@ -424,17 +427,10 @@ TEST_F(CampaignFolder, TellsAZeroOfTheSensorThatExplainsAsMuch)
 {
   constexpr double zero = 0.006;
   plant(CampaignClass::none, 4);
-  rewrite(
-    [](const unsigned int i) {
-      return "test_" + std::to_string(100 + i) + ".csv";
-    },
-    [](const std::string &text) { return with_zero(zero, text); });
+  rewrite([](const std::string &text) { return with_zero(zero, text); });
   const Judgement spoilt = judged();
   EXPECT_LE(spoilt.gap.p, ingested.workspace->level);
-  const std::optional<LookAlike> found = find_look_alike(*ingested.workspace,
-                                                         spoilt.base,
-                                                         spoilt.found.model,
-                                                         spoilt.gap.excess);
+  const std::optional<LookAlike> found = look_alike(spoilt);
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->kind, LookAlike::Kind::friction_zero);
   EXPECT_NEAR(found->value, zero, 0.1 * zero);
@@ -471,10 +467,7 @@ TEST_F(CampaignFolder, TellsADriftOverTheCampaignThatExplainsAsMuch)
     campaign.hidden[0].parameters[0].value / (campaign.tests.size() - 1);
   const Judgement judgement = judged();
   EXPECT_LE(judgement.gap.p, ingested.workspace->level);
-  const std::optional<LookAlike> found = find_look_alike(*ingested.workspace,
-                                                         judgement.base,
-                                                         judgement.found.model,
-                                                         judgement.gap.excess);
+  const std::optional<LookAlike> found = look_alike(judgement);
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->kind, LookAlike::Kind::drift);
   EXPECT_NEAR(found->value, change, 0.1 * std::abs(change));
@@ -500,10 +493,7 @@ TEST_F(CampaignFolder, TellsAHeldParameterThatExplainsAsMuch)
                  "test");
   const Judgement judgement = judged();
   EXPECT_LE(judgement.gap.p, ingested.workspace->level);
-  const std::optional<LookAlike> found = find_look_alike(*ingested.workspace,
-                                                         judgement.base,
-                                                         judgement.found.model,
-                                                         judgement.gap.excess);
+  const std::optional<LookAlike> found = look_alike(judgement);
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->path, "Friction/pressure/Exponent");
   EXPECT_NEAR(found->value, truth, 0.2 * std::abs(truth));
