@@ -142,7 +142,7 @@ TEST(SensorNoise, OfFewDigitsIsTakenOffAsWell)
 
   // Half turns of a disc, counted once a second.
   for (std::size_t i = 0; i < position.size(); ++i)
-    position[i] = 88. * std::floor(1.83 * i);
+    position[i] = 88. * std::floor(1.4 * i);
   test.displacement = position;
   take_off_noise_of_motion(test, 1e-5);
   EXPECT_EQ(test.displacement, position);

@@ -123,6 +123,24 @@ TEST(TestSet, ThePathIsToldInFull)
 
 
 
+// What a test notes was known when it had more rows.
+TEST(TestSet, TheNoiseThatIsNotedIsTold)
+{
+  MeasuredTest test;
+  for (int i = 0; i < 50; ++i)
+    {
+      test.time.push_back(i);
+      test.displacement.push_back(i);
+      test.pressure.push_back(1.);
+      test.friction.push_back(0.1 + (i % 2) * 0.01);
+    }
+  EXPECT_EQ(describe(test).find(", noise 0.00123"), std::string::npos);
+  test.notes["noise"] = "0.00123";
+  EXPECT_NE(describe(test).find(", noise 0.00123"), std::string::npos);
+}
+
+
+
 TEST(TestSet, ConditionsAreCounted)
 {
   std::vector<MeasuredTest> tests(3);

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What a calibration warns of.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "planted.h"
+#include "tests/file_text.h"
+#include "tests/temporary_folder.h"
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  Parameters one_coefficient(const TemporaryFolder &folder,
+                             const std::string     &noise = "")
+  {
+    Settings settings = {{"Calibration/Tests", folder.path().string()},
+                         {"Calibration/Starts", "1"},
+                         {"Calibration/Parameters",
+                          "Friction/Static coefficient from 0.05 to 0.2"}};
+    if (!noise.empty())
+      settings.emplace_back("Calibration/Noise", noise);
+    return calibration_case(settings);
+  }
+} // namespace
+
+
+
+// What many tests have in common is told three times.
+TEST(CalibrationWarnings, AlikeOnesAreToldThreeTimes)
+{
+  const TemporaryFolder folder;
+  for (unsigned int number = 0; number < 5; ++number)
+    {
+      MeasuredTest constant;
+      for (unsigned int i = 0; i < 100; ++i)
+        {
+          constant.time.push_back(i);
+          constant.displacement.push_back(i);
+          constant.pressure.push_back(5.8);
+          constant.friction.push_back(0.13 + 0.01 * number);
+        }
+      write_measured_test(folder.path() / (std::to_string(number) + ".csv"),
+                          constant);
+    }
+  const std::vector<std::string> warnings =
+    Campaign(one_coefficient(folder)).warnings();
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_TRUE(contains(warnings[1], "hardly any noise is visible"));
+  EXPECT_FALSE(contains(warnings[1], "more)"));
+  EXPECT_TRUE(contains(warnings[2], "(and so in 2 more)")) << warnings[2];
+}
+
+
+
+TEST(CalibrationWarnings, AWrongNoiseThatIsStatedIsTold)
+{
+  const TemporaryFolder folder;
+  plant(folder.path(), one_coefficient(folder), {1., 20., 200.}, 100, 1e-3, 5);
+  const auto warnings_with = [&](const std::string &noise) {
+    std::string text;
+    for (const std::string &warning :
+         calibrate(one_coefficient(folder, noise)).warnings)
+      text += warning + "\n";
+    return text;
+  };
+  const std::string large = warnings_with("1e-2"),
+                    right = warnings_with("1e-3"),
+                    small = warnings_with("1e-4");
+  EXPECT_TRUE(contains(large, "the noise that is stated")) << large;
+  EXPECT_TRUE(contains(large, "that is too much")) << large;
+  EXPECT_FALSE(contains(right, "the noise that is stated")) << right;
+  EXPECT_TRUE(contains(small, "which is too little")) << small;
+}
