@@ -3,15 +3,11 @@
 
 #include <slipstep/friction/contact_age.h>
 #include <slipstep/friction/effect.h>
+#include <slipstep/friction/sampled_function.h>
 #include <slipstep/utilities/formula.h>
-
-#include <math.h> // for the next, which forgets it
-
-#include <boost/math/interpolators/pchip.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -19,116 +15,6 @@ namespace SlipStep
 {
   namespace
   {
-    /// A function of one variable, sampled at equal distances, with a monotone
-    /// cubic in between: smooth, and never outside its samples. Constant beyond
-    /// its range.
-    class Table
-    {
-    public:
-      Table(std::vector<double> x, std::vector<double> samples)
-        : from(x.front())
-        , to(x.back())
-        , first(samples.front())
-        , last(samples.back())
-        , curve(std::move(x), std::move(samples))
-      {}
-
-      /// Value and derivative.
-      Rate operator()(const double x) const
-      {
-        if (!(x > from))
-          return {first, 0.};
-        if (x >= to)
-          return {last, 0.};
-        return {curve(x), curve.prime(x)};
-      }
-
-    private:
-      double                                                 from, to;
-      double                                                 first, last;
-      boost::math::interpolators::pchip<std::vector<double>> curve;
-    };
-
-
-
-    /// Samples of a formula for a Table: at equal distances, more where a
-    /// straight line between two of them is off.
-    class Sampler
-    {
-    public:
-      Sampler(std::function<double(double)> formula,
-              const double                  from,
-              const double                  to)
-        : formula(std::move(formula))
-        , from(from)
-        , to(to)
-      {}
-
-      /// @return false if the formula varies too quickly for any table
-      bool sample()
-      {
-        // Corners and jumps, not waves.
-        constexpr std::size_t most_places = 20, most_intervals = 64000;
-        for (std::size_t n = 1000; n <= most_intervals; n *= 4)
-          if (sample(n) <= most_places)
-            return true;
-        return false;
-      }
-
-      std::vector<double> x, values;
-
-    private:
-      // Returns how many intervals between n + 1 samples are not straight.
-      std::size_t sample(const std::size_t n)
-      {
-        x                  = {from};
-        values             = {formula(from)};
-        std::size_t n_bent = 0;
-        for (std::size_t i = 1; i <= n; ++i)
-          {
-            const double      share = i / static_cast<double>(n);
-            const double      end   = (1. - share) * from + share * to;
-            const std::size_t size  = x.size();
-            append(end, formula(end), 0);
-            n_bent += x.size() > size + 1;
-          }
-        return n_bent;
-      }
-
-      // Add a sample, and others before it if need be.
-      void
-      append(const double end, const double value, const unsigned int depth)
-      {
-        constexpr double       tolerance = 3e-4, sharpest = 1e-6;
-        constexpr unsigned int deepest = 60;
-
-        // Never at the same place of a wave.
-        place              = std::fmod(place + dealii::numbers::PI_2, 1.);
-        const double share = 0.2 + 0.6 * place;
-        const double begin = x.back(), before = values.back();
-        const double middle = (1. - share) * begin + share * end;
-        const double there  = formula(middle);
-        const double line   = (1. - share) * before + share * value;
-        const double width =
-          sharpest * std::max(std::abs(begin), std::abs(end));
-        if (depth < deepest && end - begin > width &&
-            !(std::abs(there - line) <= tolerance * std::abs(there)))
-          {
-            append(middle, there, depth + 1);
-            append(end, value, depth + 1);
-            return;
-          }
-        x.push_back(end);
-        values.push_back(value);
-      }
-
-      const std::function<double(double)> formula;
-      const double                        from, to;
-      double                              place = 0.;
-    };
-
-
-
     const char *const section = "Friction/expression/";
 
     /// The age of what now touches, with the renewal length of this effect.
@@ -152,9 +38,10 @@ namespace SlipStep
     public:
       Expression(const Parameters &parameters, const CoefficientBasis &)
         : covariate(parameters.text(key("Covariate")))
+        , x(covariate_called(covariate))
         , D_c(parameters.number(key("Renewal length")))
-        , temperature(contact_memory("temperature_rise_degC"))
-        , table(read_table(parameters))
+        , temperature_memory(contact_memory("temperature_rise_degC"))
+        , g(sampled_formula(parameters))
       {
         const std::vector<std::string> effects =
           parameters.list("Friction/Effects");
@@ -171,7 +58,7 @@ namespace SlipStep
           parameters.reject(key("Renewal length"),
                             "it is used with Covariate = hold time only");
         if (covariate == "angle" &&
-            std::abs(table(180.).value - table(-180.).value) > 1e-9)
+            std::abs(g(180.).value - g(-180.).value) > 1e-9)
           parameters.reject(key("Formula"),
                             "at -180 and 180 deg, the same direction, it must "
                             "have the same value");
@@ -184,51 +71,13 @@ namespace SlipStep
 
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
-        Strength factor;
-        if (covariate == "log10 speed")
-          {
-            const double speed = std::max(step.slip_rate(), 1e-300);
-            const Rate   rate  = table(std::log10(speed));
-            factor.value       = rate.value;
-            factor.d_rate = rate.derivative / (dealii::numbers::LN10 * speed);
-          }
-        else if (covariate == "angle")
-          {
-            const dealii::Tensor<1, 2> &m     = step.direction;
-            const double                scale = 180. / dealii::numbers::PI;
-            const Rate rate       = table(scale * std::atan2(m[1], m[0]));
-            factor.value          = rate.value;
-            factor.d_direction[0] = -scale * rate.derivative * m[1];
-            factor.d_direction[1] = scale * rate.derivative * m[0];
-          }
-        else if (covariate == "pressure")
-          {
-            const Rate rate = table(step.normal_traction);
-            factor.value    = rate.value;
-            factor.d_normal = rate.derivative;
-          }
-        else if (covariate == "path")
-          {
-            const Rate rate = table(step.start.slip_path + step.path);
-            factor.value    = rate.value;
-            factor.d_path   = rate.derivative;
-          }
-        else if (covariate == "position")
-          {
-            const Rate rate       = table(position(step));
-            factor.value          = rate.value;
-            factor.d_path         = rate.derivative * step.direction[0];
-            factor.d_direction[0] = rate.derivative * step.path;
-          }
-        else if (covariate == "temperature")
-          factor.value = table(step.start[temperature]).value;
-        else
-          {
-            const Rate x    = hold_time(step);
-            const Rate rate = table(x.value);
-            factor.value    = rate.value;
-            factor.d_slip   = rate.derivative * x.derivative;
-          }
+        Strength   factor = (this->*x)(step);
+        const Rate rate   = g(factor.value);
+        factor.value      = rate.value;
+        for (double *derivative :
+             {&factor.d_slip, &factor.d_normal, &factor.d_rate, &factor.d_path})
+          *derivative *= rate.derivative;
+        factor.d_direction *= rate.derivative;
         return factor;
       }
 
@@ -239,7 +88,7 @@ namespace SlipStep
           end[hold_memory] =
             step.normal_traction > 0. ? hold_time(step).value : 0.;
         if (covariate == "position")
-          end[position_memory] = position(step);
+          end[position_memory] = position(step).value;
       }
 
       virtual std::vector<ContactMemory> memories() const override
@@ -325,7 +174,7 @@ namespace SlipStep
           }
       }
 
-      static Table read_table(const Parameters &parameters)
+      static SampledFunction sampled_formula(const Parameters &parameters)
       {
         const double from = parameters.number(key("From"));
         const double to   = parameters.number(key("To"));
@@ -341,30 +190,90 @@ namespace SlipStep
               << " is not between 1e-6 and 1e6";
           parameters.reject(key("Formula"), why.str());
         };
-        Sampler sampler(value, from, to);
-        if (!sampler.sample())
+        const auto sampled = SampledFunction::of(value, from, to);
+        if (!sampled.has_value())
           parameters.reject(key("Formula"),
                             "it varies too quickly between From and To: more "
                             "than 64000 samples would be needed; state the "
                             "range that the tests or the programme reach");
-        return Table(sampler.x, sampler.values);
+        return *sampled;
       }
 
-      static double position(const SlipStepData &step)
+      // The covariates and their derivatives.
+
+      Strength log_speed(const SlipStepData &step) const
       {
-        return step.start[position_memory] + step.path * step.direction[0];
+        const double speed = std::max(step.slip_rate(), 1e-300);
+        Strength     x;
+        x.value  = std::log10(speed);
+        x.d_rate = 1. / (dealii::numbers::LN10 * speed);
+        return x;
       }
 
-      Rate hold_time(const SlipStepData &step) const
+      Strength pressure(const SlipStepData &step) const
       {
-        return contact_age_after(step.start[hold_memory], step, D_c);
+        return {step.normal_traction, 0., 1., {}};
+      }
+
+      Strength path(const SlipStepData &step) const
+      {
+        Strength x;
+        x.value  = step.start.slip_path + step.path;
+        x.d_path = 1.;
+        return x;
+      }
+
+      Strength position(const SlipStepData &step) const
+      {
+        Strength x;
+        x.value  = step.start[position_memory] + step.path * step.direction[0];
+        x.d_path = step.direction[0];
+        x.d_direction[0] = step.path;
+        return x;
+      }
+
+      Strength hold_time(const SlipStepData &step) const
+      {
+        const Rate age = contact_age_after(step.start[hold_memory], step, D_c);
+        return {age.value, age.derivative, 0., {}};
+      }
+
+      // At the beginning of the step.
+      Strength temperature(const SlipStepData &step) const
+      {
+        return {step.start[temperature_memory], 0., 0., {}};
+      }
+
+      Strength angle(const SlipStepData &step) const
+      {
+        constexpr double            degrees = 180. / dealii::numbers::PI;
+        const dealii::Tensor<1, 2> &e       = step.direction;
+        Strength                    x;
+        x.value          = degrees * std::atan2(e[1], e[0]);
+        x.d_direction[0] = -degrees * e[1];
+        x.d_direction[1] = degrees * e[0];
+        return x;
+      }
+
+      using Covariate = Strength (Expression::*)(const SlipStepData &) const;
+
+      static Covariate covariate_called(const std::string &name)
+      {
+        return name == "log10 speed" ? &Expression::log_speed :
+               name == "pressure"    ? &Expression::pressure :
+               name == "path"        ? &Expression::path :
+               name == "position"    ? &Expression::position :
+               name == "hold time"   ? &Expression::hold_time :
+               name == "temperature" ? &Expression::temperature :
+                                       &Expression::angle;
       }
 
       const std::string covariate;
+      const Covariate   x;
       const double      D_c;
       // Of effect heating.
-      const ContactMemory temperature;
-      const Table         table;
+      const ContactMemory   temperature_memory;
+      const SampledFunction g;
     };
 
     const RegisterEffect expression_registration =

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef slipstep_friction_sampled_function_h
+#define slipstep_friction_sampled_function_h
+
+#include <slipstep/friction/effect.h>
+
+#include <math.h> // for the next, which forgets it
+
+#include <boost/math/interpolators/pchip.hpp>
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace SlipStep
+{
+  /// A function of one variable as samples with a monotone cubic in between:
+  /// smooth, and never outside its samples. Constant beyond its range.
+  class SampledFunction
+  {
+  public:
+    /// Samples at equal distances, more where a straight line between two of
+    /// them is off.
+    /// @return nothing if the function varies too quickly for 64000 of them
+    static std::optional<SampledFunction>
+    of(const std::function<double(double)> &function,
+       const double                         from,
+       const double                         to);
+
+    /// Value and derivative.
+    Rate operator()(const double x) const
+    {
+      if (!(x > from))
+        return {first, 0.};
+      if (x >= to)
+        return {last, 0.};
+      return {curve(x), curve.prime(x)};
+    }
+
+  private:
+    SampledFunction(std::vector<double> x, std::vector<double> samples);
+
+    double                                                 from, to;
+    double                                                 first, last;
+    boost::math::interpolators::pchip<std::vector<double>> curve;
+  };
+} // namespace SlipStep
+
+#endif

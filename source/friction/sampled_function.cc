@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/numbers.h>
+
+#include <slipstep/friction/sampled_function.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace SlipStep
+{
+  namespace
+  {
+    /// Takes the samples.
+    class Sampler
+    {
+    public:
+      Sampler(const std::function<double(double)> &formula,
+              const double                         from,
+              const double                         to)
+        : formula(formula)
+        , from(from)
+        , to(to)
+      {}
+
+      /// @return false if the formula varies too quickly
+      bool sample()
+      {
+        // Corners and jumps, not waves.
+        constexpr std::size_t most_places = 20, most_intervals = 64000;
+        for (std::size_t n = 1000; n <= most_intervals; n *= 4)
+          if (sample(n) <= most_places)
+            return true;
+        return false;
+      }
+
+      std::vector<double> x, values;
+
+    private:
+      // Returns how many intervals between n + 1 samples are not straight.
+      std::size_t sample(const std::size_t n)
+      {
+        x                  = {from};
+        values             = {formula(from)};
+        std::size_t n_bent = 0;
+        for (std::size_t i = 1; i <= n; ++i)
+          {
+            const double      share = i / static_cast<double>(n);
+            const double      end   = (1. - share) * from + share * to;
+            const std::size_t size  = x.size();
+            append(end, formula(end), 0);
+            n_bent += x.size() > size + 1;
+          }
+        return n_bent;
+      }
+
+      // Add a sample, and others before it if need be.
+      void
+      append(const double end, const double value, const unsigned int depth)
+      {
+        constexpr double       tolerance = 3e-4, sharpest = 1e-6;
+        constexpr unsigned int deepest = 60;
+
+        // Never at the same place of a wave.
+        place              = std::fmod(place + dealii::numbers::PI_2, 1.);
+        const double share = 0.2 + 0.6 * place;
+        const double begin = x.back(), before = values.back();
+        const double middle = (1. - share) * begin + share * end;
+        const double there  = formula(middle);
+        const double line   = (1. - share) * before + share * value;
+        const double width =
+          sharpest * std::max(std::abs(begin), std::abs(end));
+        if (depth < deepest && end - begin > width &&
+            !(std::abs(there - line) <= tolerance * std::abs(there)))
+          {
+            append(middle, there, depth + 1);
+            append(end, value, depth + 1);
+            return;
+          }
+        x.push_back(end);
+        values.push_back(value);
+      }
+
+      const std::function<double(double)> &formula;
+      const double                         from, to;
+      double                               place = 0.;
+    };
+  } // namespace
+
+
+
+  SampledFunction::SampledFunction(std::vector<double> x,
+                                   std::vector<double> samples)
+    : from(x.front())
+    , to(x.back())
+    , first(samples.front())
+    , last(samples.back())
+    , curve(std::move(x), std::move(samples))
+  {}
+
+
+
+  std::optional<SampledFunction>
+  SampledFunction::of(const std::function<double(double)> &function,
+                      const double                         from,
+                      const double                         to)
+  {
+    Sampler sampler(function, from, to);
+    if (!sampler.sample())
+      return {};
+    return SampledFunction(std::move(sampler.x), std::move(sampler.values));
+  }
+} // namespace SlipStep
