@@ -178,38 +178,66 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    View score_anew(const Workspace &workspace, const Model &model)
+    {
+      View view = find_directions(workspace, model);
+      if (view.set.directions.empty())
+        return view;
+      view.set = DirectionSet(workspace.comparison,
+                              workspace.null_draws,
+                              view.set.directions);
+      const ScoreTest scores(model, workspace.null_draws, view.set);
+      const std::vector<Direction> &directions = view.set.directions;
+      for (std::size_t d = 0; d < directions.size(); ++d)
+        see(directions[d],
+            scores.scores[d],
+            workspace.range.typical_friction,
+            view.candidates[directions[d].candidate]);
+      const auto is_better = [](const auto &a, const auto &b) {
+        return a.score.value > b.score.value;
+      };
+      for (CandidateView &seen : view.candidates)
+        {
+          std::stable_sort(seen.ways.begin(), seen.ways.end(), is_better);
+          if (!seen.ways.empty())
+            seen.score = seen.ways.front().score;
+          seen.p = scores.family_p(seen.score.value);
+        }
+      view.pairs =
+        scores.pairs(directions, [&](const std::size_t i, const std::size_t j) {
+          return pairing(view.candidates[directions[i].candidate].candidate,
+                         view.candidates[directions[j].candidate].candidate);
+        });
+      std::stable_sort(view.candidates.begin(),
+                       view.candidates.end(),
+                       is_better);
+      return view;
+    }
+  } // namespace
+
+
+
+  /// A model, the wave that it was asked for, and what was seen.
+  struct ScoredModel
+  {
+    ModelKey model;
+    double   track_wave;
+    View     view;
+  };
+
+
+
   View score_candidates(const Workspace &workspace, const Model &model)
   {
-    View view = find_directions(workspace, model);
-    if (view.set.directions.empty())
-      return view;
-    view.set = DirectionSet(workspace.comparison,
-                            workspace.null_draws,
-                            view.set.directions);
-    const ScoreTest               scores(model, workspace.null_draws, view.set);
-    const std::vector<Direction> &directions = view.set.directions;
-    for (std::size_t d = 0; d < directions.size(); ++d)
-      see(directions[d],
-          scores.scores[d],
-          workspace.range.typical_friction,
-          view.candidates[directions[d].candidate]);
-    const auto is_better = [](const auto &a, const auto &b) {
-      return a.score.value > b.score.value;
-    };
-    for (CandidateView &seen : view.candidates)
-      {
-        std::stable_sort(seen.ways.begin(), seen.ways.end(), is_better);
-        if (!seen.ways.empty())
-          seen.score = seen.ways.front().score;
-        seen.p = scores.family_p(seen.score.value);
-      }
-    view.pairs =
-      scores.pairs(directions, [&](const std::size_t i, const std::size_t j) {
-        return pairing(view.candidates[directions[i].candidate].candidate,
-                       view.candidates[directions[j].candidate].candidate);
-      });
-    std::stable_sort(view.candidates.begin(), view.candidates.end(), is_better);
-    return view;
+    const ModelKey key(model);
+    const double   wave = workspace.range.track_wave;
+    const auto    &last = workspace.last_scored;
+    if (last == nullptr || !(last->model == key) || last->track_wave != wave)
+      workspace.last_scored = std::make_shared<const ScoredModel>(
+        ScoredModel{key, wave, score_anew(workspace, model)});
+    return workspace.last_scored->view;
   }
 
 

@@ -520,6 +520,16 @@ namespace SlipStep
 
 
 
+  ModelKey::ModelKey(const Model &model)
+    : scaled(model.scaled)
+    , objective(model.objective)
+  {
+    for (const Part &part : model.parts)
+      parts.push_back(part.name);
+  }
+
+
+
   bool Model::has(const std::string &name) const
   {
     return std::any_of(parts.begin(), parts.end(), [&](const Part &part) {

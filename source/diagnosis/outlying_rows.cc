@@ -45,6 +45,8 @@ namespace SlipStep
                                      workspace.null_draws.cols(),
                                      workspace.start.integer("Diagnosis/Seed"));
     prepare_gap_test(workspace);
+    workspace.last_scored.reset();
+    workspace.left_out.clear();
   }
 
 

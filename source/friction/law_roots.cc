@@ -159,27 +159,38 @@ namespace SlipStep
       return local.flow.value;
     };
     const unsigned int most_iterations = 50;
-    // Of the last correction: the next would be its square.
-    const int        digits    = 35;
-    constexpr double tolerance = 1e-6;
+    constexpr double   tolerance       = 1e-6;
+    const auto newton = [&](const double from, const int digits, auto &n) {
+      return boost::math::tools::newton_raphson_iterate(
+        [&](const double traction) {
+          const double value = residual(traction);
+          return std::make_tuple(value, -local.d_residual / alpha_t);
+        },
+        from,
+        lower,
+        upper,
+        digits,
+        n);
+    };
     try
       {
+        // Digits of the last correction: the next would be its square, unless
+        // there is little slip.
         boost::uintmax_t iterations = most_iterations;
-        const double     traction = boost::math::tools::newton_raphson_iterate(
-          [&](const double traction) {
-            const double value = residual(traction);
-            return std::make_tuple(value, -local.d_residual / alpha_t);
-          },
-          guess,
-          lower,
-          upper,
-          digits,
-          iterations);
+        double           traction   = newton(guess, 22, iterations);
+        double           value      = residual(traction);
+        double           correction = alpha_t * value / local.d_residual;
+        if (std::abs(correction) > 1e-11 * (local.reach - traction) &&
+            iterations < most_iterations)
+          {
+            iterations = most_iterations;
+            traction   = newton(traction, 35, iterations);
+            value      = residual(traction);
+            correction = alpha_t * value / local.d_residual;
+          }
         if (iterations < most_iterations)
           {
-            const double value      = residual(traction);
-            const double correction = alpha_t * value / local.d_residual;
-            const bool   is_close   = local.d_residual > 0. &&
+            const bool is_close = local.d_residual > 0. &&
                                   std::abs(correction) <= tolerance * traction;
             if (is_close && std::abs(value) <= tolerance)
               return;

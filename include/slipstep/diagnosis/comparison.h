@@ -68,6 +68,22 @@ namespace SlipStep
     ///@}
   };
 
+  /// What tells a fitted model from others.
+  struct ModelKey
+  {
+    explicit ModelKey(const Model &model);
+
+    bool operator==(const ModelKey &other) const
+    {
+      return scaled == other.scaled && parts == other.parts &&
+             objective == other.objective;
+    }
+
+    std::vector<double>      scaled;
+    std::vector<std::string> parts;
+    double                   objective;
+  };
+
   /// The measured friction of a campaign, against which models are held: noise
   /// is whitened, rows beyond a few hundred per test are averaged.
   class Comparison

@@ -7,12 +7,17 @@
 #include <slipstep/diagnosis/score_test.h>
 
 #include <chrono>
+#include <deque>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace SlipStep
 {
+  struct ScoredModel;
+
   /// What a search looks at: the tests, their noise, and the rules.
   struct Workspace
   {
@@ -38,6 +43,13 @@ namespace SlipStep
     ///@{
     DirectionSet        smooth = {}, waves = {}, along_track = {};
     std::vector<double> wavelengths = {}; ///< of the last
+    ///@}
+
+    /// @name What is asked of the same model again: what score_candidates() saw
+    /// last, and left_out_squares() found lately.
+    ///@{
+    mutable std::shared_ptr<const ScoredModel> last_scored                = {};
+    mutable std::deque<std::pair<ModelKey, std::vector<double>>> left_out = {};
     ///@}
 
     /// Whether something was, or is to be, left undone since time is over.
