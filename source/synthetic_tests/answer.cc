@@ -76,6 +76,8 @@ namespace SlipStep
                 {"noise",
                  {{"kind", to_string(noise.kind)},
                   {"white", noise.white},
+                  {"position", noise.position},
+                  {"pressure", noise.pressure},
                   {"drift", noise.drift},
                   {"drift_correlation_times", noise.correlation_times},
                   {"gain", noise.gain},

@@ -397,10 +397,7 @@ namespace SlipStep
                    campaign.contact.coefficient.static_coefficient,
                    noise,
                    test);
-            if (options.noise == NoiseKind::rounded_motion)
-              for (auto *positions :
-                   {&test.measured.displacement, &test.measured.displacement_y})
-                round_motion(*positions);
+            record_loading(campaign.noise, noise, test.measured);
             campaign.tests.push_back(std::move(test));
           }
         campaign.contact.progress = 0.;

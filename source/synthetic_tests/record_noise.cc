@@ -6,6 +6,7 @@
 #include <slipstep/utilities/nearest_name.h>
 
 #include <boost/algorithm/string/join.hpp>
+#include <boost/math/constants/constants.hpp>
 
 #include <cmath>
 #include <utility>
@@ -22,7 +23,9 @@ namespace SlipStep
         {NoiseKind::two_drifts, "two_drifts"},
         {NoiseKind::correlated_rows, "correlated_rows"},
         {NoiseKind::drift_in_seconds, "drift_in_seconds"},
-        {NoiseKind::rounded_motion, "rounded_motion"}};
+        {NoiseKind::rounded_motion, "rounded_motion"},
+        {NoiseKind::noisy_sensors, "noisy_sensors"},
+        {NoiseKind::hum, "hum"}};
     } // namespace
 
 
@@ -65,8 +68,17 @@ namespace SlipStep
     {
       NoiseLevels levels;
       levels.kind = kind;
-      for (double *level :
-           {&levels.white, &levels.drift, &levels.gain, &levels.offset})
+      if (kind == NoiseKind::noisy_sensors)
+        {
+          levels.position = 0.0005;
+          levels.pressure = 0.003;
+        }
+      for (double *level : {&levels.white,
+                            &levels.drift,
+                            &levels.gain,
+                            &levels.offset,
+                            &levels.position,
+                            &levels.pressure})
         *level *= factor;
       if (kind == NoiseKind::two_drifts)
         levels.correlation_times = {uniform(random, 0.02, 0.06),
@@ -94,23 +106,33 @@ namespace SlipStep
 
 
 
-    std::vector<double>
-    row_noise(const std::size_t n, const NoiseKind kind, Random &random)
+    std::vector<double> row_noise(const std::vector<double> &times,
+                                  const NoiseKind            kind,
+                                  Random                    &random)
     {
-      constexpr double kept = 0.8;
+      constexpr double kept      = 0.8;
+      constexpr double frequency = 50.; // [Hz]
+      constexpr double pi        = boost::math::constants::pi<double>();
 
       std::normal_distribution<double>    normal;
       std::student_t_distribution<double> student(3.);
-      std::vector<double>                 values(n);
+      std::vector<double>                 values(times.size());
       // Student's t has the variance 3.
       for (double &value : values)
         value = kind == NoiseKind::heavy_tails ?
                   student(random) / std::sqrt(3.) :
                   normal(random);
       if (kind == NoiseKind::correlated_rows)
-        for (std::size_t i = 1; i < n; ++i)
+        for (std::size_t i = 1; i < values.size(); ++i)
           values[i] =
             kept * values[i - 1] + std::sqrt(1. - kept * kept) * values[i];
+      if (kind == NoiseKind::hum)
+        {
+          const double phase = uniform(random, 0., 2. * pi);
+          for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = std::sqrt(0.5) * values[i] +
+                        std::sin(2. * pi * frequency * times[i] + phase);
+        }
       return values;
     }
 
@@ -143,11 +165,10 @@ namespace SlipStep
                                      const NoiseLevels         &levels,
                                      Random                    &random)
     {
-      const double duration = levels.kind == NoiseKind::drift_in_seconds ?
-                                1. :
-                                times.back() - times.front();
-      std::vector<double> record =
-        row_noise(friction.size(), levels.kind, random);
+      const double duration      = levels.kind == NoiseKind::drift_in_seconds ?
+                                     1. :
+                                     times.back() - times.front();
+      std::vector<double> record = row_noise(times, levels.kind, random);
       for (std::size_t i = 0; i < record.size(); ++i)
         record[i] =
           (1. + gain) * friction[i] + offset + levels.white * mean * record[i];
@@ -166,10 +187,22 @@ namespace SlipStep
 
 
 
-    void round_motion(std::vector<double> &displacement, const double step)
+    void record_loading(const NoiseLevels &levels,
+                        Random            &random,
+                        MeasuredTest      &test)
     {
-      for (double &value : displacement)
-        value = step * std::round(value / step);
+      constexpr double step = 0.01; // [mm]
+
+      std::normal_distribution<double> normal;
+      for (auto *positions : {&test.displacement, &test.displacement_y})
+        for (double &value : *positions)
+          if (levels.kind == NoiseKind::rounded_motion)
+            value = step * std::round(value / step);
+          else if (levels.position > 0.)
+            value += levels.position * normal(random);
+      if (levels.pressure > 0.)
+        for (double &value : test.pressure)
+          value *= 1. + levels.pressure * normal(random);
     }
   } // namespace Planting
 } // namespace SlipStep

@@ -261,7 +261,7 @@ namespace SlipStep
         ("no-replicates", "every test under a condition of its own")
         ("noise", po::value<std::string>()->value_name("NAME"),
          "normal, heavy_tails, two_drifts, correlated_rows, drift_in_seconds, "
-         "rounded_motion")
+         "rounded_motion, noisy_sensors, hum")
         ("noise-factor", po::value<std::string>()->value_name("F"),
          "so many times the usual noise")
         ("amplitude", po::value<std::string>()->value_name("A"),

@@ -29,15 +29,16 @@ namespace
 
 TEST(RecordNoise, White)
 {
-  Random            random(1);
-  const std::size_t n = 200000;
-  EXPECT_NEAR(mean_of_squares(row_noise(n, NoiseKind::normal, random)),
+  Random                    random(1);
+  const std::size_t         n = 200000;
+  const std::vector<double> times(n);
+  EXPECT_NEAR(mean_of_squares(row_noise(times, NoiseKind::normal, random)),
               1.,
               5. * std::sqrt(2. / n));
   // The fourth moment of Student's t is infinite: compare a quantile. The
   // chance of more than 3 standard deviations is 0.0138, normally 0.0027.
   unsigned int beyond = 0;
-  for (const double value : row_noise(n, NoiseKind::heavy_tails, random))
+  for (const double value : row_noise(times, NoiseKind::heavy_tails, random))
     beyond += std::abs(value) > 3.;
   EXPECT_NEAR(beyond / static_cast<double>(n),
               0.0138,
@@ -50,8 +51,9 @@ TEST(RecordNoise, White)
 TEST(RecordNoise, CorrelatedRows)
 {
   Random            random(7);
-  const std::size_t n      = 200000;
-  const auto        values = row_noise(n, NoiseKind::correlated_rows, random);
+  const std::size_t n = 200000;
+  const auto        values =
+    row_noise(std::vector<double>(n), NoiseKind::correlated_rows, random);
   EXPECT_NEAR(mean_of_squares(values), 1., 5. * std::sqrt(2. * 4.6 / n));
   for (const std::size_t lag : {1, 2, 5})
     EXPECT_NEAR(std::inner_product(
@@ -86,13 +88,60 @@ TEST(RecordNoise, DriftInSeconds)
 
 
 
+// Rows a period apart have the same hum, those half a period apart the
+// opposite.
+TEST(RecordNoise, Hum)
+{
+  Random       random(9);
+  const double n       = 20000;
+  double       squares = 0., period = 0., half = 0.;
+  for (int i = 0; i < n; ++i)
+    {
+      const auto values = row_noise({0.3, 0.31, 7.32}, NoiseKind::hum, random);
+      squares += mean_of_squares(values) / n;
+      half += values[0] * values[1] / n;
+      period += values[0] * values[2] / n;
+    }
+  EXPECT_NEAR(squares, 1., 5. * std::sqrt(2. / (3. * n)));
+  EXPECT_NEAR(half, -0.5, 5. / std::sqrt(n));
+  EXPECT_NEAR(period, 0.5, 5. / std::sqrt(n));
+}
+
+
+
 TEST(RecordNoise, RoundedMotion)
 {
-  std::vector<double> values = {0., 0.0149, 0.0151, -3.337};
-  round_motion(values, 0.01);
-  EXPECT_DOUBLE_EQ(values[1], 0.01);
-  EXPECT_DOUBLE_EQ(values[2], 0.02);
-  EXPECT_DOUBLE_EQ(values[3], -3.34);
+  Random                 random(1);
+  SlipStep::MeasuredTest test;
+  test.displacement = {0., 0.0149, 0.0151, -3.337};
+  test.pressure     = {1., 1., 1., 1.};
+  record_loading(draw_levels(NoiseKind::rounded_motion, 1., random),
+                 random,
+                 test);
+  EXPECT_DOUBLE_EQ(test.displacement[1], 0.01);
+  EXPECT_DOUBLE_EQ(test.displacement[2], 0.02);
+  EXPECT_DOUBLE_EQ(test.displacement[3], -3.34);
+  EXPECT_EQ(test.pressure, std::vector<double>({1., 1., 1., 1.}));
+}
+
+
+
+TEST(RecordNoise, NoisySensors)
+{
+  Random                 random(4);
+  const std::size_t      n = 20000;
+  SlipStep::MeasuredTest test;
+  test.displacement.assign(n, 3.);
+  test.pressure.assign(n, 5.);
+  record_loading(draw_levels(NoiseKind::noisy_sensors, 2., random),
+                 random,
+                 test);
+  for (double &value : test.displacement)
+    value = (value - 3.) / 0.001;
+  for (double &value : test.pressure)
+    value = (value / 5. - 1.) / 0.006;
+  EXPECT_NEAR(mean_of_squares(test.displacement), 1., 5. * std::sqrt(2. / n));
+  EXPECT_NEAR(mean_of_squares(test.pressure), 1., 5. * std::sqrt(2. / n));
 }
 
 

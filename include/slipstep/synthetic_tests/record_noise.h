@@ -2,6 +2,7 @@
 #ifndef slipstep_synthetic_tests_record_noise_h
 #define slipstep_synthetic_tests_record_noise_h
 
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/synthetic_tests/influence.h>
 
 #include <string>
@@ -22,7 +23,11 @@ namespace SlipStep
       /// The drift forgets within 10 s, however long a test is.
       drift_in_seconds,
       /// Positions are recorded to 0.01 mm.
-      rounded_motion
+      rounded_motion,
+      /// Sensors of position and pressure are noisy, too.
+      noisy_sensors,
+      /// Half the variance of rows is a hum of 50 Hz.
+      hum
     };
 
     /// What all kinds are called.
@@ -43,6 +48,8 @@ namespace SlipStep
       double    drift = 0.005; ///< Ornstein-Uhlenbeck, of all drifts together
       double    gain  = 0.006; ///< of a test, factor on its friction
       double offset = 0.002; ///< of a test, relative to the static coefficient
+      double position = 0.;  ///< of every row [mm]
+      double pressure = 0.;  ///< of every row, relative to the pressure
       /// Correlation times of the drifts over the duration of a test; in
       /// seconds of kind drift_in_seconds.
       std::vector<double> correlation_times;
@@ -63,10 +70,11 @@ namespace SlipStep
                                   const double       static_coefficient,
                                   Random            &random);
 
-    /// Noise of rows, of standard deviation 1: white but for kind
-    /// correlated_rows.
-    std::vector<double>
-    row_noise(const std::size_t n, const NoiseKind kind, Random &random);
+    /// Noise of rows at given times [s], of standard deviation 1: white but for
+    /// kinds correlated_rows and hum.
+    std::vector<double> row_noise(const std::vector<double> &times,
+                                  const NoiseKind            kind,
+                                  Random                    &random);
 
     /// A stationary Ornstein-Uhlenbeck process of standard deviation 1 at given
     /// times [s].
@@ -84,10 +92,11 @@ namespace SlipStep
                                      const NoiseLevels         &levels,
                                      Random                    &random);
 
-    /// Positions as an instrument with few digits records them.
-    /// @param step [mm]
-    void round_motion(std::vector<double> &displacement,
-                      const double         step = 0.01);
+    /// What the instruments of position and pressure make of a test: few
+    /// digits, or noise.
+    void record_loading(const NoiseLevels &levels,
+                        Random            &random,
+                        MeasuredTest      &test);
   } // namespace Planting
 } // namespace SlipStep
 
