@@ -100,11 +100,12 @@ namespace SlipStep
               candidate.leave_to_model(which + " is in the model already");
               return candidate;
             }
-          for (const auto &form :
-               {info->search.formula, info->search.other_form})
+          std::vector<std::function<TrialFormula(const Circumstances &)>>
+            forms = info->search.other_forms;
+          if (info->search.formula)
+            forms.insert(forms.begin(), info->search.formula);
+          for (const auto &form : forms)
             {
-              if (!form)
-                continue;
               TrialFormula formula = form(now);
               if (!now.has(info->name))
                 formula.effect = info->name;

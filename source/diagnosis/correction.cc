@@ -13,8 +13,12 @@ namespace SlipStep
     // What effect expression knows of what is told to people.
     std::string expression_covariate(const std::string &name)
     {
-      for (const char *const covariate :
-           {"log10 speed", "pressure", "path", "hold time", "angle"})
+      for (const char *const covariate : {"log10 speed",
+                                          "pressure",
+                                          "path",
+                                          "position",
+                                          "hold time",
+                                          "angle"})
         if (covariate_of_expression(covariate) == name)
           return covariate;
       return "";

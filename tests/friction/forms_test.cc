@@ -182,7 +182,9 @@ TEST(Forms, a_texture_belongs_to_places)
                                      {"texture/Amplitude", "0.3"},
                                      {"texture/Wavelength", "0.5 mm"},
                                      {"texture/Phase", "40 deg"},
-                                     {"texture/Angle", "30 deg"}});
+                                     {"texture/Angle", "30 deg"},
+                                     {"texture/Second cosine", "-0.3"},
+                                     {"texture/Third sine", "0.2"}});
   const Tensor<1, 2> e   = vector(std::cos(pi / 6.), std::sin(pi / 6.));
   ContactPoint       point(*law);
   Tensor<1, 2>       load_point;
@@ -197,12 +199,26 @@ TEST(Forms, a_texture_belongs_to_places)
           continue;
         const Tensor<1, 2> place =
           load_point - point.committed().traction / alpha;
+        const double theta = 2. * pi * (e * place) / 0.5 + 40. * pi / 180.;
         EXPECT_NEAR(point.committed().traction.norm(),
-                    0.4 * (1. + 0.3 * std::sin(2. * pi * (e * place) / 0.5 +
-                                               40. * pi / 180.)),
-                    2e-4)
+                    0.4 * (1. +
+                           0.3 * (std::sin(theta) - 0.3 * std::cos(2. * theta) +
+                                  0.2 * std::sin(3. * theta))),
+                    3e-4)
           << place;
       }
+}
+
+
+
+// Not even where its waves add up.
+TEST(Forms, a_texture_leaves_some_friction)
+{
+  EXPECT_THROW(make_law({{"Effects", "texture"},
+                         {"texture/Amplitude", "0.6"},
+                         {"texture/Second sine", "0.5"},
+                         {"texture/Third cosine", "-0.2"}}),
+               InputError);
 }
 
 

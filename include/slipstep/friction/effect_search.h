@@ -124,8 +124,9 @@ namespace SlipStep
     /// Why it is never looked for: then there is no formula.
     std::string why_not = "";
 
-    /// The same for another form of the effect, if that is looked for, too.
-    std::function<TrialFormula(const Circumstances &)> other_form = {};
+    /// The same for other forms of the effect that are looked for, too.
+    std::vector<std::function<TrialFormula(const Circumstances &)>>
+      other_forms = {};
 
     /// What its formula is a function of, as effect expression calls it; "" if
     /// of nothing that it knows. Along it, a formula may be not quite right.

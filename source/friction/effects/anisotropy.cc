@@ -125,17 +125,17 @@ namespace SlipStep
            Quantity(Dimension::angle, -360., 360.),
            "angle from the first axis of the contact plane to the first axis "
            "of the ellipse"}};
-        info.neutral_settings  = {{"Ratio", "1"}};
-        info.typical_settings  = {{"Ratio", "0.6"}, {"Angle", "35 deg"}};
-        info.search            = {"a ratio in off-axis tests", search};
-        info.search.other_form = [](const Circumstances &now) {
+        info.neutral_settings   = {{"Ratio", "1"}};
+        info.typical_settings   = {{"Ratio", "0.6"}, {"Angle", "35 deg"}};
+        info.search             = {"a ratio in off-axis tests", search};
+        info.search.other_forms = {[](const Circumstances &now) {
           TrialFormula formula = search(now);
           if (formula.why_not.empty())
             formula.texts = {{"Friction/anisotropy/Form", "opposite"}};
           return formula;
-        };
-        info.search.along = "angle";
-        info.create       = create;
+        }};
+        info.search.along       = "angle";
+        info.create             = create;
         return info;
       }
 

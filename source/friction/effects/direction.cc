@@ -78,16 +78,16 @@ namespace SlipStep
            dealii::Patterns::Selection("cosine|reversed"),
            "'cosine' changes with every angle, half of it across; 'reversed' "
            "acts on slip against the forward direction only"}};
-        info.neutral_settings  = {{"Change", "0"}};
-        info.typical_settings  = {{"Change", "0.5"},
-                                  {"Forward angle", "20 deg"}};
-        info.search            = {"an offset on reverse strokes", search};
-        info.search.other_form = [](const Circumstances &now) {
+        info.neutral_settings   = {{"Change", "0"}};
+        info.typical_settings   = {{"Change", "0.5"},
+                                   {"Forward angle", "20 deg"}};
+        info.search             = {"an offset on reverse strokes", search};
+        info.search.other_forms = {[](const Circumstances &now) {
           TrialFormula formula = search(now);
           formula.texts        = {{"Friction/direction/Form", "reversed"}};
           return formula;
-        };
-        info.search.along = "angle";
+        }};
+        info.search.along       = "angle";
         return info;
       }
 

@@ -4,6 +4,7 @@
 #include <slipstep/friction/effect.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -20,9 +21,10 @@ namespace SlipStep
       {"track_2_mm", 0., -std::numeric_limits<double>::infinity()});
 
     /// A pattern of the surface, of grooves, of a bent slide or of a screw that
-    /// is not round:
-    /// \f[ G = 1 + w \sin\left(\frac{2\pi\,e \cdot x}{\Lambda} +
-    ///     \varphi\right), \f]
+    /// is not round, with two harmonics that give its waves a shape:
+    /// \f[ G = 1 + w \left(\sin\theta + s_2 \sin 2\theta + c_2 \cos 2\theta +
+    ///     s_3 \sin 3\theta + c_3 \cos 3\theta\right), \quad
+    ///     \theta = \frac{2\pi\,e \cdot x}{\Lambda} + \varphi, \f]
     /// where e is the unit vector across the grooves and x where slip has
     /// brought the contact since it was first loaded: forth and back are the
     /// same places, unlike the slip path. Chosen.
@@ -35,6 +37,14 @@ namespace SlipStep
                       parameters.number("Friction/texture/Wavelength"))
         , phase(parameters.number("Friction/texture/Phase"))
       {
+        for (unsigned int i = 0; i < shape_keys.size(); ++i)
+          waves[i] = parameters.number(shape_keys[i]);
+        if (w * (1. + std::hypot(waves[0], waves[1]) +
+                 std::hypot(waves[2], waves[3])) >=
+            1.)
+          parameters.reject("Friction/texture/Amplitude",
+                            "with its harmonics it must be less than 1, or "
+                            "friction could vanish");
         const double angle = parameters.number("Friction/texture/Angle");
         across[0]          = std::cos(angle);
         across[1]          = std::sin(angle);
@@ -43,15 +53,22 @@ namespace SlipStep
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
         const double along = across * step.direction;
-        const double argument =
+        const double theta =
           wave_number * (across[0] * step.start[track_1] +
                          across[1] * step.start[track_2] + along * step.path) +
           phase;
-        Strength factor;
-        factor.value         = 1. + w * std::sin(argument);
-        const double d_place = w * wave_number * std::cos(argument);
-        factor.d_path        = d_place * along;
-        factor.d_direction   = d_place * step.path * across;
+        double shape = std::sin(theta), d_shape = std::cos(theta);
+        for (const unsigned int i : {0, 1})
+          {
+            const double n = i + 2, s = waves[2 * i], c = waves[2 * i + 1];
+            shape += s * std::sin(n * theta) + c * std::cos(n * theta);
+            d_shape += n * (s * std::cos(n * theta) - c * std::sin(n * theta));
+          }
+        const double d_place = w * wave_number * d_shape;
+        Strength     factor;
+        factor.value       = 1. + w * shape;
+        factor.d_path      = d_place * along;
+        factor.d_direction = d_place * step.path * across;
         return factor;
       }
 
@@ -70,14 +87,18 @@ namespace SlipStep
       static EffectInfo info()
       {
         EffectInfo info;
-        info.name    = "texture";
-        info.words   = "a pattern along the track, the same forth and back";
-        info.formula = "G = 1 + w sin(2 pi e.x / Lambda + phi), x: place that "
-                       "slip has brought the contact to";
-        info.latex   = "G = 1 + w \\sin\\left(\\frac{2\\pi\\,e \\cdot "
-                       "x}{\\Lambda} + \\varphi\\right)";
-        info.source  = "chosen";
-        info.neutral = "Amplitude = 0";
+        info.name  = "texture";
+        info.words = "a pattern along the track, the same forth and back";
+        info.formula =
+          "G = 1 + w (sin(theta) + s_2 sin(2 theta) + c_2 cos(2 theta) + s_3 "
+          "sin(3 theta) + c_3 cos(3 theta)), theta = 2 pi e.x / Lambda + phi, x: "
+          "place that slip has brought the contact to";
+        info.latex =
+          "G = 1 + w \\left(\\sin\\theta + s_2 \\sin 2\\theta + c_2 \\cos "
+          "2\\theta + s_3 \\sin 3\\theta + c_3 \\cos 3\\theta\\right), \\quad "
+          "\\theta = \\frac{2\\pi\\,e \\cdot x}{\\Lambda} + \\varphi";
+        info.source     = "chosen";
+        info.neutral    = "Amplitude = 0";
         info.parameters = {
           {"Amplitude",
            "w",
@@ -99,14 +120,42 @@ namespace SlipStep
            "0",
            Quantity(Dimension::angle, -360., 360.),
            "angle in the contact plane, from its first axis to the direction e "
-           "across the grooves"}};
-        info.neutral_settings  = {{"Amplitude", "0"}};
-        info.typical_settings  = {{"Amplitude", "0.3"},
-                                  {"Wavelength", "0.1 mm"},
-                                  {"Phase", "40 deg"},
-                                  {"Angle", "30 deg"}};
-        info.search            = {"waves along the track", search};
-        info.search.other_form = search_oblique;
+           "across the grooves"},
+          {"Second sine",
+           "s_2",
+           "0",
+           Quantity(Dimension::number, -1., 1.),
+           "share of the amplitude that a wave of half the length has"},
+          {"Second cosine",
+           "c_2",
+           "0",
+           Quantity(Dimension::number, -1., 1.),
+           "the same, a quarter of it ahead"},
+          {"Third sine",
+           "s_3",
+           "0",
+           Quantity(Dimension::number, -1., 1.),
+           "share of the amplitude that a wave of a third of the length has"},
+          {"Third cosine",
+           "c_3",
+           "0",
+           Quantity(Dimension::number, -1., 1.),
+           "the same, a quarter of it ahead"}};
+        info.neutral_settings   = {{"Amplitude", "0"}};
+        info.typical_settings   = {{"Amplitude", "0.3"},
+                                   {"Wavelength", "0.1 mm"},
+                                   {"Phase", "40 deg"},
+                                   {"Angle", "30 deg"},
+                                   {"Second sine", "-0.4"},
+                                   {"Second cosine", "0.3"},
+                                   {"Third sine", "0.2"},
+                                   {"Third cosine", "-0.1"}};
+        info.search             = {"waves along the track", search};
+        info.search.other_forms = {
+          search_oblique,
+          [](const Circumstances &now) { return uneven(search(now)); },
+          [](const Circumstances &now) { return uneven(search_oblique(now)); }};
+        info.search.along = "position";
         return info;
       }
 
@@ -114,6 +163,21 @@ namespace SlipStep
       static TrialFormula search(const Circumstances &now)
       {
         return search_at(now, {0.});
+      }
+
+      // With harmonics.
+      static TrialFormula uneven(TrialFormula formula)
+      {
+        for (const char *const key : shape_keys)
+          formula.parameters.push_back({key, -1., 1., false});
+        for (TrialFormula::Shape &shape : formula.shapes)
+          shape = [even = shape](const double strength) {
+            Values values = even(strength);
+            for (const char *const key : shape_keys)
+              values[key] = 0.;
+            return values;
+          };
+        return formula;
       }
 
       // Along one line all that is known is the wavelength along it.
@@ -158,10 +222,17 @@ namespace SlipStep
         return formula;
       }
 
-      const double         w;
-      const double         wave_number;
-      const double         phase;
-      dealii::Tensor<1, 2> across;
+      static constexpr std::array<const char *, 4> shape_keys = {
+        {"Friction/texture/Second sine",
+         "Friction/texture/Second cosine",
+         "Friction/texture/Third sine",
+         "Friction/texture/Third cosine"}};
+
+      const double          w;
+      const double          wave_number;
+      const double          phase;
+      std::array<double, 4> waves; ///< s_2, c_2, s_3, c_3
+      dealii::Tensor<1, 2>  across;
     };
 
     const RegisterEffect texture_registration = register_effect<Texture>();

@@ -78,8 +78,8 @@ namespace SlipStep
                                  {"Exponent", "0.6"},
                                  {"Speed", "0.1 mm/s"}};
         info.search = {"linear in V, its share shrinks with pressure", search};
-        info.search.other_form = search_power;
-        info.search.along      = "log10 speed";
+        info.search.other_forms = {search_power};
+        info.search.along       = "log10 speed";
         return info;
       }
 

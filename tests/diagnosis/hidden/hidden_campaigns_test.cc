@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/correction.h>
 #include <slipstep/diagnosis/localisation.h>
 #include <slipstep/diagnosis/look_alike.h>
 
@@ -357,6 +358,42 @@ TEST_F(CampaignFolder, WaveAlongTheTrackIsTold)
   ASSERT_FALSE(where.empty());
   EXPECT_EQ(where[0].covariate, "position");
   EXPECT_NEAR(where[0].wavelength, 1.0418, 0.03);
+}
+
+
+
+// Oblique waves that are not round are named with their harmonics; where the
+// catalogue has no such effect, they are described by the place in the wave.
+TEST(HiddenStrength, OfUnevenWavesHasAName)
+{
+  Planting::CampaignOptions options;
+  options.campaign_class = CampaignClass::outside;
+  options.seed           = 4;
+  options.effects        = {"uneven_texture"};
+  options.amplitude      = 0.03;
+  const Trial trial      = Testing::run_trial(options, false);
+  EXPECT_EQ(trial.named, std::vector<std::string>{"texture"});
+  EXPECT_FALSE(trial.is_incomplete);
+  EXPECT_LT(trial.error_after, 0.15 * trial.error_before);
+}
+
+
+
+TEST_F(CampaignFolder, WavesWithoutANameAreDescribed)
+{
+  plant(CampaignClass::outside, 1, "uneven_texture", 0.03);
+  parameters.set("Diagnosis/Candidates", "pressure, healing", "test");
+  const Judgement judgement = judged();
+  ASSERT_EQ(name_of(judgement.verdict), "unnamed");
+  const Workspace                &workspace = *ingested.workspace;
+  const std::optional<Correction> correction =
+    find_correction(workspace,
+                    judgement.base,
+                    judgement,
+                    localise(workspace, judgement.base, judgement.gap));
+  ASSERT_TRUE(correction.has_value());
+  EXPECT_EQ(correction->covariate, "position");
+  EXPECT_GT(correction->share, 0.6);
 }
 
 
