@@ -26,10 +26,11 @@ namespace SlipStep
     std::string note(const Block<dim> &block)
     {
       std::ostringstream text;
-      text << block.n_cells() << " cells";
-      if (block.mesh_error().n_checked > 0)
+      text << block.state().unknowns.get_triangulation().n_global_active_cells()
+           << " cells";
+      if (block.state().mesh_error.n_checked > 0)
         text << ", mesh error " << std::setprecision(2)
-             << 100. * block.mesh_error().last << " %";
+             << 100. * block.state().mesh_error.last << " %";
       return text.str();
     }
 
@@ -71,8 +72,7 @@ namespace SlipStep
               with_probes.probes     = probes.values(block, communicator);
               if (!machine.is_rigid())
                 for (const double value :
-                     Machine::probes(block.machine_drive().state(),
-                                     row.pressure))
+                     Machine::probes(block.state().drive.state(), row.pressure))
                   with_probes.probes.push_back(value);
               // A full disk hits one rank only: all must stop together.
               const std::string failure = attempt_together(communicator, [&]() {
@@ -88,9 +88,9 @@ namespace SlipStep
         {
           reason = error.what();
         }
-      output.write_end(block.unknowns(),
-                       block.displacements(),
-                       block.contact_face());
+      output.write_end(block.state().unknowns,
+                       block.state().displacements,
+                       block.state().contact_face);
       write_lines(options.output,
                   parse_lines(parameters, block_parameters),
                   block,

@@ -125,7 +125,7 @@ namespace SlipStep
       return;
 
     const int          signal = wishes[0];
-    const unsigned int step   = block.step_control().n_accepted();
+    const unsigned int step   = block.state().control.n_accepted();
     if (step == 0)
       {
         if (signal == 0)
@@ -135,7 +135,7 @@ namespace SlipStep
       }
     const std::string failure = write(block, fields, recorder);
     const std::string present =
-      step_in_words(step, block.step_control().time());
+      step_in_words(step, block.state().control.time());
     const std::string last =
       last_step > 0 ? "the last one is of step " + std::to_string(last_step) :
                       "there is none before";
@@ -211,8 +211,8 @@ namespace SlipStep
           reason = on_first_rank([&]() {
             CheckpointManifest next;
             next.identity = CaseIdentity(parameters);
-            next.step     = block.step_control().n_accepted();
-            next.time     = block.step_control().time();
+            next.step     = block.state().control.n_accepted();
+            next.time     = block.state().control.time();
             next.ranks    = Utilities::MPI::n_mpi_processes(communicator);
             next.cells    = sizes.cells;
             next.dofs     = sizes.dofs;
@@ -223,7 +223,7 @@ namespace SlipStep
           });
       }
     if (reason.empty())
-      last_step = block.step_control().n_accepted();
+      last_step = block.state().control.n_accepted();
     else if (is_first_rank)
       store.abandon();
     // From now on, so that slow disks do not take all the time.

@@ -159,9 +159,9 @@ namespace SlipStep
     contact.revert();
     is_given_up = false;
     trial_work = trial_damped_energy = 0.;
-    n_newton = n_linear = 0;
-    stage_solution      = old_solution;
-    stage_frame         = old_loading.displacement;
+    newton.n_iterations = newton.n_linear = 0;
+    stage_solution                        = old_solution;
+    stage_frame                           = old_loading.displacement;
     drive.begin_step(control.time(), control.is_first_of_segment());
     inertia.begin_step();
     if (is_put_down())
@@ -194,16 +194,21 @@ namespace SlipStep
   // Nothing acts in full from the first instant: it would do more work than is
   // stored, and shorter steps would not make it less.
   template <int dim>
-  LoadFactors Block<dim>::factors_at(const double time) const
+  BlockState<dim> Block<dim>::state() const
   {
-    const Loading     now = programme.at(time);
-    const LoadFactors result{
-      {now.pressure,
-       std::min(1., time / programme.segments().front().end_time),
-       std::min(1., time / first_step),
-       now.displacement[0],
-       now.displacement[1]}};
-    return result;
+    Tensor<1, dim> frame_motion;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      frame_motion[parameters.tangential_axis(i)] = old_loading.displacement[i];
+    return {dof_handler,
+            old_solution,
+            frame_motion,
+            contact,
+            drive,
+            control,
+            tolerance.summary(),
+            mesh_changes,
+            newton.residual_norms,
+            largest_imbalance};
   }
 
 
@@ -212,7 +217,7 @@ namespace SlipStep
   void Block<dim>::begin_stage(const double end_time, const double time_step)
   {
     loading      = programme.at(end_time);
-    load_factors = factors_at(end_time);
+    load_factors = load_factors_at(programme, first_step, end_time);
     stage_time   = time_step;
     drive.begin_stage(end_time, time_step);
     move_frame_to(drive.displacement(0.));
@@ -241,7 +246,7 @@ namespace SlipStep
         const ContactTotals totals = contact.totals(communicator);
         if (totals.slip_area > 0.99 * totals.area)
           {
-            failure = "the block would slip faster than waves go";
+            newton.failure = "the block would slip faster than waves go";
             return false;
           }
       }
@@ -298,8 +303,8 @@ namespace SlipStep
   template <int dim>
   bool Block<dim>::solve_stage()
   {
-    residual_norms.clear();
-    failure.clear();
+    newton.residual_norms.clear();
+    newton.failure.clear();
     Vector       update(right_hand_side);
     Tensor<1, 2> motion;
 
@@ -308,10 +313,10 @@ namespace SlipStep
       norm = compute_residual();
     for (unsigned int n = 0;; ++n)
       {
-        residual_norms.push_back(norm / force_scale);
+        newton.residual_norms.push_back(norm / newton.force_scale);
         if (!std::isfinite(norm))
           {
-            failure = "the forces are not finite";
+            newton.failure = "the forces are not finite";
             return false;
           }
         // At least one iteration, so that every step is an equilibrium of its
@@ -323,10 +328,10 @@ namespace SlipStep
             std::ostringstream message;
             message << "Newton's method did not converge in " << n
                     << " iterations: the forces are out of balance by "
-                    << norm / force_scale
+                    << norm / newton.force_scale
                     << " of the contact force, allowed are "
                     << parameters.newton_tolerance;
-            failure = message.str();
+            newton.failure = message.str();
             return false;
           }
 
@@ -343,10 +348,10 @@ namespace SlipStep
           }
         catch (const RunError &error)
           {
-            failure = error.what();
+            newton.failure = error.what();
             return false;
           }
-        ++n_newton;
+        ++newton.n_iterations;
         ++n_newton_total;
 
         norm = line_search(update, motion, norm);
@@ -362,9 +367,9 @@ namespace SlipStep
   double Block<dim>::wanted_norm() const
   {
     const double of_drive =
-      drive.is_unknown() ? drive_weight * drive.round_off() : 0.;
+      drive.is_unknown() ? newton.drive_weight * drive.round_off() : 0.;
     return std::max(
-      {parameters.newton_tolerance * force_scale,
+      {parameters.newton_tolerance * newton.force_scale,
        of_drive,
        inertia.round_off(solution, loading.displacement.norm(), stage_time)});
   }
@@ -375,8 +380,8 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::forget_iterations()
   {
-    n_newton_total -= n_newton;
-    n_linear_total -= n_linear;
+    n_newton_total -= newton.n_iterations;
+    n_linear_total -= newton.n_linear;
   }
 
 
@@ -387,10 +392,10 @@ namespace SlipStep
   template <int dim>
   bool Block<dim>::only_round_off_is_left() const
   {
-    const std::size_t n = residual_norms.size();
+    const std::size_t n = newton.residual_norms.size();
     return n > 2 &&
-           residual_norms[n - 1] <= 10. * parameters.newton_tolerance &&
-           residual_norms[n - 1] > 0.5 * residual_norms[n - 2];
+           newton.residual_norms[n - 1] <= 10. * parameters.newton_tolerance &&
+           newton.residual_norms[n - 1] > 0.5 * newton.residual_norms[n - 2];
   }
 
 
@@ -402,7 +407,7 @@ namespace SlipStep
   template <int dim>
   double Block<dim>::linear_tolerance(const double norm) const
   {
-    const double forcing = std::min(0.01, 5. * norm / force_scale);
+    const double forcing = std::min(0.01, 5. * norm / newton.force_scale);
     return std::max({1e-13 * norm, forcing * norm, 0.5 * wanted_norm()});
   }
 
@@ -451,34 +456,35 @@ namespace SlipStep
     unbalanced    = 0.;
     contact.add_forces(unbalanced);
     unbalanced.compress(VectorOperation::add);
-    contact_forces = FaceVector(unbalanced);
-    force_scale    = contact_forces.l2_norm();
+    contact_forces     = FaceVector(unbalanced);
+    newton.force_scale = contact_forces.l2_norm();
     // The force of the drive is a sum over nodes, as that of the contact.
     if (drive.is_unknown())
-      drive_weight = force_scale / std::max(unbalanced.l1_norm(), 1e-300);
+      newton.drive_weight =
+        newton.force_scale / std::max(unbalanced.l1_norm(), 1e-300);
 
     system->add_elastic_forces(strained_displacement(), unbalanced);
     unbalanced.compress(VectorOperation::add);
-    force_scale = std::max(force_scale,
-                           inertia.add_forces(solution,
-                                              stage_solution,
-                                              frame_motion_in_stage(),
-                                              stage_time,
-                                              unbalanced));
+    newton.force_scale = std::max(newton.force_scale,
+                                  inertia.add_forces(solution,
+                                                     stage_solution,
+                                                     frame_motion_in_stage(),
+                                                     stage_time,
+                                                     unbalanced));
     add_loads(-1., unbalanced);
     move_to_masters(hanging_constraints, unbalanced);
-    force_scale = std::max(force_scale, 1e-300);
+    newton.force_scale = std::max(newton.force_scale, 1e-300);
     for (unsigned int k = 0; k < n_load_parts; ++k)
-      force_scale =
-        std::max(force_scale,
+      newton.force_scale =
+        std::max(newton.force_scale,
                  std::abs(load_factors[k]) * load_cases[k].force.l2_norm());
-    force_scale = std::max(force_scale, least_force_scale());
+    newton.force_scale = std::max(newton.force_scale, least_force_scale());
 
     right_hand_side = 0.;
     right_hand_side.add(-1., unbalanced);
     move_to_masters(homogeneous_constraints, right_hand_side);
     return std::hypot(right_hand_side.l2_norm(),
-                      drive_weight * force_missing_on_drive().norm());
+                      newton.drive_weight * force_missing_on_drive().norm());
   }
 
 
@@ -518,8 +524,8 @@ namespace SlipStep
     row.stored_energy =
       totals.stored + elastic_energy() + drive.stored_energy() + kinetic;
     row.external_work     = external_work;
-    row.newton_iterations = n_newton;
-    row.linear_iterations = n_linear;
+    row.newton_iterations = newton.n_iterations;
+    row.linear_iterations = newton.n_linear;
     row.slip              = totals.slip;
     row.memories          = totals.memories;
 

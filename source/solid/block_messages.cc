@@ -69,9 +69,9 @@ namespace SlipStep
                 << "xyz"[d]
                 << " with respect to the drive and to each other, which is too "
                    "much for small strains and rotations";
-        failure = message.str();
+        newton.failure = message.str();
         throw RunError("At t = " + std::to_string(control.time()) + " s " +
-                       (tips_over() ? reason_of_failure() : failure));
+                       (tips_over() ? reason_of_failure() : newton.failure));
       }
   }
 
@@ -95,20 +95,22 @@ namespace SlipStep
     if (tips_over())
       message << "the block tips over: only "
               << std::round(100. * contact_share)
-              << " % of its face is still in contact (" << failure << ")";
+              << " % of its face is still in contact (" << newton.failure
+              << ")";
     else if (control.time() == 0. &&
-             failure.find("'set Solver = automatic'") == std::string::npos)
+             newton.failure.find("'set Solver = automatic'") ==
+               std::string::npos)
       message << "not even the beginning of the loads is in equilibrium: they "
                  "lift the block or tip it over, or, if they do hold it on the "
                  "plane, more Block/Newton iterations than "
               << parameters.newton_iterations
               << " or, where round-off is in the way, a larger Block/Newton "
                  "tolerance may help ("
-              << failure << ")";
+              << newton.failure << ")";
     else if (drive.is_unknown() && drive.mass() == 0. && !inertia.exists())
-      message << drive.reason_of_failure() << " (" << failure << ")";
+      message << drive.reason_of_failure() << " (" << newton.failure << ")";
     else
-      message << failure << remedy_of_jumps();
+      message << newton.failure << remedy_of_jumps();
     return message.str();
   }
 

@@ -25,13 +25,13 @@ namespace SlipStep
     const MappingQ1<dim>                       mapping;
     const auto                                 values =
       VectorTools::point_values<dim>(mapping,
-                                     block.unknowns(),
-                                     block.displacements(),
+                                     block.state().unknowns,
+                                     block.state().displacements,
                                      asks ? points : std::vector<Point<dim>>(),
                                      cache);
     std::vector<Tensor<1, dim>> result(values.begin(), values.end());
     for (Tensor<1, dim> &value : result)
-      value += block.motion_of_frame();
+      value += block.state().frame_motion;
     return Utilities::MPI::broadcast(communicator, result, 0);
   }
 
@@ -72,8 +72,9 @@ namespace SlipStep
     std::size_t         n_points = 0;
     for (const QuantityOfInterest &probe : probes)
       if (probe.is_on_contact_face())
-        result.push_back(
-          on_contact_face.value(probe, block.contact_face(), communicator));
+        result.push_back(on_contact_face.value(probe,
+                                               block.state().contact_face,
+                                               communicator));
       else if (probe.kind == Kind::displacement)
         result.push_back(displacements[n_points++][probe.component]);
       else

@@ -207,24 +207,20 @@ namespace SlipStep
   template <int dim>
   bool Block<dim>::find_equilibrium_at_start()
   {
-    const Loading     end     = loading;
-    const auto        newton  = std::make_pair(n_newton, n_linear);
-    const auto        norms   = residual_norms;
-    const std::string message = failure;
+    const Loading      end    = loading;
+    const NewtonRecord record = newton;
     loading                   = old_loading;
     stage_time                = 1e-6 * control.step_size();
     stage_solution            = old_solution;
     stage_frame               = old_loading.displacement;
-    load_factors              = factors_at(control.time());
-    solution                  = old_solution;
+    load_factors = load_factors_at(programme, first_step, control.time());
+    solution     = old_solution;
     drive.rest();
     move_frame_to(old_loading.displacement);
     impose_displacements();
-    const bool is_found          = solve_stage();
-    loading                      = end;
-    std::tie(n_newton, n_linear) = newton;
-    residual_norms               = norms;
-    failure                      = message;
+    const bool is_found = solve_stage();
+    loading             = end;
+    newton              = record;
     return is_found;
   }
 

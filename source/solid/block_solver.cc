@@ -80,7 +80,7 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::count_linear_iterations(const unsigned int n)
   {
-    n_linear += n;
+    newton.n_linear += n;
     n_linear_total += n;
   }
 

@@ -62,10 +62,11 @@ namespace SlipStep
       return solve_stage();
     };
     const double      loading = time_of_largest_load(programme);
-    const LoadFactors largest = factors_at(loading);
-    LoadFactors       now     = factors_at(control.end_of_step());
-    Vector            guess   = old_solution;
-    double            borne   = 0.;
+    const LoadFactors largest = load_factors_at(programme, first_step, loading);
+    LoadFactors       now =
+      load_factors_at(programme, first_step, control.end_of_step());
+    Vector guess = old_solution;
+    double borne = 0.;
     for (double share = 1.; share * largest[0] > now[0] && !is_given_up;
          share *= less)
       {
@@ -85,10 +86,10 @@ namespace SlipStep
       {
         control.plan_anew(control.step_size() * borne / now[0]);
         solution = guess;
-        now      = factors_at(control.end_of_step());
+        now = load_factors_at(programme, first_step, control.end_of_step());
         solve(now, control.step_size());
       }
-    return !is_given_up && failure.empty() && finish_stage(1.);
+    return !is_given_up && newton.failure.empty() && finish_stage(1.);
   }
 
 

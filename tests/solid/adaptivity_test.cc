@@ -101,7 +101,7 @@ TEST(Adaptivity, changes_of_the_mesh_are_not_felt)
                  {"Block/Adaptivity/Merging share", "0.9"}}),
       MPI_COMM_SELF,
       [&](const Block<2> &block) {
-        for (const MeshChange &change : block.changes_of_mesh())
+        for (const MeshChange &change : block.state().mesh_changes)
           {
             // What is carried over, to round-off.
             EXPECT_LT(change.load_jump, 1e-10);
@@ -110,7 +110,7 @@ TEST(Adaptivity, changes_of_the_mesh_are_not_felt)
             n_repeated += change.repeats_step;
             n_after += !change.repeats_step;
           }
-        EXPECT_LT(block.force_imbalance(), 1e-7);
+        EXPECT_LT(block.state().force_imbalance, 1e-7);
       });
   EXPECT_GT(n_merged, 0u);
   EXPECT_GT(n_repeated, 4u);
@@ -147,7 +147,7 @@ TEST(Adaptivity, mesh_follows_the_slip_front)
 {
   const auto size_at = [](const Block<2> &block, const double x) {
     double size = 0.;
-    for (const auto &face : block.contact_face().cell_faces())
+    for (const auto &face : block.state().contact_face.cell_faces())
       if (std::abs(face.cell->center()[0] - x) <=
           0.5 * face.cell->face(face.face)->measure())
         size = std::max(size, face.cell->face(face.face)->measure());
@@ -162,7 +162,7 @@ TEST(Adaptivity, mesh_follows_the_slip_front)
       MPI_COMM_SELF,
       [&](const Block<2> &block) {
         double front = 40.;
-        for (const auto &face : block.contact_face().cell_faces())
+        for (const auto &face : block.state().contact_face.cell_faces())
           for (const auto &point : face.points)
             if (point.point.committed().loading_ratio > 1. - 1e-6)
               front = std::min(front, point.position[0]);
@@ -208,8 +208,9 @@ TEST(Adaptivity, contact_goal_leaves_the_driven_face_alone)
                      {"Block/Adaptivity/Tolerance", "0.02"}}),
           MPI_COMM_SELF,
           [&](const Block<2> &block) {
-            for (const auto &cell :
-                 block.unknowns().get_triangulation().active_cell_iterators())
+            for (const auto &cell : block.state()
+                                      .unknowns.get_triangulation()
+                                      .active_cell_iterators())
               for (const unsigned int f : {2, 3})
                 if (cell->at_boundary(f))
                   {
@@ -217,7 +218,7 @@ TEST(Adaptivity, contact_goal_leaves_the_driven_face_alone)
                       smallest[(f == 3) == (contact == "top") ? 0 : 1];
                     size = std::min(size, cell->face(f)->measure());
                   }
-            EXPECT_LE(block.mesh_error().last, 0.0205);
+            EXPECT_LE(block.state().mesh_error.last, 0.0205);
           });
         EXPECT_EQ(result.failure, "");
         return smallest;
@@ -254,7 +255,8 @@ TEST(Adaptivity, supports_and_loads_on_hanging_nodes)
                    {"Block/Adaptivity/Beyond the limit", "warn"}}),
         MPI_COMM_SELF,
         [](const Block<3> &block) {
-          EXPECT_TRUE(block.unknowns().get_triangulation().has_hanging_nodes());
+          EXPECT_TRUE(
+            block.state().unknowns.get_triangulation().has_hanging_nodes());
         });
       EXPECT_EQ(result.failure, "");
       EXPECT_LT(result.force_imbalance, 1e-7);
@@ -359,7 +361,7 @@ TEST(Adaptivity, error_shown_is_that_of_the_mesh_beside_it)
                     Settings{{"Block/Adaptivity/Tolerance", "0.002"}}),
     MPI_COMM_SELF,
     [&](const Block<2> &block) {
-      const auto &changes = block.changes_of_mesh();
+      const auto &changes = block.state().mesh_changes;
       ASSERT_GT(changes.size(), 3u);
       for (const MeshChange &change : changes)
         EXPECT_TRUE(std::isfinite(change.error));
@@ -371,8 +373,8 @@ TEST(Adaptivity, error_shown_is_that_of_the_mesh_beside_it)
             EXPECT_EQ(changes[i].error_before, changes[i - 1].error);
             EXPECT_LT(changes[i].error, changes[i].error_before);
           }
-      EXPECT_EQ(changes.back().time < block.step_control().time(), true);
-      EXPECT_GT(block.mesh_error().last, 0.);
+      EXPECT_EQ(changes.back().time < block.state().control.time(), true);
+      EXPECT_GT(block.state().mesh_error.last, 0.);
     });
   EXPECT_GT(n_chained, 0u);
 }

@@ -45,9 +45,9 @@ namespace
                    StepControl(parameters, programme, law),
                    MPI_COMM_SELF);
     block.run(&output, [&](const HistoryRow &row) { last = row; });
-    output.write_end(block.unknowns(),
-                     block.displacements(),
-                     block.contact_face());
+    output.write_end(block.state().unknowns,
+                     block.state().displacements,
+                     block.state().contact_face);
 
     std::string   header;
     std::ifstream in(folder / "contact_face.csv");

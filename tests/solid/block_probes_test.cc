@@ -160,7 +160,8 @@ TEST(BlockProbes, actions_through_all_faces_are_in_balance)
                         {"Time stepping/Least steps per statement", "2"}};
   run_block_case<3>(
     make_parameters(settings), MPI_COMM_SELF, [&](const Block<3> &block) {
-      EXPECT_TRUE(block.unknowns().get_triangulation().has_hanging_nodes());
+      EXPECT_TRUE(
+        block.state().unknowns.get_triangulation().has_hanging_nodes());
       dealii::Tensor<1, 3> force, moment;
       double               largest = 0.;
       for (unsigned int f = 0; f < 6; ++f)

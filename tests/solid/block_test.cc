@@ -60,7 +60,7 @@ TEST(PatchTest, uniform_compression)
                         Settings{{"Block/Faces/front", "displacement y 0 mm"}}),
         MPI_COMM_SELF,
         [](const Block<3> &block) {
-          for (const auto &face : block.contact_face().cell_faces())
+          for (const auto &face : block.state().contact_face.cell_faces())
             for (const auto &point : face.points)
               EXPECT_NEAR(point.point.committed().normal_traction, 5.8, 1e-6);
         });
@@ -272,7 +272,7 @@ TEST(Newton, steps_that_are_given_up_are_made_again)
   ASSERT_EQ(history.size(), undisturbed.history.size());
   EXPECT_GE(n_given_up, 6u);
   EXPECT_EQ(n_between,
-            history.size() + n_given_up + block.step_control().n_rejected());
+            history.size() + n_given_up + block.state().control.n_rejected());
   for (unsigned int i = 0; i < history.size(); ++i)
     {
       EXPECT_NEAR(history[i].friction, undisturbed.history[i].friction, 1e-7);
@@ -350,7 +350,7 @@ TEST(Flat, face_stays_flat)
       make_parameters(slide + two_cells + Settings{{"Block/Faces/top", top}}),
       MPI_COMM_SELF,
       [&](const Block<3> &block) {
-        for (const auto &face : block.contact_face().cell_faces())
+        for (const auto &face : block.state().contact_face.cell_faces())
           for (const auto &point : face.points)
             {
               const double p = point.point.committed().normal_traction;

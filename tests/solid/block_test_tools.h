@@ -59,7 +59,7 @@ namespace SlipStep::Testing
       {
         block.run(nullptr, [&](const HistoryRow &row) {
           result.history.push_back(row);
-          result.newton_residuals.push_back(block.newton_residuals());
+          result.newton_residuals.push_back(block.state().newton_residuals);
         });
       }
     catch (const RunError &error)
@@ -68,7 +68,7 @@ namespace SlipStep::Testing
       }
     block.fill(result.summary);
     summarise_history(result.history, programme, result.summary);
-    result.force_imbalance = block.force_imbalance();
+    result.force_imbalance = block.state().force_imbalance;
     if (inspect)
       inspect(block);
     return result;

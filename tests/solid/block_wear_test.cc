@@ -46,7 +46,7 @@ namespace
     Worn                 worn;
     worn.result = run_block_case<2>(
       make_parameters(settings), MPI_COMM_SELF, [&](const Block<2> &block) {
-        for (const auto &face : block.contact_face().cell_faces())
+        for (const auto &face : block.state().contact_face.cell_faces())
           for (const auto &point : face.points)
             {
               const ContactState &state = point.point.committed();

@@ -187,11 +187,11 @@ TEST(Gap, Hertz)
                {"Loading/Programme", "press 0.25 MPa in 1 s"}}),
     MPI_COMM_SELF,
     [&](const Block<2> &block) {
-      const auto fit = fit_ellipse(block.contact_face(), 20.);
+      const auto fit = fit_ellipse(block.state().contact_face, 20.);
       EXPECT_NEAR(fit[0], 2. * P / (dealii::numbers::PI * a), 0.01 * fit[0]);
       EXPECT_NEAR(fit[1], a, 0.01 * a);
       // The edge of the contact has been refined, the free face has not.
-      for (const auto &face : block.contact_face().cell_faces())
+      for (const auto &face : block.state().contact_face.cell_faces())
         {
           const double away =
             std::abs(face.cell->face(face.face)->center()[0] - 20.);
@@ -225,7 +225,7 @@ TEST(StrengthMap, HoldsAtEveryPoint)
                     "press 5.8 MPa in 1 s; slide 1 mm/s for 0.05 mm"}}),
         MPI_COMM_SELF,
         [&](const Block<2> &block) {
-          for (const auto &face : block.contact_face().cell_faces())
+          for (const auto &face : block.state().contact_face.cell_faces())
             for (const auto &point : face.points)
               {
                 const ContactState &state = point.point.committed();

@@ -32,7 +32,7 @@ namespace
         const FaceProbes<dim> probes(BlockParameters(parameters, programme),
                                      programme,
                                      parse_quantities(parameters, programme));
-        values = probes.values(block.contact_face(), MPI_COMM_SELF);
+        values = probes.values(block.state().contact_face, MPI_COMM_SELF);
       });
     EXPECT_EQ(result.failure, "");
     return values;
@@ -56,7 +56,7 @@ TEST(FaceProbes, pressure_is_that_of_the_solution)
       const Parameters parameters = make_parameters(slide);
       const Programme  programme  = parse_programme(parameters);
       run_block_case<3>(parameters, MPI_COMM_SELF, [&](const Block<3> &block) {
-        const auto &faces = block.contact_face().cell_faces();
+        const auto &faces = block.state().contact_face.cell_faces();
         ASSERT_EQ(faces.size(), 6u);
         double least = 1e300, largest = 0.;
         for (const auto &face : faces)
@@ -74,7 +74,8 @@ TEST(FaceProbes, pressure_is_that_of_the_solution)
                                                           programme));
               const double pressure = point.point.committed().normal_traction;
               // The text has six digits.
-              EXPECT_NEAR(probes.values(block.contact_face(), MPI_COMM_SELF)[0],
+              EXPECT_NEAR(probes.values(block.state().contact_face,
+                                        MPI_COMM_SELF)[0],
                           pressure,
                           1e-4);
               least   = std::min(least, pressure);
@@ -125,10 +126,10 @@ TEST(FaceProbes, slip_front_of_a_strip)
                                      programme,
                                      parse_quantities(parameters, programme));
           const double        front =
-            probes.values(block.contact_face(), MPI_COMM_SELF)[0];
+            probes.values(block.state().contact_face, MPI_COMM_SELF)[0];
           const double length = forward ? L - front : front;
           double       force  = 0.;
-          for (const auto &face : block.contact_face().cell_faces())
+          for (const auto &face : block.state().contact_face.cell_faces())
             for (const auto &point : face.points)
               force +=
                 point.JxW * std::abs(point.point.committed().traction[0]);
@@ -159,7 +160,7 @@ TEST(FaceProbes, slip_front_of_a_curve)
     const Programme programme = parse_programme(parameters);
     double          error     = 0.;
     run_block_case<2>(parameters, MPI_COMM_SELF, [&](const Block<2> &block) {
-      ContactFace<2> contact = block.contact_face();
+      ContactFace<2> contact = block.state().contact_face;
       for (unsigned int i = 0; i < contact.cell_faces().size(); ++i)
         {
           std::vector<ContactState> states;

@@ -129,16 +129,16 @@ TEST(Loads, AtOnceShorterStepsAreSmallerOnes)
   const Programme   programme = parse_programme(parameters);
   StepControl       control(parameters, programme, law);
   const double      whole = control.step_size();
-  Block<2>          block(BlockParameters(parameters, programme),
-                 law,
-                 programme,
-                 control,
-                 MPI_COMM_SELF);
   control.cut("test");
   ASSERT_LT(control.step_size(), 0.8 * whole);
-  const auto half = block.factors_at(control.step_size());
-  EXPECT_DOUBLE_EQ(half[at_once], control.step_size() / whole);
-  EXPECT_EQ(block.factors_at(1.5 * whole)[at_once], 1.);
+  const auto at = [&](const double time) {
+    return load_factors_at(programme, whole, time);
+  };
+  EXPECT_DOUBLE_EQ(at(control.step_size())[at_once],
+                   control.step_size() / whole);
+  EXPECT_EQ(at(1.5 * whole)[at_once], 1.);
+  EXPECT_EQ(at(0.25)[gradual], 0.25);
+  EXPECT_EQ(at(0.25)[programme_pressure], programme.at(0.25).pressure);
 }
 
 

@@ -36,7 +36,7 @@ namespace
                                    programme,
                                    parse_quantities(parameters, programme));
         outcome.edge_pressure =
-          probes.values(block.contact_face(), MPI_COMM_SELF)[0];
+          probes.values(block.state().contact_face, MPI_COMM_SELF)[0];
       });
     EXPECT_EQ(result.failure, "");
     outcome.n_unknowns = result.summary.dofs;
@@ -120,7 +120,7 @@ TEST(RefinementStudy, edges_and_corners_in_space)
         result = FaceProbes<3>(BlockParameters(parameters, programme),
                                programme,
                                parse_quantities(parameters, programme))
-                   .values(block.contact_face(), MPI_COMM_SELF);
+                   .values(block.state().contact_face, MPI_COMM_SELF);
       });
     EXPECT_EQ(outcome.failure, "");
     result.push_back(outcome.summary.dofs);

@@ -84,7 +84,7 @@ namespace
     block.run(nullptr, [&](const HistoryRow &row) {
       const double front =
         block_parameters.size[0] / 2. -
-        probes.values(block.contact_face(), MPI_COMM_SELF)[0];
+        probes.values(block.state().contact_face, MPI_COMM_SELF)[0];
       if (std::isfinite(front))
         for (Passage *passage : {&a, &b, &c, &d})
           passage->see(front, row.time);

@@ -215,7 +215,7 @@ TEST(ShearLag, shipped_case)
         if (exact.slip_length > 0.25 * strip.length)
           {
             const double front =
-              slip_length(block.contact_face(), strip.length);
+              slip_length(block.state().contact_face, strip.length);
             worst_front[segment] =
               std::max(worst_front[segment],
                        std::abs(front / exact.slip_length - 1.));

@@ -46,7 +46,7 @@ TEST(SheetBetweenTools, stretch)
   run_block_case<3>(parameters, MPI_COMM_SELF, [&](const Block<3> &block) {
     double x_left = 1e300, x_right = 0.;
     double slip_left = 0., slip_right = 0., load = 0., area = 0.;
-    for (const auto &face : block.contact_face().cell_faces())
+    for (const auto &face : block.state().contact_face.cell_faces())
       for (const auto &point : face.points)
         {
           const double x = point.position[0];

@@ -123,7 +123,7 @@ namespace
         const auto u = displacements_at(block, points, MPI_COMM_SELF);
         for (unsigned int i = 0; i < points.size(); ++i)
           solution.displacement[i] = (mirrored ? -1. : 1.) * u[i][0];
-        find_zones(block.contact_face(), mirrored, solution);
+        find_zones(block.state().contact_face, mirrored, solution);
       });
     EXPECT_EQ(result.failure, "");
     return solution;

@@ -46,6 +46,33 @@ namespace SlipStep
   // sliding cost no digits of an elastic displacement of 100 nm, and the last
   // displacement is a good first guess for the next.
 
+  /// What an observer sees of a block after a step. References hold as long as
+  /// the block, and show what it has become.
+  template <int dim>
+  struct BlockState
+  {
+    const dealii::DoFHandler<dim> &unknowns;
+    /// Ghosted, relative to the frame [mm].
+    const Vector &displacements;
+    /// Motion of the frame, along the axes of the block [mm].
+    dealii::Tensor<1, dim>  frame_motion;
+    const ContactFace<dim> &contact_face;
+    const Drive            &drive;
+    const StepControl      &control;
+    /// Estimated error of the meshes of accepted steps.
+    const MeshErrorSummary &mesh_error;
+    /// What the mesh did so far.
+    const std::vector<MeshChange> &mesh_changes;
+    /// Norms of the unbalanced forces in the Newton iterations of the last step
+    /// tried, relative to the scale of the convergence test.
+    const std::vector<double> &newton_residuals;
+    /// Largest difference met between the contact forces and the sum of loads
+    /// and support reactions, relative to the normal load.
+    double force_imbalance;
+  };
+
+
+
   /// An elastic block pressed on a rigid plane and slid; see the page "The
   /// commented program".
   template <int dim>
@@ -104,78 +131,12 @@ namespace SlipStep
     /// Cells, unknowns and iterations so far.
     void fill(Summary &summary) const;
 
-    dealii::types::global_cell_index n_cells() const
-    {
-      return triangulation.n_global_active_cells();
-    }
-
-    /// How much of each part of the loading acts at a time [s].
-    LoadFactors factors_at(const double time) const;
-
-    const dealii::DoFHandler<dim> &unknowns() const
-    {
-      return dof_handler;
-    }
-
-    /// Estimated error of the meshes of accepted steps.
-    const MeshErrorSummary &mesh_error() const
-    {
-      return tolerance.summary();
-    }
-
-    /// What the mesh did so far.
-    const std::vector<MeshChange> &changes_of_mesh() const
-    {
-      return mesh_changes;
-    }
-
-    const Drive &machine_drive() const
-    {
-      return drive;
-    }
-
-    const StepControl &step_control() const
-    {
-      return control;
-    }
-
-    const ContactFace<dim> &contact_face() const
-    {
-      return contact;
-    }
-
-    /// At the end of the last step, ghosted, relative to the frame [mm].
-    const Vector &displacements() const
-    {
-      return old_solution;
-    }
-
-    /// Motion of the frame then, along the axes of the block [mm].
-    dealii::Tensor<1, dim> motion_of_frame() const
-    {
-      dealii::Tensor<1, dim> motion;
-      for (unsigned int i = 0; i < dim - 1; ++i)
-        motion[parameters.tangential_axis(i)] = old_loading.displacement[i];
-      return motion;
-    }
+    /// The block after the last step.
+    BlockState<dim> state() const;
 
     /// What acts on the block through one of its faces at the end of the step
     /// just made; all ranks take part.
     FaceAction action_on(const unsigned int face) const;
-
-    /// Norms of the unbalanced forces in the Newton iterations of the last step
-    /// tried, relative to the scale of the convergence test.
-    const std::vector<double> &newton_residuals() const
-    {
-      return residual_norms;
-    }
-
-    /// Largest difference met between the contact forces and the sum of loads
-    /// and support reactions, relative to the normal load.
-    double force_imbalance() const
-    {
-      return largest_imbalance;
-    }
 
   private:
     // Setting up.
@@ -337,16 +298,21 @@ namespace SlipStep
     dealii::Tensor<2, 2>        drive_springs;
     double                      driven_mass = 0.;
 
-    // Newton's method.
-    FaceVector          contact_forces; // not constrained
-    Vector              unbalanced; // internal - external forces, all supports
-    Vector              right_hand_side; // and scratch between the solutions
-    double              force_scale  = 0.;
-    double              drive_weight = 0.; // of forces of the drive therein
-    std::vector<double> residual_norms;
-    unsigned int        n_newton = 0, n_linear = 0;
-    unsigned long long  n_newton_total = 0, n_linear_total = 0;
-    std::string         failure;
+    // Newton's method in the present step.
+    struct NewtonRecord
+    {
+      double              force_scale  = 0.;
+      double              drive_weight = 0.; // of forces of the drive therein
+      std::vector<double> residual_norms;
+      unsigned int        n_iterations = 0, n_linear = 0;
+      std::string         failure;
+    };
+
+    FaceVector         contact_forces; // not constrained
+    Vector             unbalanced; // internal - external forces, all supports
+    Vector             right_hand_side; // and scratch between the solutions
+    NewtonRecord       newton;
+    unsigned long long n_newton_total = 0, n_linear_total = 0;
 
     std::function<bool()> gives_up_step;
     bool                  is_given_up = false;

@@ -4,6 +4,9 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <slipstep/experiment/programme.h>
+
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -23,6 +26,20 @@ namespace SlipStep
 
   /// How much of each part acts.
   using LoadFactors = std::array<double, n_load_parts>;
+
+  /// @param first_step over which what acts at once comes [s]
+  /// @param time [s]
+  inline LoadFactors load_factors_at(const Programme &programme,
+                                     const double     first_step,
+                                     const double     time)
+  {
+    const Loading now = programme.at(time);
+    return {{now.pressure,
+             std::min(1., time / programme.segments().front().end_time),
+             std::min(1., time / first_step),
+             now.displacement[0],
+             now.displacement[1]}};
+  }
 
   /// A distributed vector that is zero but for a few faces: its entries there,
   /// of the unknowns of this rank.
