@@ -188,22 +188,14 @@ namespace SlipStep
                       workspace.range.track_wave;
       if (!(wavelength > 0.))
         return {};
-      // A wave that is found has one of few lengths.
-      const std::vector<double> shares =
-        has_texture ? std::vector<double>{1.} :
-                      std::vector<double>{0.96, 0.98, 1., 1.02, 1.04};
       const double reach =
         workspace.covariates.position.cwiseAbs().maxCoeff() + wavelength;
-      std::vector<KnotScale> scales;
-      for (const double share : shares)
-        {
-          scales.push_back(linear_scale("position", -reach, reach));
-          scales.back().kind       = KnotScale::Kind::periodic;
-          scales.back().offset     = share * wavelength;
-          scales.back().first_knot = 0.;
-          scales.back().last_knot  = 1.;
-        }
-      return scales;
+      KnotScale scale  = linear_scale("position", -reach, reach);
+      scale.kind       = KnotScale::Kind::periodic;
+      scale.offset     = wavelength;
+      scale.first_knot = 0.;
+      scale.last_knot  = 1.;
+      return {scale};
     }
 
 

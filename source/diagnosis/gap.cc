@@ -139,7 +139,12 @@ namespace SlipStep
                                            workspace.wavelengths,
                                            model,
                                            workspace.null_draws);
-    return wave.p <= share_of_others * workspace.level ? wave.wavelength : 0.;
+    return wave.p <= share_of_others * workspace.level ?
+             refined_wavelength(workspace.comparison,
+                                workspace.covariates,
+                                model,
+                                wave.wavelength) :
+             0.;
   }
 
 

@@ -197,13 +197,17 @@ namespace SlipStep
     {
       if (gap.p_track > workspace.level)
         return;
+      const double wavelength = refined_wavelength(workspace.comparison,
+                                                   workspace.covariates,
+                                                   base,
+                                                   gap.wavelength);
       const ScoreTest::Together together =
         ScoreTest(workspace.comparison,
                   base,
                   workspace.null_draws,
                   track_waves(workspace.comparison,
                               workspace.covariates,
-                              {gap.wavelength}))
+                              {wavelength}))
           .together();
       if (!(together.excess > least_share_told * gap.excess))
         return;
@@ -212,7 +216,7 @@ namespace SlipStep
       place.unit      = "mm";
       // The excess knows other waves only.
       place.share = together.excess / std::max(together.excess, gap.excess);
-      place.wavelength = gap.wavelength;
+      place.wavelength = wavelength;
       find_members(workspace,
                    together.explained,
                    Rows(together.explained.size(), true),

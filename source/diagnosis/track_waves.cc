@@ -139,4 +139,43 @@ namespace SlipStep
     return {test.family_p(clearest->value),
             wavelengths[(clearest - test.scores.begin()) / n_shifts]};
   }
+
+
+
+  double refined_wavelength(const Comparison &comparison,
+                            const Covariates &covariates,
+                            const Model      &model,
+                            const double      wavelength)
+  {
+    // Of a wave, at the end of the longest track; and how far the next of
+    // track_wavelengths() is.
+    constexpr double step = 0.125, reach = 0.5;
+
+    double longest = 0.;
+    for (const ComparedTest &test : comparison.tests)
+      longest = std::max(longest, track_of(test, covariates));
+    const double waves = usual_track(comparison, covariates) / wavelength;
+    const double steps = std::ceil(reach / waves * longest / wavelength / step);
+    const int    n     = static_cast<int>(std::min(steps, 200.));
+    // No chances are asked for.
+    const RowMatrix no_draws = RowMatrix::Zero(comparison.n_rows(), 2);
+    double          best = wavelength, largest = 0.;
+    for (int i = -n; i <= n; ++i)
+      {
+        const double tried = wavelength * waves / (waves + reach * i / n);
+        const double gain =
+          ScoreTest(comparison,
+                    model,
+                    no_draws,
+                    track_waves(comparison, covariates, {tried}))
+            .together()
+            .gain;
+        if (gain > largest)
+          {
+            largest = gain;
+            best    = tried;
+          }
+      }
+    return best;
+  }
 } // namespace SlipStep

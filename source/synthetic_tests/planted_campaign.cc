@@ -372,7 +372,7 @@ namespace SlipStep
         const std::vector<Protocol> protocols =
           options.campaign_class == CampaignClass::narrow ?
             draw_narrow_protocols(n_protocols, random) :
-            draw_protocols(n_protocols, random);
+            draw_protocols(n_protocols, options.edition, random);
         const std::vector<std::size_t> order =
           draw_run_order(n_protocols, options.n_tests, random);
 

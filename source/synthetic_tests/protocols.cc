@@ -134,16 +134,29 @@ namespace SlipStep
 
 
 
-      // Up and down while it slides, each change within a second.
+      // Up and down while it slides, each change within a time [s].
       Protocol pressure_steps(const double               speed,
                               const double               pressure,
-                              const std::vector<double> &pressures)
+                              const std::vector<double> &pressures,
+                              const double               duration = 1.)
       {
         Script script("pressure steps " + level(speed, "mm/s"), pressure);
         script.slide(speed, 8.);
         for (const double wanted : pressures)
-          script.press(wanted, speed, 1.).slide(speed, 4.);
+          script.press(wanted, speed, duration).slide(speed, 4.);
         return script;
+      }
+
+
+
+      Protocol pressure_ramp(const double speed,
+                             const double pressure,
+                             const double end_pressure,
+                             const double length)
+      {
+        return Script("pressure ramp " + level(speed, "mm/s"), pressure)
+          .slide(speed, 2.)
+          .press(end_pressure, speed, length / speed);
       }
 
 
@@ -209,25 +222,33 @@ namespace SlipStep
 
 
 
-    std::vector<Protocol> draw_protocols(const unsigned int n, Random &random)
+    std::vector<Protocol> draw_protocols(const unsigned int n,
+                                         const unsigned int edition,
+                                         Random            &random)
     {
-      const Levels v      = draw_levels_of_loading(random);
-      const double p      = v.usual;
-      const double length = std::round(uniform(random, 15., 25.));
-      const double rest   = rounded(log_uniform(random, 10., 30.));
+      const bool   is_first = edition < 2;
+      const Levels v        = draw_levels_of_loading(random);
+      const double p        = v.usual;
+      const double length   = std::round(uniform(random, 15., 25.));
+      const double rest     = rounded(log_uniform(random, 10., 30.));
       return first(n,
                    {plain_slide(v.middle, p, length),
                     slides_with_pauses(v.fast, p, rest),
                     speed_steps({v.low, v.middle, v.high, v.middle, v.low}, p),
                     rests(v.middle, p, {rest, 10. * rest, 100. * rest}),
-                    pressure_steps(v.middle, v.light, {p, v.heavy, p, v.light}),
+                    pressure_steps(v.middle,
+                                   v.light,
+                                   {p, v.heavy, p, v.light},
+                                   is_first ? 1. : 0.01),
                     plain_slide(v.middle, p, length, 90.),
                     reversals(v.middle, p, 4.),
                     plain_slide(v.slow, p, 0.6 * length),
                     plain_slide(v.high, p, 2. * length),
                     plain_slide(v.middle, v.heavy, length),
-                    plain_slide(v.middle, v.light, length),
-                    plain_slide(v.high, p, length, 30.),
+                    is_first ?
+                      plain_slide(v.middle, v.light, length) :
+                      pressure_ramp(v.middle, v.light, v.heavy, length),
+                    plain_slide(v.high, p, length, is_first ? 30. : 45.),
                     pressure_ladder(v.high, {1.5, 3., 6., 10., 15., 20.}),
                     plain_slide(v.fast, v.heavy, 3. * length),
                     plain_slide(v.middle, v.heavy, length, 60.),

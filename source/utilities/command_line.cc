@@ -268,8 +268,8 @@ namespace SlipStep
          "change of friction by what is hidden, 0.02 for 2 %; drawn unless "
          "given")
         ("edition", po::value<std::string>()->value_name("N"),
-         "draw also from effects that came with later editions; 1 unless given, "
-         "so that a seed hides the same for ever")
+         "draw also from effects that came with later editions, and from 2 on "
+         "other tests; 1 unless given, so that a seed hides the same for ever")
         ("list", "list the effects that can be hidden")
         ("open", po::value<std::string>()->value_name("FILE"),
          "print a sealed answer")

@@ -3,12 +3,12 @@
 // How often a diagnosis is right: many planted campaigns of a class.
 //
 //   diagnosis_benchmark CLASS FIRST_SEED LAST_SEED [NOISE [FACTOR [TESTS
-//   [REPLICATES [EVIDENCE [EFFECT AMPLITUDE]]]]]]
+//   [REPLICATES [EVIDENCE [EFFECT AMPLITUDE | EDITION]]]]]]
 //
 // prints a line for each campaign; rates.awk makes the table of them. Without
 // EVIDENCE (0) intervals, left-out conditions and the next test are not looked
 // at, which takes a third of the time. EFFECT is hidden with that AMPLITUDE
-// instead of drawn ones.
+// instead of drawn ones; in its place may stand the EDITION of the campaigns.
 
 #include <tests/diagnosis/hidden/trial.h>
 
@@ -36,7 +36,7 @@ int main(int argc, char **argv)
     {
       std::cerr << "usage: " << argv[0]
                 << " CLASS FIRST_SEED LAST_SEED [NOISE [FACTOR [TESTS "
-                   "[REPLICATES [EVIDENCE [EFFECT AMPLITUDE]]]]]]"
+                   "[REPLICATES [EVIDENCE [EFFECT AMPLITUDE | EDITION]]]]]]"
                 << std::endl;
       return 2;
     }
@@ -50,6 +50,8 @@ int main(int argc, char **argv)
     options.n_tests = std::atoi(argv[6]);
   if (argc > 7)
     options.with_replicates = std::atoi(argv[7]) != 0;
+  if (argc == 10)
+    options.edition = std::atoi(argv[9]);
   if (argc > 10)
     {
       options.effects   = {argv[9]};

@@ -90,7 +90,7 @@ namespace
 TEST(HiddenEffects, NothingAtAmplitudeZero)
 {
   Random                      random(2);
-  const std::vector<Protocol> protocols = draw_protocols(8, random);
+  const std::vector<Protocol> protocols = draw_protocols(8, 1, random);
   for (const Formula formula : {Formula::catalogue,
                                 Formula::alternative,
                                 Formula::third,
@@ -122,7 +122,7 @@ TEST(HiddenEffects, NothingAtAmplitudeZero)
 TEST(HiddenEffects, EveryEffectChangesSomething)
 {
   Random                      random(2);
-  const std::vector<Protocol> protocols = draw_protocols(14, random);
+  const std::vector<Protocol> protocols = draw_protocols(14, 1, random);
   for (const Formula formula : {Formula::catalogue,
                                 Formula::alternative,
                                 Formula::third,

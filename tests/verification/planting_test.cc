@@ -93,8 +93,12 @@ namespace
 
 TEST(Planting, AgreesWithTheLaw)
 {
-  Random                      random(3);
-  const std::vector<Protocol> protocols = draw_protocols(n_protocols, random);
+  Random                random(3);
+  std::vector<Protocol> protocols = draw_protocols(n_protocols, 1, random);
+  // A jump and a ramp of pressure, and a slide at 45 degrees.
+  const std::vector<Protocol> later = draw_protocols(n_protocols, 2, random);
+  for (const std::size_t i : {4, 10, 11})
+    protocols.push_back(later[i]);
   for (const HiddenEffectKind &effect : hidden_effects(Formula::catalogue))
     {
       const Twin twin = make_twin(effect.name, 0.05);

@@ -34,6 +34,13 @@ namespace SlipStep
                             const std::vector<double> &wavelengths,
                             const Model               &model,
                             const RowMatrix           &null_draws);
+
+  /// The wavelength next to one of track_wavelengths() that explains most: on
+  /// a track of many waves a little less or more is out of step at its end.
+  double refined_wavelength(const Comparison &comparison,
+                            const Covariates &covariates,
+                            const Model      &model,
+                            const double      wavelength);
 } // namespace SlipStep
 
 #endif

@@ -35,8 +35,12 @@ namespace SlipStep
 
     /// Different conditions, the most telling first: slides at several speeds,
     /// pressures and angles, steps of speed and of pressure, rests, reversals,
-    /// fast slides with pauses. Levels are drawn once for all.
-    std::vector<Protocol> draw_protocols(const unsigned int n, Random &random);
+    /// fast slides with pauses. Levels are drawn once for all. From edition 2
+    /// on pressures jump within a hundredth of a second, or grow all the way of
+    /// a slide, and one slide is at 45 deg.
+    std::vector<Protocol> draw_protocols(const unsigned int n,
+                                         const unsigned int edition,
+                                         Random            &random);
 
     /// Slides and steps within a narrow range of speeds and pressures only:
     /// many effects look alike there.

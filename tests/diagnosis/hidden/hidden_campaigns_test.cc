@@ -357,7 +357,7 @@ TEST_F(CampaignFolder, WaveAlongTheTrackIsTold)
     localise(*ingested.workspace, ingested.base, judgement.gap);
   ASSERT_FALSE(where.empty());
   EXPECT_EQ(where[0].covariate, "position");
-  EXPECT_NEAR(where[0].wavelength, 1.0418, 0.03);
+  EXPECT_NEAR(where[0].wavelength, 1.0418, 0.005);
 }
 
 
@@ -393,7 +393,8 @@ TEST_F(CampaignFolder, WavesWithoutANameAreDescribed)
                     localise(workspace, judgement.base, judgement.gap));
   ASSERT_TRUE(correction.has_value());
   EXPECT_EQ(correction->covariate, "position");
-  EXPECT_GT(correction->share, 0.6);
+  EXPECT_GT(correction->share, 0.75);
+  EXPECT_NEAR(workspace.range.track_wave, 4.1039, 0.02);
 }
 
 
