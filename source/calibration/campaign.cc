@@ -385,6 +385,23 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    bool depends_on_position(const Parameters &parameters)
+    {
+      const std::vector<std::string> effects =
+        parameters.list("Friction/Effects");
+      const auto has = [&](const std::string &name) {
+        return std::find(effects.begin(), effects.end(), name) != effects.end();
+      };
+      return has("texture") ||
+             (has("expression") &&
+              parameters.text("Friction/expression/Covariate") == "position");
+    }
+  } // namespace
+
+
+
   std::vector<std::string> Campaign::warnings() const
   {
     constexpr std::size_t most_alike = 3;
@@ -405,6 +422,37 @@ namespace SlipStep
         *std::find(result.begin(), result.end(), warnings[most_alike - 1]) +=
           " (and so in " + std::to_string(warnings.size() - most_alike) +
           " more)";
+    if (depends_on_position(parameters))
+      {
+        const std::string words = warning_of_positions(tests);
+        if (!words.empty())
+          result.push_back(words);
+      }
     return result;
+  }
+
+
+
+  std::string warning_of_positions(const std::vector<CampaignTest> &tests)
+  {
+    constexpr double share = 1e-3;
+
+    double least = 0., most = 0., longest = 0.;
+    for (const CampaignTest &test : tests)
+      {
+        const std::vector<double> &x = test.rows.displacement;
+        const auto [low, high]       = std::minmax_element(x.begin(), x.end());
+        const bool is_first          = &test == &tests.front();
+        least   = is_first ? x.front() : std::min(least, x.front());
+        most    = is_first ? x.front() : std::max(most, x.front());
+        longest = std::max(longest, *high - *low);
+      }
+    if (!(most - least > share * longest))
+      return "";
+    return "Tests begin at different positions, from " +
+           rounded_text(least, 4) + " to " + rounded_text(most, 4) +
+           " mm; effects that depend on the position count from where each test "
+           "begins, so that a wave along one track has not the same phase in "
+           "all of them: let every test begin at the same place";
   }
 } // namespace SlipStep

@@ -371,6 +371,16 @@ namespace SlipStep
         }
       prove();
       show();
+      const bool has_wave = std::any_of(result.where.begin(),
+                                        result.where.end(),
+                                        [](const Localisation &place) {
+                                          return place.covariate == "position";
+                                        }) ||
+                            final_model.has("texture");
+      const std::string positions =
+        has_wave ? warning_of_positions(ingested.workspace->tests) : "";
+      if (!positions.empty())
+        result.warnings.push_back(positions);
       result.is_cut_short = ingested.workspace->was_late;
       if (result.is_cut_short)
         result.warnings.push_back(

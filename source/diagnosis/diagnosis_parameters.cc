@@ -54,7 +54,9 @@ namespace SlipStep
                        "1 h",
                        Quantity(Dimension::time, 0., 1e9, true),
                        "Of the search. Then what is proven so far is the "
-                       "answer, with a warning that says so. More than 0, with "
+                       "answer, with a warning that says so. The intervals of "
+                       "what was found may take half as long; those that are "
+                       "not found then are symmetric ones. More than 0, with "
                        "its unit.");
     parameters.declare(section + "Draws",
                        "999",
@@ -89,9 +91,9 @@ namespace SlipStep
 
   void check_diagnosis_parameters(const Parameters &parameters)
   {
-    // p = 1.5 p_smooth, and no chance is below 1/(N + 1).
+    // p = 9 p_track, and no chance is below 1/(N + 1).
     const double least_draws =
-      std::ceil(1.5 / parameters.number(section + "Level") - 1. - 1e-9);
+      std::ceil(9. / parameters.number(section + "Level") - 1. - 1e-9);
     if (parameters.integer(section + "Draws") < least_draws)
       parameters.reject(section + "Draws",
                         "for an alarm at Diagnosis/Level = " +

@@ -8,6 +8,7 @@
 #include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -68,12 +69,34 @@ namespace SlipStep
 
 
 
-    void follow_both_ways(const Workspace    &workspace,
-                          const Model        &optimum,
-                          const std::size_t   i,
-                          const double        deviation,
-                          const double        threshold,
-                          DiagnosedParameter &result)
+    // Thrown where a profile takes too long.
+    struct OutOfTime
+    {};
+
+
+
+    // From now on, for all of them.
+    std::chrono::steady_clock::time_point
+    deadline_of_profiles(const Workspace &workspace)
+    {
+      constexpr double share = 0.5;
+
+      using Clock = std::chrono::steady_clock;
+      return Clock::now() +
+             std::chrono::duration_cast<Clock::duration>(
+               std::chrono::duration<double>(
+                 share * workspace.start.number("Diagnosis/Most time")));
+    }
+
+
+
+    void follow_both_ways(const Workspace                            &workspace,
+                          const Model                                &optimum,
+                          const std::size_t                           i,
+                          const double                                deviation,
+                          const double                                threshold,
+                          const std::chrono::steady_clock::time_point deadline,
+                          DiagnosedParameter                         &result)
     {
       const FitParameter &parameter = optimum.campaign->fitted[i];
       const auto          value     = [&](const double scaled) {
@@ -87,6 +110,8 @@ namespace SlipStep
           Model       model = optimum.copy();
           ProfileSide side(
             [&](const std::vector<double> &from) {
+              if (std::chrono::steady_clock::now() > deadline)
+                throw OutOfTime();
               model.scaled = from;
               const bool is_fitted =
                 workspace.comparison.fit(model, 0.005, {}, held);
@@ -119,7 +144,8 @@ namespace SlipStep
                                                  const Model     &model,
                                                  const double     confidence)
   {
-    const Scatter scatter = scatter_of(workspace, model, confidence);
+    const Scatter scatter  = scatter_of(workspace, model, confidence);
+    const auto    deadline = deadline_of_profiles(workspace);
     std::vector<DiagnosedParameter> result(model.scaled.size());
     side_by_side(model.scaled.size(), [&](const std::size_t i) {
       const FitParameter &parameter = model.campaign->fitted[i];
@@ -139,26 +165,34 @@ namespace SlipStep
         model.scaled[i] < 1e-6 || model.scaled[i] > 1. - 1e-6 ||
         !simulator.condition_beside(model.scaled, i, -1.).empty() ||
         !simulator.condition_beside(model.scaled, i, 1.).empty();
-      if (part != nullptr)
-        {
-          out.effect = part->name;
-          follow_both_ways(workspace,
-                           model,
-                           i,
-                           scatter.deviations(i),
-                           std::pow(scatter.reach[i], 2),
-                           out);
-          // Those of the starting model have a value before, too.
-          if (workspace.start.text("Calibration/Parameters")
-                .find(parameter.path + " ") == std::string::npos)
-            out.before = std::numeric_limits<double>::quiet_NaN();
-          return;
-        }
       const double half = scatter.reach[i] * scatter.deviations(i);
       out.lower         = value(model.scaled[i] - half);
       out.upper         = value(model.scaled[i] + half);
       out.is_lower_open = model.scaled[i] - half < 0.;
       out.is_upper_open = model.scaled[i] + half > 1.;
+      if (part == nullptr)
+        return;
+      out.effect = part->name;
+      // Those of the starting model have a value before, too.
+      if (workspace.start.text("Calibration/Parameters")
+            .find(parameter.path + " ") == std::string::npos)
+        out.before = std::numeric_limits<double>::quiet_NaN();
+      try
+        {
+          DiagnosedParameter followed = out;
+          follow_both_ways(workspace,
+                           model,
+                           i,
+                           scatter.deviations(i),
+                           std::pow(scatter.reach[i], 2),
+                           deadline,
+                           followed);
+          out = followed;
+        }
+      catch (const OutOfTime &)
+        {
+          // The curvature has to do.
+        }
     });
     return result;
   }

@@ -195,12 +195,9 @@ namespace SlipStep
                         const GapTest             &gap,
                         std::vector<Localisation> &result)
     {
-      if (gap.p_track > workspace.level)
+      const double wavelength = clear_track_wave(workspace, base);
+      if (wavelength == 0.)
         return;
-      const double wavelength = refined_wavelength(workspace.comparison,
-                                                   workspace.covariates,
-                                                   base,
-                                                   gap.wavelength);
       const ScoreTest::Together together =
         ScoreTest(workspace.comparison,
                   base,

@@ -304,30 +304,41 @@ namespace SlipStep
       double loading_ratio;
     };
 
-    /// How often friction turns, by more than what is noticed.
-    unsigned int turns(const std::vector<SlideRow>::const_iterator begin,
-                       const std::vector<SlideRow>::const_iterator end,
-                       const double                                noticed)
+    /// How friction goes up and down, by more than what is noticed.
+    struct Turns
     {
-      unsigned int n    = 0;
-      int          sign = 0;
-      double       last = begin->friction; // farthest since the last turn
+      unsigned int n       = 0;
+      bool         falls   = false; ///< first
+      bool         goes_on = false; ///< in the last tenth
+    };
+
+    Turns turns(const std::vector<SlideRow>::const_iterator begin,
+                const std::vector<SlideRow>::const_iterator tenth,
+                const std::vector<SlideRow>::const_iterator end,
+                const double                                noticed)
+    {
+      Turns result;
+      result.goes_on =
+        std::abs((end - 1)->friction - tenth->friction) > noticed;
+      int    sign = 0;
+      double last = begin->friction; // farthest since the last turn
       for (auto row = begin; row != end; ++row)
         {
           const double change = row->friction - last;
           if (sign == 0 ? std::abs(change) > noticed : change * sign > 0.)
             {
-              sign = change > 0. ? 1 : -1;
-              last = row->friction;
+              result.falls = result.falls || (sign == 0 && change < 0.);
+              sign         = change > 0. ? 1 : -1;
+              last         = row->friction;
             }
           else if (change * sign < -noticed)
             {
-              ++n;
+              ++result.n;
               sign = -sign;
               last = row->friction;
             }
         }
-      return n;
+      return result;
     }
 
     /// Whether a slide ends as it would go on.
@@ -360,7 +371,8 @@ namespace SlipStep
                                part * (b.loading_ratio - a.loading_ratio)) /
                                 last.loading_ratio;
         }
-      // Two turns are a peak and what recovers after it.
+      // Two turns are a peak and what recovers after it, unless that goes on;
+      // one is a peak, or a valley of a long wave.
       const auto half = before(0.5);
       const auto [low, high] =
         std::minmax_element(half,
@@ -370,7 +382,9 @@ namespace SlipStep
                             });
       const double largest =
         std::max(std::abs(low->friction), std::abs(high->friction));
-      if (turns(half, rows.end(), noticed * largest) > 2)
+      const Turns turned =
+        turns(half, before(tenth), rows.end(), noticed * largest);
+      if (turned.n > 2 || (turned.goes_on && turned.n + turned.falls > 1))
         {
           slide.swing_from = low->friction;
           slide.swing_to   = high->friction;

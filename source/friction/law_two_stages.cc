@@ -142,6 +142,10 @@ namespace SlipStep
                 error_of_flow_rate(start, last),
                 error_of_normal_ratio(start, first, last)});
 
+    for (const StrengthEffect *effect : strength_effects)
+      error.of_line =
+        std::max(error.of_line, effect->hidden_change(start, end));
+
     // A parabola through three points is farthest from its chord in the middle;
     // a corner may be somewhat farther.
     if (start.normal_traction > 0. && first.end.normal_traction > 0.)
@@ -151,11 +155,13 @@ namespace SlipStep
         };
         constexpr double gamma   = TwoStages::gamma;
         constexpr double highest = 0.3 / (gamma * (1. - gamma));
-        error.of_line            = highest *
-                        (friction(first.end) - (1. - gamma) * friction(start) -
-                         gamma * friction(end))
-                          .norm() *
-                        end.normal_traction / end.strength;
+        error.of_line =
+          std::max(error.of_line,
+                   highest *
+                     (friction(first.end) - (1. - gamma) * friction(start) -
+                      gamma * friction(end))
+                       .norm() *
+                     end.normal_traction / end.strength);
       }
     return error;
   }

@@ -95,8 +95,28 @@ namespace SlipStep
     , to(x.back())
     , first(samples.front())
     , last(samples.back())
+    , places(x)
+    , values(samples)
     , curve(std::move(x), std::move(samples))
   {}
+
+
+
+  double SampledFunction::excursion(const double a, const double b) const
+  {
+    const double at_a = (*this)(a).value, at_b = (*this)(b).value;
+    const auto   place = [&](const double x) {
+      return values.begin() +
+             (std::lower_bound(places.begin(), places.end(), x) -
+              places.begin());
+    };
+    const auto begin = place(std::min(a, b)), end = place(std::max(a, b));
+    if (begin == end)
+      return 0.;
+    const auto [least, most] = std::minmax_element(begin, end);
+    return std::max(
+      {0., *most - std::max(at_a, at_b), std::min(at_a, at_b) - *least});
+  }
 
 
 

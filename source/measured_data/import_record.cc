@@ -416,6 +416,12 @@ namespace SlipStep
             const double first = series->front();
             for (double &value : *series)
               value -= first;
+            if (series != &test.time && first != 0.)
+              {
+                std::string &note = test.notes["positions"];
+                note += (note.empty() ? "counted from " : " and ") +
+                        rounded_text(first, 6) + " mm";
+              }
           }
     }
 

@@ -169,10 +169,15 @@ namespace SlipStep
       constexpr std::size_t beside = 5; // rows
       constexpr double      far = 3., good_part = 0.05;
 
-      const std::vector<double> &x     = test.displacement;
-      const double               least = good_part * range_of(x);
-      std::size_t                n     = 0;
-      std::size_t                first = 0;
+      const std::vector<double> &x = test.displacement;
+      // An axis along which nothing moves has noise only.
+      const double least =
+        good_part * std::max(range_of(x),
+                             test.displacement_y.empty() ?
+                               0. :
+                               range_of(test.displacement_y));
+      std::size_t n     = 0;
+      std::size_t first = 0;
       for (std::size_t i = beside + 1; i + beside < x.size(); ++i)
         {
           const double jump   = x[i] - x[i - 1];

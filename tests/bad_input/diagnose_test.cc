@@ -54,7 +54,7 @@ namespace
           arguments.insert(arguments.end(), {"--set", setting});
         }
       for (const std::string setting :
-           {"Diagnosis/Element tests=none", "Diagnosis/Draws=199"})
+           {"Diagnosis/Element tests=none", "Diagnosis/Draws=299"})
         if (all.find(setting.substr(0, setting.find('='))) == std::string::npos)
           arguments.insert(arguments.end(), {"--set", setting});
       arguments.insert(arguments.end(), options.begin(), options.end());
@@ -163,7 +163,8 @@ TEST_F(Diagnose, WhatIsWrongWithTheCaseIsSaid)
   expect_refusal({"Diagnosis/Most effects=5"}, {"1 to 4"});
   expect_refusal({"Diagnosis/Draws=10"}, {"Diagnosis/Draws", "99"});
   expect_refusal({"Diagnosis/Level=0.001", "Diagnosis/Draws=999"},
-                 {"Diagnosis/Draws", "0.001", "1499"});
+                 {"Diagnosis/Draws", "0.001", "8999"});
+  expect_refusal({"Diagnosis/Draws=223"}, {"Diagnosis/Draws", "0.04", "224"});
   // The starting model has a flow rule.
   expect_refusal({"Diagnosis/Candidates=overstress, softening"},
                  {"none of these can be tried",
@@ -251,7 +252,7 @@ TEST_F(Diagnose, WhatItWritesCanBeUsed)
                                                   "--set",
                                                   "Diagnosis/Element tests=none",
                                                   "--set",
-                                                  "Diagnosis/Draws=199"});
+                                                  "Diagnosis/Draws=299"});
   EXPECT_EQ(foreign.exit_code, 2) << foreign.err;
   EXPECT_EQ(foreign.n_error_lines(), 1u) << foreign.err;
   EXPECT_EQ(files(), before);

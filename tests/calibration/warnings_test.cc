@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -76,4 +77,40 @@ TEST(CalibrationWarnings, AWrongNoiseThatIsStatedIsTold)
   EXPECT_TRUE(contains(large, "that is too much")) << large;
   EXPECT_FALSE(contains(right, "the noise that is stated")) << right;
   EXPECT_TRUE(contains(small, "which is too little")) << small;
+}
+
+
+
+// An effect that counts positions from where a test begins is told of tests
+// that begin elsewhere; others do not mind.
+TEST(CalibrationWarnings, TestsThatBeginElsewhereAreTold)
+{
+  for (const double first : {0., 12.3})
+    {
+      const TemporaryFolder folder;
+      for (const double start : {0., first})
+        {
+          MeasuredTest test;
+          for (unsigned int i = 0; i < 50; ++i)
+            {
+              test.time.push_back(i);
+              test.displacement.push_back(start + 0.1 * i);
+              test.pressure.push_back(5.8);
+              test.friction.push_back(0.13 + 1e-3 * std::sin(7. * i));
+            }
+          write_measured_test(folder.path() / (std::to_string(start) + ".csv"),
+                              test);
+        }
+      const auto is_told = [&](const std::string &effects) {
+        Parameters parameters = one_coefficient(folder);
+        parameters.set("Friction/Effects", effects, "test");
+        std::string text;
+        for (const std::string &warning : Campaign(parameters).warnings())
+          text += warning + "\n";
+        return contains(text,
+                        "begin at different positions, from 0 to 12.3 mm");
+      };
+      EXPECT_FALSE(is_told("subloading"));
+      EXPECT_EQ(is_told("subloading, texture"), first > 0.);
+    }
 }

@@ -136,9 +136,14 @@ TEST(Candidates, HaveOtherForms)
   EXPECT_EQ(forms("anisotropy", "Form"), (Forms{"associated", "opposite"}));
   EXPECT_EQ(forms("direction", "Form"), (Forms{"cosine", "reversed"}));
   EXPECT_EQ(forms("viscous", "Exponent"), (Forms{"1", "0.5"}));
-  EXPECT_EQ(
-    forms("texture", "Wavelength"),
-    (Forms{"2 mm", "1.4142135623730951 mm", "2 mm", "1.4142135623730951 mm"}));
+  // Alone, with harmonics, and as the second of those.
+  EXPECT_EQ(forms("texture", "Wavelength"),
+            (Forms{"2 mm",
+                   "1.4142135623730951 mm",
+                   "2 mm",
+                   "1.4142135623730951 mm",
+                   "4 mm",
+                   "2.8284271247461903 mm"}));
 }
 
 
@@ -203,9 +208,9 @@ TEST(Candidates, NeedWhatTheyShowIn)
     }
   EXPECT_EQ(reason("", 1), "");
   // Along one line nobody can tell an angle.
-  EXPECT_EQ(make_candidates(start, range).at(1).formulas.size(), 4u);
+  EXPECT_EQ(make_candidates(start, range).at(1).formulas.size(), 6u);
   range.widest_angle = 0.;
-  EXPECT_EQ(make_candidates(start, range).at(1).formulas.size(), 2u);
+  EXPECT_EQ(make_candidates(start, range).at(1).formulas.size(), 3u);
   range.track_wave = 0.;
   EXPECT_EQ(reason("", 1), "there is no clear wave along the track");
 }

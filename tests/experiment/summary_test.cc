@@ -346,6 +346,13 @@ TEST(Summary, HowASlideEndsIsToldApart)
   });
   EXPECT_TRUE(found.is_settled());
 
+  // It goes through a valley, and on.
+  found = slide([](HistoryRow &row) {
+    row.friction -= 0.05 * std::cos(0.7 * (row.displacement - 7.));
+  });
+  EXPECT_FALSE(found.is_settled());
+  EXPECT_NEAR(found.swing_from, 0.15, 1e-4);
+
   found = slide([](HistoryRow &row) { row.slip *= 0.5; });
   EXPECT_NEAR(found.relative_rate, 0.5, 1e-12);
   EXPECT_FALSE(found.is_settled());

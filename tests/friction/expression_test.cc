@@ -86,6 +86,61 @@ TEST(Expression, has_its_jumps_where_they_are)
 
 
 
+// A step over what is the same at both its ends sees what is between, by a
+// formula of any covariate that it goes through, and by a texture.
+TEST(Expression, does_not_hide_within_a_step)
+{
+  constexpr double gamma = TwoStages::gamma;
+  const auto of_line = [&](Settings settings, const std::string &covariate) {
+    if (!covariate.empty())
+      settings.emplace_back("expression/Covariate", covariate);
+    const auto   law = make_law(settings);
+    ContactPoint point(*law);
+    double       last = 0.;
+    // Steps of 0.2 mm, between multiples of that.
+    for (unsigned int i = 0; i < 10; ++i)
+      {
+        const auto   slip = gamma * vector(i == 0 ? 0.1 : 0.2, 0.);
+        const double before =
+          covariate == "pressure" && i > 0 ? 3. + 0.2 * i : 3.;
+        const double now =
+          covariate == "pressure" ? 3. + 0.2 * (i + 1) : before;
+        point.update(*law, slip, before + gamma * (now - before), gamma);
+        point.begin_second_stage(*law);
+        point.update(*law, slip, now, gamma);
+        last = std::max(last, i == 0 ? 0. : point.error(*law).of_line);
+        point.commit();
+      }
+    return last;
+  };
+  const auto bump = [](const std::string &where) {
+    return Settings{{"Effects", "expression"},
+                    {"Static coefficient", "0.1"},
+                    {"Tangential stiffness", "1e5"},
+                    {"expression/Formula",
+                     "1 + 0.5 * exp(-((x - " + where + ") / 0.01)^2)"},
+                    {"expression/From", "0"},
+                    {"expression/To", "6"}};
+  };
+  for (const std::string covariate : {"path", "position"})
+    {
+      EXPECT_NEAR(of_line(bump("0.95"), covariate), 0.5, 0.01) << covariate;
+      EXPECT_LT(of_line(bump("5.95"), covariate), 1e-3) << covariate;
+    }
+  EXPECT_NEAR(of_line(bump("3.95"), "pressure"), 0.5, 0.01);
+  EXPECT_LT(of_line(bump("5.95"), "pressure"), 1e-3);
+  const Settings waves = {{"Effects", "texture"},
+                          {"Static coefficient", "0.1"},
+                          {"Tangential stiffness", "1e5"},
+                          {"texture/Amplitude", "0.3"}};
+  EXPECT_GE(of_line(waves + Settings{{"texture/Wavelength", "0.2 mm"}}, ""),
+            0.3);
+  EXPECT_LT(of_line(waves + Settings{{"texture/Wavelength", "200 mm"}}, ""),
+            1e-3);
+}
+
+
+
 // Samples at multiples of the period see a constant.
 TEST(Expression, is_refused_where_no_table_follows_it)
 {

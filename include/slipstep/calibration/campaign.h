@@ -72,7 +72,8 @@ namespace SlipStep
     /// The scaled values of the starts.
     std::vector<double> scaled_start() const;
 
-    /// What was done to the rows of the tests.
+    /// What was done to the rows of the tests, and what the model makes of
+    /// them.
     std::vector<std::string> warnings() const;
 
     /// The tests that Calibration/Tests names, ready to be simulated.
@@ -91,6 +92,10 @@ namespace SlipStep
     static std::vector<std::filesystem::path>
     test_files(const Parameters &parameters);
   };
+
+  /// That tests begin at different positions, of which effects that depend on
+  /// the position know nothing; "" if they do not.
+  std::string warning_of_positions(const std::vector<CampaignTest> &tests);
 } // namespace SlipStep
 
 #endif

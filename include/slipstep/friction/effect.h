@@ -269,6 +269,14 @@ namespace SlipStep
       return false;
     }
 
+    /// By how much the strength leaves, within a step, what it is at both ends,
+    /// as a share: what is over between two looks makes the step too long.
+    virtual double hidden_change(const ContactState & /*start*/,
+                                 const ContactState & /*end*/) const
+    {
+      return 0.;
+    }
+
     /// Write what the effect remembers into the state after the step; called
     /// for an open point, too.
     virtual void remember(const SlipStepData & /*step*/,

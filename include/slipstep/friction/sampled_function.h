@@ -37,11 +37,16 @@ namespace SlipStep
       return {curve(x), curve.prime(x)};
     }
 
+    /// By how much the function leaves, between two places, what it is at
+    /// both.
+    double excursion(const double a, const double b) const;
+
   private:
     SampledFunction(std::vector<double> x, std::vector<double> samples);
 
     double                                                 from, to;
     double                                                 first, last;
+    std::vector<double>                                    places, values;
     boost::math::interpolators::pchip<std::vector<double>> curve;
   };
 } // namespace SlipStep

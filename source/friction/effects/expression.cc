@@ -81,6 +81,19 @@ namespace SlipStep
         return factor;
       }
 
+      // Of what slip and load go through from one end of a step to the other.
+      virtual double hidden_change(const ContactState &start,
+                                   const ContactState &end) const override
+      {
+        return covariate == "path" ?
+                 g.excursion(start.slip_path, end.slip_path) :
+               covariate == "position" ?
+                 g.excursion(start[position_memory], end[position_memory]) :
+               covariate == "pressure" ?
+                 g.excursion(start.normal_traction, end.normal_traction) :
+                 0.;
+      }
+
       virtual void remember(const SlipStepData &step,
                             ContactState       &end) const override
       {

@@ -32,17 +32,16 @@ namespace SlipStep
     {
     public:
       Texture(const Parameters &parameters, const CoefficientBasis &)
-        : w(parameters.number("Friction/texture/Amplitude"))
-        , wave_number(2. * PI /
-                      parameters.number("Friction/texture/Wavelength"))
-        , phase(parameters.number("Friction/texture/Phase"))
+        : w(parameters.number(amplitude_key))
+        , wave_number(2. * PI / parameters.number(wavelength_key))
+        , phase(parameters.number(phase_key))
       {
         for (unsigned int i = 0; i < shape_keys.size(); ++i)
           waves[i] = parameters.number(shape_keys[i]);
         if (w * (1. + std::hypot(waves[0], waves[1]) +
                  std::hypot(waves[2], waves[3])) >=
             1.)
-          parameters.reject("Friction/texture/Amplitude",
+          parameters.reject(amplitude_key,
                             "with its harmonics it must be less than 1, or "
                             "friction could vanish");
         const double angle = parameters.number("Friction/texture/Angle");
@@ -70,6 +69,16 @@ namespace SlipStep
         factor.d_path      = d_place * along;
         factor.d_direction = d_place * step.path * across;
         return factor;
+      }
+
+      // A part of its shortest wave.
+      virtual double hidden_change(const ContactState &start,
+                                   const ContactState &end) const override
+      {
+        const double turned = 3. * wave_number *
+                              (across[0] * (end[track_1] - start[track_1]) +
+                               across[1] * (end[track_2] - start[track_2]));
+        return std::abs(turned) > PI ? w : 0.;
       }
 
       virtual void remember(const SlipStepData &step,
@@ -124,22 +133,22 @@ namespace SlipStep
           {"Second sine",
            "s_2",
            "0",
-           Quantity(Dimension::number, -1., 1.),
+           Quantity(Dimension::number, -100., 100.),
            "share of the amplitude that a wave of half the length has"},
           {"Second cosine",
            "c_2",
            "0",
-           Quantity(Dimension::number, -1., 1.),
+           Quantity(Dimension::number, -100., 100.),
            "the same, a quarter of it ahead"},
           {"Third sine",
            "s_3",
            "0",
-           Quantity(Dimension::number, -1., 1.),
+           Quantity(Dimension::number, -100., 100.),
            "share of the amplitude that a wave of a third of the length has"},
           {"Third cosine",
            "c_3",
            "0",
-           Quantity(Dimension::number, -1., 1.),
+           Quantity(Dimension::number, -100., 100.),
            "the same, a quarter of it ahead"}};
         info.neutral_settings   = {{"Amplitude", "0"}};
         info.typical_settings   = {{"Amplitude", "0.3"},
@@ -151,10 +160,13 @@ namespace SlipStep
                                    {"Third sine", "0.2"},
                                    {"Third cosine", "-0.1"}};
         info.search             = {"waves along the track", search};
-        info.search.other_forms = {
-          search_oblique,
-          [](const Circumstances &now) { return uneven(search(now)); },
-          [](const Circumstances &now) { return uneven(search_oblique(now)); }};
+        info.search.other_forms = {search_oblique};
+        for (const bool is_second : {false, true})
+          for (const auto even : {search, search_oblique})
+            info.search.other_forms.push_back(
+              [is_second, even](const Circumstances &now) {
+                return uneven(even(now), is_second);
+              });
         info.search.along = "position";
         return info;
       }
@@ -165,16 +177,31 @@ namespace SlipStep
         return search_at(now, {0.});
       }
 
-      // With harmonics.
-      static TrialFormula uneven(TrialFormula formula)
+      // With harmonics; the wave that is seen may be the second of a longer
+      // one.
+      static TrialFormula uneven(TrialFormula formula, const bool is_second)
       {
         for (const char *const key : shape_keys)
-          formula.parameters.push_back({key, -1., 1., false});
+          formula.parameters.push_back({key, -5., 5., false});
+        for (CandidateParameter &parameter : formula.parameters)
+          if (parameter.path == wavelength_key && is_second)
+            {
+              parameter.lower *= 2.;
+              parameter.upper *= 2.;
+            }
         for (TrialFormula::Shape &shape : formula.shapes)
-          shape = [even = shape](const double strength) {
+          shape = [even = shape, is_second](const double strength) {
             Values values = even(strength);
             for (const char *const key : shape_keys)
               values[key] = 0.;
+            if (is_second)
+              {
+                constexpr double times_the_first = 3.;
+                values[amplitude_key] /= 1. + times_the_first;
+                values[shape_keys[0]] = times_the_first;
+                values[wavelength_key] *= 2.;
+                values[phase_key] /= 2.;
+              }
             return values;
           };
         return formula;
@@ -200,10 +227,9 @@ namespace SlipStep
         const double along = now.range.track_wave;
         if (!(along > 0.))
           return TrialFormula::none("there is no clear wave along the track");
-        const std::string amplitude  = "Friction/texture/Amplitude";
-        const std::string wavelength = "Friction/texture/Wavelength";
-        const std::string phase      = "Friction/texture/Phase";
-        TrialFormula      formula;
+        const std::string amplitude  = amplitude_key,
+                          wavelength = wavelength_key, phase = phase_key;
+        TrialFormula formula;
         formula.parameters = {{amplitude, 0., 0.9, false},
                               {wavelength, 0.5 * along, 1.5 * along, true},
                               {phase, -2. * PI, 2. * PI, false}};
@@ -222,6 +248,9 @@ namespace SlipStep
         return formula;
       }
 
+      static constexpr auto amplitude_key  = "Friction/texture/Amplitude";
+      static constexpr auto wavelength_key = "Friction/texture/Wavelength";
+      static constexpr auto phase_key      = "Friction/texture/Phase";
       static constexpr std::array<const char *, 4> shape_keys = {
         {"Friction/texture/Second sine",
          "Friction/texture/Second cosine",

@@ -362,6 +362,35 @@ TEST_F(CampaignFolder, WaveAlongTheTrackIsTold)
 
 
 
+// An interval for which there is no time is that of the curvature, close to the
+// profile's where the tests tell much.
+TEST_F(CampaignFolder, IntervalsEndInTime)
+{
+  plant(CampaignClass::one, 9);
+  const Judgement judgement = judged();
+  ASSERT_EQ(judgement.verdict, Verdict::named);
+  Workspace  hasty    = *ingested.workspace;
+  const auto interval = [&](const Workspace &workspace) {
+    for (const DiagnosedParameter &parameter :
+         find_intervals(workspace, judgement.found.model, 0.95))
+      if (parameter.path == "Friction/healing/Steepness")
+        return parameter;
+    return DiagnosedParameter();
+  };
+  const DiagnosedParameter followed = interval(*ingested.workspace);
+  hasty.start.set("Diagnosis/Most time", "1e-6 s", "test");
+  const DiagnosedParameter hurried = interval(hasty);
+  EXPECT_GT(followed.profile.size(), 4u);
+  EXPECT_TRUE(hurried.profile.empty());
+  EXPECT_LT(hurried.lower, hurried.value);
+  EXPECT_GT(hurried.upper, hurried.value);
+  EXPECT_NEAR(hurried.upper - hurried.lower,
+              followed.upper - followed.lower,
+              0.5 * (followed.upper - followed.lower));
+}
+
+
+
 // Oblique waves that are not round are named with their harmonics; where the
 // catalogue has no such effect, they are described by the place in the wave.
 TEST(HiddenStrength, OfUnevenWavesHasAName)
