@@ -11,6 +11,7 @@
 #include <boost/algorithm/string/erase.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <map>
@@ -437,16 +438,31 @@ namespace SlipStep
   {
     constexpr double share = 1e-3;
 
-    double least = 0., most = 0., longest = 0.;
+    using Series = std::vector<double> MeasuredTest::*;
+    constexpr std::array<Series, 2>    axes = {
+         {&MeasuredTest::displacement, &MeasuredTest::displacement_y}};
+    std::array<std::array<double, 2>, 2> first{}; // of an axis, least and most
+    double                               longest  = 0.;
+    bool                                 is_first = true;
     for (const CampaignTest &test : tests)
       {
-        const std::vector<double> &x = test.rows.displacement;
-        const auto [low, high]       = std::minmax_element(x.begin(), x.end());
-        const bool is_first          = &test == &tests.front();
-        least   = is_first ? x.front() : std::min(least, x.front());
-        most    = is_first ? x.front() : std::max(most, x.front());
-        longest = std::max(longest, *high - *low);
+        for (std::size_t axis = 0; axis < axes.size(); ++axis)
+          {
+            const std::vector<double> &x     = test.rows.*axes[axis];
+            const double               start = x.empty() ? 0. : x.front();
+            auto &[least, most]              = first[axis];
+            least = is_first ? start : std::min(least, start);
+            most  = is_first ? start : std::max(most, start);
+            if (x.empty())
+              continue;
+            const auto [low, high] = std::minmax_element(x.begin(), x.end());
+            longest                = std::max(longest, *high - *low);
+          }
+        is_first = false;
       }
+    const bool is_second =
+      first[1][1] - first[1][0] > first[0][1] - first[0][0];
+    const auto [least, most] = first[is_second ? 1 : 0];
     if (!(most - least > share * longest))
       return "";
     return "Tests begin at different positions, from " +

@@ -525,7 +525,11 @@ namespace SlipStep
     , objective(model.objective)
   {
     for (const Part &part : model.parts)
-      parts.push_back(part.name);
+      {
+        parts.push_back(part.name + ' ' + part.formula.effect);
+        for (const auto &[path, text] : part.formula.texts)
+          parts.back() += ' ' + path + '=' + text;
+      }
   }
 
 

@@ -228,6 +228,8 @@ namespace SlipStep
     void Diagnostician::correct()
     {
       stage("describing what has no name");
+      ingested.workspace->range.track_wave =
+        clear_track_wave(*ingested.workspace, ingested.base);
       const std::optional<Correction> correction = find_correction(
         *ingested.workspace, ingested.base, judgement, result.where);
       if (!correction.has_value())
@@ -381,6 +383,16 @@ namespace SlipStep
         has_wave ? warning_of_positions(ingested.workspace->tests) : "";
       if (!positions.empty())
         result.warnings.push_back(positions);
+      for (const DiagnosedParameter &parameter : found_parameters)
+        if (!parameter.effect.empty() && parameter.profile.empty())
+          {
+            result.warnings.push_back(
+              "Half of Diagnosis/Most time was over before the interval of " +
+              parameter.name +
+              " was followed, and of those that have no profile: they are as "
+              "the curvature has them");
+            break;
+          }
       result.is_cut_short = ingested.workspace->was_late;
       if (result.is_cut_short)
         result.warnings.push_back(

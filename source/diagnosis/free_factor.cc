@@ -188,9 +188,12 @@ namespace SlipStep
                       workspace.range.track_wave;
       if (!(wavelength > 0.))
         return {};
-      const double reach =
-        workspace.covariates.position.cwiseAbs().maxCoeff() + wavelength;
-      KnotScale scale  = linear_scale("position", -reach, reach);
+      // Of the law positions count from where a test begins.
+      const Eigen::VectorXd &position = workspace.covariates.position;
+      KnotScale              scale =
+        linear_scale("position",
+                     std::min(0., position.minCoeff()) - 0.1 * wavelength,
+                     std::max(0., position.maxCoeff()) + 0.1 * wavelength);
       scale.kind       = KnotScale::Kind::periodic;
       scale.offset     = wavelength;
       scale.first_knot = 0.;

@@ -64,9 +64,13 @@ namespace SlipStep
     const Comparison     &comparison = workspace.comparison;
     constexpr std::size_t most_kept  = 4;
     const ModelKey        key(model);
-    for (const auto &[known, squares] : workspace.left_out)
-      if (differences == nullptr && known == key)
-        return squares;
+    const auto            known =
+      std::find_if(workspace.left_out.begin(),
+                   workspace.left_out.end(),
+                   [&](const auto &entry) { return entry.first == key; });
+    const bool is_known = known != workspace.left_out.end();
+    if (differences == nullptr && is_known)
+      return known->second;
     std::vector<double> squares(comparison.tests.size(), 0.);
     // Of a single condition nothing is left to fit.
     constexpr double none   = std::numeric_limits<double>::quiet_NaN();
@@ -94,7 +98,8 @@ namespace SlipStep
               difference.segment(test.begin, test.size);
         }
     });
-    workspace.left_out.emplace_front(key, squares);
+    if (!is_known)
+      workspace.left_out.emplace_front(key, squares);
     if (workspace.left_out.size() > most_kept)
       workspace.left_out.pop_back();
     return squares;

@@ -265,12 +265,21 @@ namespace SlipStep
 
 
 
-    // An effect may have several forms, which its settings and texts tell
-    // apart.
+    // An effect may have several forms, which its settings, texts and bounds
+    // tell apart.
     bool is_same_formula(const TrialFormula &a, const TrialFormula &b)
     {
       return a.effect == b.effect && a.settings == b.settings &&
-             a.texts == b.texts && a.parameters.size() == b.parameters.size();
+             a.texts == b.texts &&
+             std::equal(a.parameters.begin(),
+                        a.parameters.end(),
+                        b.parameters.begin(),
+                        b.parameters.end(),
+                        [](const CandidateParameter &x,
+                           const CandidateParameter &y) {
+                          return x.path == y.path && x.lower == y.lower &&
+                                 x.upper == y.upper;
+                        });
     }
 
 

@@ -202,6 +202,8 @@ namespace SlipStep
       /// its last position.
       Tensor<1, 2> first_direction, last_direction;
       bool         is_straight = false;
+      /// One segment: a followed test may change its speed at any time.
+      bool is_even = false;
       /// Mean over the path, so that rests within a followed test do not count.
       double       speed     = 0.;
       unsigned int statement = 0; ///< counted from 1
@@ -284,6 +286,7 @@ namespace SlipStep
           motion.start      = positions.front();
           motion.speed      = speed_by_path / path;
           motion.statement  = all[first].statement + 1;
+          motion.is_even    = last == first + 1;
           set_directions(positions, motion);
           result.push_back(motion);
         }
@@ -342,7 +345,9 @@ namespace SlipStep
     }
 
     /// Whether a slide ends as it would go on.
-    void look_at_end(const std::vector<SlideRow> &rows, SlideSummary &slide)
+    void look_at_end(const std::vector<SlideRow> &rows,
+                     const bool                   is_even,
+                     SlideSummary                &slide)
     {
       constexpr double noticed = 0.02, last_part = 0.02, tenth = 0.1;
 
@@ -384,7 +389,8 @@ namespace SlipStep
         std::max(std::abs(low->friction), std::abs(high->friction));
       const Turns turned =
         turns(half, before(tenth), rows.end(), noticed * largest);
-      if (turned.n > 2 || (turned.goes_on && turned.n + turned.falls > 1))
+      if (turned.n > 2 ||
+          (is_even && turned.goes_on && turned.n + turned.falls > 1))
         {
           slide.swing_from = low->friction;
           slide.swing_to   = high->friction;
@@ -442,7 +448,7 @@ namespace SlipStep
           }
       if (rows.size() == 1)
         return false;
-      look_at_end(rows, slide);
+      look_at_end(rows, motion.is_even, slide);
       return true;
     }
   } // namespace

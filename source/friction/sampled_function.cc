@@ -114,8 +114,10 @@ namespace SlipStep
     if (begin == end)
       return 0.;
     const auto [least, most] = std::minmax_element(begin, end);
-    return std::max(
-      {0., *most - std::max(at_a, at_b), std::min(at_a, at_b) - *least});
+    return std::max({0.,
+                     *most - std::max(at_a, at_b),
+                     std::min(at_a, at_b) - *least}) /
+           std::min(at_a, at_b);
   }
 
 

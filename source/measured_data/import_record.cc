@@ -420,7 +420,8 @@ namespace SlipStep
               {
                 std::string &note = test.notes["positions"];
                 note += (note.empty() ? "counted from " : " and ") +
-                        rounded_text(first, 6) + " mm";
+                        rounded_text(first, 6) +
+                        (series == &test.displacement ? " mm" : " mm (y)");
               }
           }
     }

@@ -193,12 +193,16 @@ namespace SlipStep
       if (is_left_out)
         html += note("Under conditions left out of the fit:") +
                 bars(shrink.left_out_before, shrink.left_out_after);
-      html += note("Dashed: noise alone, " + percent_text(shrink.noise_floor) +
-                   (is_after ? ". Beyond the noise: " +
-                                 percent_text(shrink.systematic_before) +
-                                 " → " + percent_text(shrink.systematic_after) :
-                               "") +
-                   ".");
+      html += note(
+        "Dashed: " +
+        std::string(shrink.is_noise_overrated() ? "what was taken for noise, " :
+                                                  "noise alone, ") +
+        percent_text(shrink.noise_floor) +
+        (is_after ?
+           ". Beyond the noise: " + percent_text(shrink.systematic_before) +
+             " → " + percent_text(shrink.systematic_after) :
+           "") +
+        ".");
       return card(is_after ? "How far the gap shrank" : "How large the gap is",
                   html);
     }

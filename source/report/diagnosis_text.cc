@@ -83,7 +83,10 @@ namespace SlipStep
         "the gap to the measurements " +
         (before == after ? "stays " + before :
                            "falls from " + before + " to " + after) +
-        " of friction (noise alone: " + percent_text(shrink.noise_floor) +
+        " of friction (noise alone: " +
+        (shrink.is_noise_overrated() ? "less than the " : "") +
+        percent_text(shrink.noise_floor) +
+        (shrink.is_noise_overrated() ? " that were taken for it" : "") +
         (shrink.systematic_before > 0. ?
            "; beyond it " + percent_text(shrink.systematic_before) + " → " +
              percent_text(shrink.systematic_after) :

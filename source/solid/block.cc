@@ -191,8 +191,6 @@ namespace SlipStep
 
 
 
-  // Nothing acts in full from the first instant: it would do more work than is
-  // stored, and shorter steps would not make it less.
   template <int dim>
   BlockState<dim> Block<dim>::state() const
   {

@@ -85,32 +85,34 @@ TEST(CalibrationWarnings, AWrongNoiseThatIsStatedIsTold)
 // that begin elsewhere; others do not mind.
 TEST(CalibrationWarnings, TestsThatBeginElsewhereAreTold)
 {
-  for (const double first : {0., 12.3})
-    {
+  const auto is_told =
+    [&](const double x, const double y, const std::string &effects) {
       const TemporaryFolder folder;
-      for (const double start : {0., first})
+      for (const double share : {0., 1.})
         {
           MeasuredTest test;
           for (unsigned int i = 0; i < 50; ++i)
             {
               test.time.push_back(i);
-              test.displacement.push_back(start + 0.1 * i);
+              test.displacement.push_back(share * x + 0.1 * i);
+              test.displacement_y.push_back(share * y + 0.1 * i);
               test.pressure.push_back(5.8);
-              test.friction.push_back(0.13 + 1e-3 * std::sin(7. * i));
+              const double friction = 0.09 + 1e-3 * std::sin((7. + share) * i);
+              test.friction.push_back(friction);
+              test.friction_y.push_back(friction);
             }
-          write_measured_test(folder.path() / (std::to_string(start) + ".csv"),
+          write_measured_test(folder.path() / (std::to_string(share) + ".csv"),
                               test);
         }
-      const auto is_told = [&](const std::string &effects) {
-        Parameters parameters = one_coefficient(folder);
-        parameters.set("Friction/Effects", effects, "test");
-        std::string text;
-        for (const std::string &warning : Campaign(parameters).warnings())
-          text += warning + "\n";
-        return contains(text,
-                        "begin at different positions, from 0 to 12.3 mm");
-      };
-      EXPECT_FALSE(is_told("subloading"));
-      EXPECT_EQ(is_told("subloading, texture"), first > 0.);
-    }
+      Parameters parameters = one_coefficient(folder);
+      parameters.set("Friction/Effects", effects, "test");
+      std::string text;
+      for (const std::string &warning : Campaign(parameters).warnings())
+        text += warning + "\n";
+      return contains(text, "begin at different positions, from 0 to 12.3 mm");
+    };
+  EXPECT_FALSE(is_told(12.3, 0., "subloading"));
+  EXPECT_TRUE(is_told(12.3, 0., "subloading, texture"));
+  EXPECT_TRUE(is_told(0., 12.3, "subloading, texture"));
+  EXPECT_FALSE(is_told(0., 0., "subloading, texture"));
 }

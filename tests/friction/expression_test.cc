@@ -113,12 +113,14 @@ TEST(Expression, does_not_hide_within_a_step)
       }
     return last;
   };
-  const auto bump = [](const std::string &where) {
+  const auto bump = [](const std::string &where,
+                       const std::string &scale = "1") {
     return Settings{{"Effects", "expression"},
                     {"Static coefficient", "0.1"},
                     {"Tangential stiffness", "1e5"},
                     {"expression/Formula",
-                     "1 + 0.5 * exp(-((x - " + where + ") / 0.01)^2)"},
+                     scale + " * (1 + 0.5 * exp(-((x - " + where +
+                       ") / 0.01)^2))"},
                     {"expression/From", "0"},
                     {"expression/To", "6"}};
   };
@@ -128,12 +130,19 @@ TEST(Expression, does_not_hide_within_a_step)
       EXPECT_LT(of_line(bump("5.95"), covariate), 1e-3) << covariate;
     }
   EXPECT_NEAR(of_line(bump("3.95"), "pressure"), 0.5, 0.01);
+  EXPECT_NEAR(of_line(bump("0.95", "1e-3"), "path"), 0.5, 0.01);
   EXPECT_LT(of_line(bump("5.95"), "pressure"), 1e-3);
   const Settings waves = {{"Effects", "texture"},
                           {"Static coefficient", "0.1"},
                           {"Tangential stiffness", "1e5"},
                           {"texture/Amplitude", "0.3"}};
   EXPECT_GE(of_line(waves + Settings{{"texture/Wavelength", "0.2 mm"}}, ""),
+            0.3);
+  // By a harmonic that is larger than the wave.
+  EXPECT_GE(of_line(waves + Settings{{"texture/Amplitude", "0.003"},
+                                     {"texture/Second sine", "100"},
+                                     {"texture/Wavelength", "0.4 mm"}},
+                    ""),
             0.3);
   EXPECT_LT(of_line(waves + Settings{{"texture/Wavelength", "200 mm"}}, ""),
             1e-3);

@@ -70,6 +70,22 @@ TEST(DiagnosisHeadline, ItNamesWhatIsMissingWithTheNumbers)
 
 
 
+// A wave without a name was taken for noise.
+TEST(DiagnosisHeadline, ItTellsANoiseThatWasTooLarge)
+{
+  Diagnosis diagnosis          = SyntheticDiagnosis::named();
+  diagnosis.shrink.noise_floor = 0.0202;
+  EXPECT_TRUE(contains(headline(diagnosis),
+                       "(noise alone: less than the 2.02 % that were taken for "
+                       "it; "))
+    << headline(diagnosis);
+  EXPECT_TRUE(contains(page_of(diagnosis), "Dashed: what was taken for noise"));
+  diagnosis.shrink.fitted_after = 0.019;
+  EXPECT_TRUE(contains(headline(diagnosis), "(noise alone: 2.02 %; "));
+}
+
+
+
 TEST(DiagnosisHeadline, ANameThatExplainsLittleIsWorthLittle)
 {
   Diagnosis diagnosis                = SyntheticDiagnosis::named();

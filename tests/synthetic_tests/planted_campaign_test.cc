@@ -100,6 +100,24 @@ TEST(PlantedCampaign, HidesTheSameForEver)
 
 
 
+// Neither do its tests and their noise change.
+TEST(PlantedCampaign, IsTheSameForEver)
+{
+  const PlantedCampaign campaign = plant(CampaignClass::one, 3);
+  double                friction = 0., pressure = 0.;
+  for (const PlantedTest &test : campaign.tests)
+    {
+      for (const double value : test.measured.friction)
+        friction += value;
+      for (const double value : test.measured.pressure)
+        pressure += value;
+    }
+  EXPECT_NEAR(friction, 355.77551, 1e-4);
+  EXPECT_NEAR(pressure, 29884.9, 0.01);
+}
+
+
+
 TEST(PlantedCampaign, TakesAnAmplitudeThatIsGiven)
 {
   CampaignOptions options;

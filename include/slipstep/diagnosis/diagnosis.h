@@ -146,6 +146,13 @@ namespace SlipStep
     /// The same in terms of what noise does not explain: root of the squares
     /// above the floor.
     double systematic_before = 0., systematic_after = 0.;
+
+    /// Whether less is left than what was taken for noise: waves that rows
+    /// share look like that until they have a name.
+    bool is_noise_overrated() const
+    {
+      return fitted_after < fitted_before && fitted_after < 0.8 * noise_floor;
+    }
   };
 
   /// A step of the way from the starting model down to the noise.

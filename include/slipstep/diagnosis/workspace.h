@@ -46,7 +46,7 @@ namespace SlipStep
     ///@}
 
     /// @name What is asked of the same model again: what score_candidates() saw
-    /// last, and left_out_squares() found lately.
+    /// last, and left_out_squares() found lately. Not for several threads.
     ///@{
     mutable std::shared_ptr<const ScoredModel> last_scored                = {};
     mutable std::deque<std::pair<ModelKey, std::vector<double>>> left_out = {};

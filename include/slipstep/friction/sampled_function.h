@@ -37,8 +37,8 @@ namespace SlipStep
       return {curve(x), curve.prime(x)};
     }
 
-    /// By how much the function leaves, between two places, what it is at
-    /// both.
+    /// By how much the function, which is positive, leaves between two places
+    /// what it is at both, as a share of that.
     double excursion(const double a, const double b) const;
 
   private:

@@ -46,8 +46,8 @@ namespace SlipStep
   // sliding cost no digits of an elastic displacement of 100 nm, and the last
   // displacement is a good first guess for the next.
 
-  /// What an observer sees of a block after a step. References hold as long as
-  /// the block, and show what it has become.
+  /// What an observer sees of a block after a step; to be asked for anew after
+  /// the next. References hold as long as the block.
   template <int dim>
   struct BlockState
   {

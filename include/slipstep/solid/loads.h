@@ -27,6 +27,8 @@ namespace SlipStep
   /// How much of each part acts.
   using LoadFactors = std::array<double, n_load_parts>;
 
+  /// Nothing acts in full from the first instant: it would do more work than is
+  /// stored, and shorter steps would not make it less.
   /// @param first_step over which what acts at once comes [s]
   /// @param time [s]
   inline LoadFactors load_factors_at(const Programme &programme,

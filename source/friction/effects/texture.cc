@@ -2,6 +2,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <slipstep/friction/effect.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <array>
@@ -38,12 +39,18 @@ namespace SlipStep
       {
         for (unsigned int i = 0; i < shape_keys.size(); ++i)
           waves[i] = parameters.number(shape_keys[i]);
-        if (w * (1. + std::hypot(waves[0], waves[1]) +
-                 std::hypot(waves[2], waves[3])) >=
-            1.)
+        const double largest =
+          1. + std::hypot(waves[0], waves[1]) + std::hypot(waves[2], waves[3]);
+        if (w * largest >= 1.)
           parameters.reject(amplitude_key,
-                            "with its harmonics it must be less than 1, or "
-                            "friction could vanish");
+                            "with its harmonics, which make it up to " +
+                              short_text(largest) +
+                              " times as large, it must be less than 1, or "
+                              "friction could vanish");
+        swing              = w * largest;
+        shortest           = waves[2] != 0. || waves[3] != 0. ? 3. :
+                             waves[0] != 0. || waves[1] != 0. ? 2. :
+                                                                1.;
         const double angle = parameters.number("Friction/texture/Angle");
         across[0]          = std::cos(angle);
         across[1]          = std::sin(angle);
@@ -71,14 +78,14 @@ namespace SlipStep
         return factor;
       }
 
-      // A part of its shortest wave.
+      // Half of its shortest wave.
       virtual double hidden_change(const ContactState &start,
                                    const ContactState &end) const override
       {
-        const double turned = 3. * wave_number *
-                              (across[0] * (end[track_1] - start[track_1]) +
-                               across[1] * (end[track_2] - start[track_2]));
-        return std::abs(turned) > PI ? w : 0.;
+        const double turned =
+          wave_number * (across[0] * (end[track_1] - start[track_1]) +
+                         across[1] * (end[track_2] - start[track_2]));
+        return shortest * std::abs(turned) > PI ? swing : 0.;
       }
 
       virtual void remember(const SlipStepData &step,
@@ -260,7 +267,9 @@ namespace SlipStep
       const double          w;
       const double          wave_number;
       const double          phase;
-      std::array<double, 4> waves; ///< s_2, c_2, s_3, c_3
+      std::array<double, 4> waves;    ///< s_2, c_2, s_3, c_3
+      double                swing;    ///< largest departure from 1
+      double                shortest; ///< number of the shortest wave
       dealii::Tensor<1, 2>  across;
     };
 
