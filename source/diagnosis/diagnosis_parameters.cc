@@ -120,4 +120,16 @@ namespace SlipStep
                                                "did you mean '" + near + "'?"));
         }
   }
+
+
+
+  std::chrono::steady_clock::time_point
+  deadline_of(const Parameters &parameters, const double share)
+  {
+    using Clock = std::chrono::steady_clock;
+    return Clock::now() +
+           std::chrono::duration_cast<Clock::duration>(
+             std::chrono::duration<double>(
+               share * parameters.number(section + "Most time")));
+  }
 } // namespace SlipStep

@@ -168,17 +168,16 @@ namespace SlipStep
     result.p_together = saturated.p;
     result.p_replicates =
       chance_of_agreement(workspace.comparison, model.residual, null_draws);
-    const TrackWave track = find_track_wave(workspace.along_track,
-                                            workspace.wavelengths,
-                                            model,
-                                            null_draws);
-    result.p_track        = track.p;
-    result.wavelength     = track.wavelength;
-    result.p              = std::min({1.,
-                                      result.p_smooth / share_of_smooth,
-                                      result.p_together / share_of_others,
-                                      result.p_replicates / share_of_others,
-                                      result.p_track / share_of_others});
+    result.p_track = find_track_wave(workspace.along_track,
+                                     workspace.wavelengths,
+                                     model,
+                                     null_draws)
+                       .p;
+    result.p = std::min({1.,
+                         result.p_smooth / share_of_smooth,
+                         result.p_together / share_of_others,
+                         result.p_replicates / share_of_others,
+                         result.p_track / share_of_others});
     return result;
   }
 } // namespace SlipStep

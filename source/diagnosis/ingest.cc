@@ -4,6 +4,7 @@
 #include <slipstep/diagnosis/outlier.h>
 #include <slipstep/diagnosis/record_warnings.h>
 #include <slipstep/diagnosis/refits.h>
+#include <slipstep/diagnosis/diagnosis_parameters.h>
 #include <slipstep/diagnosis/ingest.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
@@ -219,17 +220,6 @@ namespace SlipStep
           result.outlier_tests.push_back(test);
         }
       tests = kept;
-    }
-
-
-
-    // From now on.
-    std::chrono::steady_clock::time_point deadline_of(const Parameters &start)
-    {
-      return std::chrono::steady_clock::now() +
-             std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-               std::chrono::duration<double>(
-                 start.number("Diagnosis/Most time")));
     }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/profile_side.h>
+#include <slipstep/diagnosis/diagnosis_parameters.h>
 #include <slipstep/diagnosis/intervals.h>
 #include <slipstep/diagnosis/refits.h>
 
@@ -75,21 +76,6 @@ namespace SlipStep
 
 
 
-    // From now on, for all of them.
-    std::chrono::steady_clock::time_point
-    deadline_of_profiles(const Workspace &workspace)
-    {
-      constexpr double share = 0.5;
-
-      using Clock = std::chrono::steady_clock;
-      return Clock::now() +
-             std::chrono::duration_cast<Clock::duration>(
-               std::chrono::duration<double>(
-                 share * workspace.start.number("Diagnosis/Most time")));
-    }
-
-
-
     void follow_both_ways(const Workspace                            &workspace,
                           const Model                                &optimum,
                           const std::size_t                           i,
@@ -144,8 +130,9 @@ namespace SlipStep
                                                  const Model     &model,
                                                  const double     confidence)
   {
-    const Scatter scatter  = scatter_of(workspace, model, confidence);
-    const auto    deadline = deadline_of_profiles(workspace);
+    const Scatter scatter = scatter_of(workspace, model, confidence);
+    // For all of them.
+    const auto deadline = deadline_of(workspace.start, 0.5);
     std::vector<DiagnosedParameter> result(model.scaled.size());
     side_by_side(model.scaled.size(), [&](const std::size_t i) {
       const FitParameter &parameter = model.campaign->fitted[i];

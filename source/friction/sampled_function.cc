@@ -91,11 +91,7 @@ namespace SlipStep
 
   SampledFunction::SampledFunction(std::vector<double> x,
                                    std::vector<double> samples)
-    : from(x.front())
-    , to(x.back())
-    , first(samples.front())
-    , last(samples.back())
-    , places(x)
+    : places(x)
     , values(samples)
     , curve(std::move(x), std::move(samples))
   {}

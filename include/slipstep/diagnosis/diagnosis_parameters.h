@@ -4,6 +4,8 @@
 
 #include <slipstep/utilities/parameters.h>
 
+#include <chrono>
+
 namespace SlipStep
 {
   /// Declares section "Diagnosis".
@@ -12,6 +14,10 @@ namespace SlipStep
   /// Read section "Diagnosis" without computing.
   /// @throws InputError
   void check_diagnosis_parameters(const Parameters &parameters);
+
+  /// When a share of `Diagnosis/Most time` is over, from now on.
+  std::chrono::steady_clock::time_point
+  deadline_of(const Parameters &parameters, const double share = 1.);
 } // namespace SlipStep
 
 #endif

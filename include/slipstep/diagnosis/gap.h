@@ -19,8 +19,6 @@ namespace SlipStep
     /// What a model with anything at all could explain, beyond chance.
     double          excess = 0.;
     Eigen::VectorXd explained; ///< that part of the residual, whitened
-    /// Of the clearest wave along the track [mm], 0 if nothing moves along it.
-    double wavelength = 0.;
   };
 
   /// The chance that replicates agree as much in what a model leaves: their

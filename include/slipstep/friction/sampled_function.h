@@ -30,10 +30,10 @@ namespace SlipStep
     /// Value and derivative.
     Rate operator()(const double x) const
     {
-      if (!(x > from))
-        return {first, 0.};
-      if (x >= to)
-        return {last, 0.};
+      if (!(x > places.front()))
+        return {values.front(), 0.};
+      if (x >= places.back())
+        return {values.back(), 0.};
       return {curve(x), curve.prime(x)};
     }
 
@@ -44,8 +44,6 @@ namespace SlipStep
   private:
     SampledFunction(std::vector<double> x, std::vector<double> samples);
 
-    double                                                 from, to;
-    double                                                 first, last;
     std::vector<double>                                    places, values;
     boost::math::interpolators::pchip<std::vector<double>> curve;
   };
