@@ -132,16 +132,18 @@ TEST(Expression, does_not_hide_within_a_step)
   EXPECT_NEAR(of_line(bump("3.95"), "pressure"), 0.5, 0.01);
   EXPECT_NEAR(of_line(bump("0.95", "1e-3"), "path"), 0.5, 0.01);
   EXPECT_LT(of_line(bump("5.95"), "pressure"), 1e-3);
+  // 41 waves in a step, very nearly 12 of them in its first stage.
   const Settings waves = {{"Effects", "texture"},
                           {"Static coefficient", "0.1"},
                           {"Tangential stiffness", "1e5"},
                           {"texture/Amplitude", "0.3"}};
-  EXPECT_GE(of_line(waves + Settings{{"texture/Wavelength", "0.2 mm"}}, ""),
+  EXPECT_GE(of_line(waves + Settings{{"texture/Wavelength", "0.0048780488 mm"}},
+                    ""),
             0.3);
   // By a harmonic that is larger than the wave.
   EXPECT_GE(of_line(waves + Settings{{"texture/Amplitude", "0.003"},
                                      {"texture/Second sine", "100"},
-                                     {"texture/Wavelength", "0.4 mm"}},
+                                     {"texture/Wavelength", "0.0097560976 mm"}},
                     ""),
             0.3);
   EXPECT_LT(of_line(waves + Settings{{"texture/Wavelength", "200 mm"}}, ""),
