@@ -243,6 +243,7 @@ namespace SlipStep
                             Replay(resample(test, options).test,
                                    parameters.number("Calibration/Lead-in"),
                                    row_distance)};
+      result.replay.order = test.order();
       keep_rows(result.rows, rows);
       result.motion_step = step;
       const double noted = Campaign::noted_noise(test);

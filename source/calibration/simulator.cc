@@ -16,20 +16,30 @@ namespace SlipStep
 {
   namespace
   {
-    /// One simulation, for all tests of its motion.
+    /// One simulation, for all tests of its motion; with effect run_order one
+    /// for each, by the same steps.
     class Simulation
     {
     public:
-      Simulation(const Replay      &replay,
+      Simulation(const Replay      &motion,
                  const FrictionLaw &law,
                  const Machine     &machine)
-        : replay(replay)
+        : replay(motion)
+        , law(law)
+        , machine(machine)
+        , heeds_order(
+            std::count(law.effects().begin(), law.effects().end(), "run_order"))
       {
         replay.simulate(law, machine, curve);
       }
 
-      Replay::Curve at_rows(const CampaignTest &test) const
+      Replay::Curve at_rows(const CampaignTest &test)
       {
+        if (heeds_order && test.replay.order != replay.order)
+          {
+            replay.order = test.replay.order;
+            replay.simulate(law, machine, curve);
+          }
         Replay::Curve result;
         result.friction = replay.at(curve.friction, test.rows.time);
         if (test.has_two_axes())
@@ -38,8 +48,11 @@ namespace SlipStep
       }
 
     private:
-      const Replay &replay;
-      Replay::Curve curve;
+      Replay             replay;
+      const FrictionLaw &law;
+      const Machine     &machine;
+      const bool         heeds_order;
+      Replay::Curve      curve;
     };
 
 
@@ -260,10 +273,10 @@ namespace SlipStep
                 share * campaign.search_tolerance,
                 static_cast<std::size_t>(times_more *
                                          (100. + replays[i].n_steps())));
-      const Replay     halved = fine.halved();
-      const Simulation by_halved(halved, law, machine);
-      const Simulation by_fine(fine, law, machine);
-      const Simulation planned(replays[i], law, machine);
+      const Replay halved = fine.halved();
+      Simulation   by_halved(halved, law, machine);
+      Simulation   by_fine(fine, law, machine);
+      Simulation   planned(replays[i], law, machine);
       for (const std::size_t t : tests_of[i])
         {
           const CampaignTest &test = campaign.tests[t];
@@ -289,7 +302,7 @@ namespace SlipStep
     const FrictionLaw law(reference.parameters);
     const Machine     machine(reference.parameters);
     side_by_side(replays.size(), [&](const std::size_t i) {
-      const Simulation there(reference.replays[i], law, machine);
+      Simulation there(reference.replays[i], law, machine);
       for (const std::size_t t : tests_of[i])
         {
           add(1., there.at_rows(campaign.tests[t]), corrections[t]);
@@ -308,7 +321,7 @@ namespace SlipStep
     const Machine     machine(other);
     corrections.resize(campaign.tests.size());
     side_by_side(replays.size(), [&](const std::size_t i) {
-      const Simulation here(replays[i], law, machine);
+      Simulation here(replays[i], law, machine);
       for (const std::size_t t : tests_of[i])
         {
           corrections[t] = here.at_rows(campaign.tests[t]);

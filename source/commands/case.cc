@@ -16,6 +16,7 @@
 #include <slipstep/solid/face_probes.h>
 #include <slipstep/solid/point_lines.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/variants.h>
 
 #include <unistd.h>
@@ -176,6 +177,31 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // A run has the number that the case says, whichever test it follows.
+    void warn_of_order(const Parameters      &parameters,
+                       const Programme       &programme,
+                       std::set<std::string> &warnings)
+    {
+      const std::string              key = "Friction/run_order/Test";
+      const std::vector<std::string> effects =
+        parameters.list("Friction/Effects");
+      if (std::find(effects.begin(), effects.end(), "run_order") ==
+          effects.end())
+        return;
+      for (const FollowedTest &followed : programme.followed())
+        if (followed.test.order().value_or(parameters.number(key)) !=
+            parameters.number(key))
+          warnings.insert(followed.test.file.string() +
+                          " was made as test number " +
+                          rounded_text(*followed.test.order(), 6) + ", but " +
+                          key + " is " + parameters.text(key));
+    }
+  } // namespace
+
+
+
   std::vector<std::string> warnings_of_programmes(const Case &the_case)
   {
     std::set<std::string> warnings;
@@ -184,6 +210,7 @@ namespace SlipStep
         const Programme programme = parse_programme(parameters);
         warnings.insert(programme.warnings().begin(),
                         programme.warnings().end());
+        warn_of_order(parameters, programme, warnings);
       }
     return {warnings.begin(), warnings.end()};
   }

@@ -4,11 +4,13 @@
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/report/case_text.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace SlipStep
 {
@@ -43,6 +45,15 @@ namespace SlipStep
                      "follow " + fs::proximate(test.file, the_case.resolve("."))
                                    .generic_string(),
                      "diagnosis");
+      const std::vector<std::string> effects =
+        parameters.list("Friction/Effects");
+      const std::optional<double> order = read_measured_test(test.file).order();
+      if (order.has_value() &&
+          std::find(effects.begin(), effects.end(), "run_order") !=
+            effects.end())
+        parameters.set("Friction/run_order/Test",
+                       rounded_text(*order, 15),
+                       "diagnosis");
       write_file(job.case_file,
                  case_text(parameters, folder, inactive_sections));
       return job;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/covariates.h>
 #include <slipstep/measured_data/test_rows.h>
-#include <slipstep/utilities/units.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
 
 namespace SlipStep
 {
@@ -230,17 +231,6 @@ namespace SlipStep
 
 
 
-  std::optional<double> order_of(const MeasuredTest &test)
-  {
-    const auto note = test.notes.find("order");
-    return note == test.notes.end() || note->second.empty() ?
-             std::nullopt :
-             std::make_optional(
-               parse_quantity(note->second, Dimension::number));
-  }
-
-
-
   std::string name_of(const Phase phase)
   {
     static const std::array<std::string, n_phases> names = {{"presliding",
@@ -415,7 +405,7 @@ namespace SlipStep
       covariates.is_reverse(k) =
         rows.speed[row] > 0. && std::cos(rows.angle[row]) < -0.5 ? 1. : 0.;
       covariates.heat(k)  = rows.heat[row];
-      covariates.order(k) = order_of(test).value_or(0.);
+      covariates.order(k) = test.order().value_or(0.);
       covariates.phase[k] = rows.phase[row];
     }
   } // namespace
@@ -525,6 +515,15 @@ namespace SlipStep
                 std::max(result.longest_slide, covariates.since_rest(k));
           }
       }
+    std::set<double> orders;
+    for (const CampaignTest &test : tests)
+      if (const std::optional<double> order = test.rows.order())
+        orders.insert(*order);
+      else
+        return result;
+    result.n_orders    = orders.size();
+    result.first_order = *orders.begin();
+    result.last_order  = *orders.rbegin();
     return result;
   }
 } // namespace SlipStep

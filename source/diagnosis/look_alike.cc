@@ -7,8 +7,6 @@
 #include <Eigen/QR>
 
 #include <algorithm>
-#include <iterator>
-#include <set>
 
 namespace SlipStep
 {
@@ -16,83 +14,27 @@ namespace SlipStep
   {
     using Kind = LookAlike::Kind;
 
-    // How many tests were run between the middle of the campaign and each of
-    // them; nothing if the order of any is unknown, or there are few moments.
-    std::vector<double> places_in_campaign(const Workspace &workspace)
+    // Of the friction along the first axis.
+    std::vector<CampaignTest> without(std::vector<CampaignTest> tests,
+                                      const LookAlike          &look_alike)
     {
-      constexpr std::size_t least = 3;
-
-      std::vector<double> orders;
-      for (const CampaignTest &test : workspace.tests)
-        {
-          const std::optional<double> order = order_of(test.rows);
-          if (!order.has_value())
-            return {};
-          orders.push_back(*order);
-        }
-      const std::set<double> moments(orders.begin(), orders.end());
-      if (moments.size() < least)
-        return {};
-      std::vector<double> places;
-      double              mean = 0.;
-      for (const double order : orders)
-        {
-          places.push_back(std::distance(moments.begin(), moments.find(order)));
-          mean += places.back() / orders.size();
-        }
-      for (double &place : places)
-        place -= mean;
-      return places;
-    }
-
-
-
-    // Of the friction along the first axis, or, by a drift, along both.
-    std::vector<CampaignTest> without(std::vector<CampaignTest>  tests,
-                                      const LookAlike           &look_alike,
-                                      const std::vector<double> &places)
-    {
-      for (std::size_t t = 0; t < tests.size(); ++t)
-        {
-          MeasuredTest &rows = tests[t].rows;
-          if (look_alike.kind == Kind::drift)
-            {
-              const double factor = 1. + look_alike.value * places[t];
-              for (double &friction : rows.friction)
-                friction /= factor;
-              for (double &friction : rows.friction_y)
-                friction /= factor;
-              continue;
-            }
-          for (std::size_t i = 0; i < rows.friction.size(); ++i)
-            if (rows.pressure[i] > 0.)
-              rows.friction[i] -= look_alike.kind == Kind::load_zero ?
-                                    look_alike.value / rows.pressure[i] :
-                                    look_alike.value;
-        }
+      for (CampaignTest &test : tests)
+        for (std::size_t i = 0; i < test.rows.friction.size(); ++i)
+          if (test.rows.pressure[i] > 0.)
+            test.rows.friction[i] -=
+              look_alike.kind == Kind::load_zero ?
+                look_alike.value / test.rows.pressure[i] :
+                look_alike.value;
       return tests;
     }
 
 
 
     // What a unit of it adds to the numbers compared.
-    Eigen::VectorXd unit_of(const Workspace           &workspace,
-                            const Kind                 kind,
-                            const std::vector<double> &places)
+    Eigen::VectorXd unit_of(const Workspace &workspace, const Kind kind)
     {
-      const Covariates &at       = workspace.covariates;
-      const auto       &measured = workspace.comparison.measured;
-      Eigen::VectorXd   result   = Eigen::VectorXd::Zero(at.axis.size());
-      if (kind == Kind::drift)
-        {
-          for (std::size_t t = 0; t < places.size(); ++t)
-            {
-              const ComparedTest &test = workspace.comparison.tests[t];
-              result.segment(test.begin, test.size) =
-                places[t] * measured.segment(test.begin, test.size);
-            }
-          return result;
-        }
+      const Covariates &at     = workspace.covariates;
+      Eigen::VectorXd   result = Eigen::VectorXd::Zero(at.axis.size());
       for (Eigen::Index i = 0; i < result.size(); ++i)
         if (at.axis(i) < 0.5 && at.pressure(i) > 0.)
           result(i) = kind == Kind::load_zero ? 1. / at.pressure(i) : 1.;
@@ -112,35 +54,26 @@ namespace SlipStep
 
 
 
-    // The starting model, fitted to tests without a zero or a drift of this
-    // kind, and how much of that there is.
-    std::optional<Model> fit_without(const Workspace           &workspace,
-                                     const Model               &base,
-                                     const std::vector<double> &places,
-                                     LookAlike                 &look_alike)
+    // The starting model, fitted to tests without a zero of this kind, and how
+    // much of that there is.
+    std::optional<Model> fit_without(const Workspace &workspace,
+                                     const Model     &base,
+                                     LookAlike       &look_alike)
     {
       constexpr unsigned int n_steps = 3; // it is nearly linear
-      constexpr double       most    = 0.9;
 
-      double farthest = 0.;
-      for (const double place : places)
-        farthest = std::max(farthest, std::abs(place));
-      RowMatrix unit = unit_of(workspace, look_alike.kind, places);
+      RowMatrix unit = unit_of(workspace, look_alike.kind);
       workspace.comparison.whiten(unit);
       std::optional<Model> model = base;
       for (unsigned int step = 0; step < n_steps && model.has_value(); ++step)
         {
           look_alike.value += best_value(*model, unit);
-          if (look_alike.kind == Kind::drift &&
-              std::abs(look_alike.value) * farthest > most)
-            return std::nullopt;
           model = if_possible([&]() -> std::optional<Model> {
-            Model other =
-              make_model(workspace.start,
-                         {},
-                         model->values(),
-                         without(workspace.tests, look_alike, places),
-                         base);
+            Model other = make_model(workspace.start,
+                                     {},
+                                     model->values(),
+                                     without(workspace.tests, look_alike),
+                                     base);
             if (!workspace.comparison.fit(other, 0.01))
               return std::nullopt;
             return other;
@@ -162,19 +95,15 @@ namespace SlipStep
         , least(base.objective)
       {}
 
-      // What makes the gap has to go, too; of a drift, much is taken for
-      // differences between replicates.
+      // What makes the gap has to go, too.
       void consider(const LookAlike            &look_alike,
                     const std::optional<Model> &model)
       {
-        constexpr double as_well = 4., sure = 10., most = 0.8,
-                         most_of_drift = 0.4;
+        constexpr double as_well = 4., most = 0.8;
         if (!model.has_value())
           return;
         const double gain       = base.objective - model->objective;
-        const double bound      = look_alike.kind == Kind::drift ?
-                                    std::max(most_of_drift * excess, sure) :
-                                    std::max(most * excess, as_well);
+        const double bound      = std::max(most * excess, as_well);
         const bool   is_as_good = found.parts.empty() ||
                                 penalised(*model) <= penalised(found) + as_well;
         if (gain >= bound && is_as_good && model->objective < least)
@@ -282,14 +211,13 @@ namespace SlipStep
                                            const Model &found,
                                            const double excess)
   {
-    Best                      best(base, found, excess);
-    const std::vector<double> places = places_in_campaign(workspace);
-    for (const Kind kind : {Kind::friction_zero, Kind::load_zero, Kind::drift})
+    Best best(base, found, excess);
+    for (const Kind kind : {Kind::friction_zero, Kind::load_zero})
       {
-        if (workspace.is_late() || (kind == Kind::drift && places.empty()))
-          continue;
+        if (workspace.is_late())
+          break;
         LookAlike  look_alike{kind};
-        const auto model = fit_without(workspace, base, places, look_alike);
+        const auto model = fit_without(workspace, base, look_alike);
         best.consider(look_alike, model);
       }
     for (const std::string &path :

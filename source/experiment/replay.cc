@@ -54,10 +54,23 @@ namespace SlipStep
   Replay::Replay(const MeasuredTest &test,
                  const double        lead_in,
                  const double        row_distance)
-    : motion(std::make_shared<Motion>(motion_of(test, lead_in, row_distance)))
+    : order(test.order())
+    , motion(std::make_shared<Motion>(motion_of(test, lead_in, row_distance)))
   {
     for (std::size_t i = 0; i < motion->intervals.size(); ++i)
       steps.push_back({i, 0., 1.});
+  }
+
+
+
+  ContactPoint Replay::start(const FrictionLaw &law) const
+  {
+    ContactState state = law.initial_state();
+    // 0 stands for a number that is not known.
+    if (order.has_value())
+      state[contact_memory("test_number")] =
+        *order == 0. ? std::numeric_limits<double>::min() : *order;
+    return ContactPoint(state);
   }
 
 
@@ -198,7 +211,7 @@ namespace SlipStep
   {
     const std::vector<Interval> &intervals = motion->intervals;
     const std::size_t            n_before  = motion->n_before;
-    ContactPoint                 point(law);
+    ContactPoint                 point     = start(law);
     Slider                       slider;
     steps.clear();
     time_list.assign(1, motion->start_time);
@@ -269,7 +282,7 @@ namespace SlipStep
                         const Machine     &machine,
                         Curve             &curve) const
   {
-    ContactPoint point(law);
+    ContactPoint point = start(law);
     Slider       slider;
     curve.friction.clear();
     curve.friction_y.clear();

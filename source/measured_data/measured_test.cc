@@ -38,6 +38,17 @@ namespace SlipStep
 
 
 
+  std::optional<double> MeasuredTest::order() const
+  {
+    const auto note = notes.find("order");
+    return note == notes.end() || note->second.empty() ?
+             std::nullopt :
+             std::make_optional(
+               parse_quantity(note->second, Dimension::number));
+  }
+
+
+
   Heading split_heading(const std::string &cell)
   {
     Heading result{cell, "", false};

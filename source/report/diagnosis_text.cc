@@ -281,17 +281,9 @@ namespace SlipStep
 
     std::string look_alike_remedy(const LookAlike &look_alike)
     {
-      switch (look_alike.kind)
-        {
-          case LookAlike::Kind::drift:
-            return "run the first tests again, or all in random order, to "
-                   "tell.";
-          case LookAlike::Kind::held_parameter:
-            return "let it be fitted (Calibration/Parameters) if it is not "
-                   "known.";
-          default:
-            return "take it off if it is one (Correction/Zero of an import).";
-        }
+      return look_alike.kind == LookAlike::Kind::held_parameter ?
+               "let it be fitted (Calibration/Parameters) if it is not known." :
+               "take it off if it is one (Correction/Zero of an import).";
     }
   } // namespace
 
@@ -307,12 +299,6 @@ namespace SlipStep
         case LookAlike::Kind::load_zero:
           return "a zero of the sensor, " + rounded_text(look_alike.value, 3) +
                  " MPa of load";
-        case LookAlike::Kind::drift:
-          return "a drift over the campaign, " +
-                 std::string(look_alike.value > 0. ? "+" : "") +
-                 rounded_text(100. * look_alike.value, 2) +
-                 " % of friction from one test to the next in the order in "
-                 "which they were run";
         case LookAlike::Kind::held_parameter:
           return look_alike.path + " = " + look_alike.text +
                  " instead of the " + look_alike.held_text +
@@ -376,9 +362,7 @@ namespace SlipStep
   {
     const bool is_stated = diagnosis.n_replicate_pairs == 0;
     if (diagnosis.look_alike.has_value())
-      return std::string(diagnosis.look_alike->kind == LookAlike::Kind::drift ?
-                           "or a drift over the campaign" :
-                         diagnosis.look_alike->kind ==
+      return std::string(diagnosis.look_alike->kind ==
                              LookAlike::Kind::held_parameter ?
                            "or a parameter that the case holds" :
                            "or a zero of the sensor") +

@@ -661,3 +661,32 @@ TEST(CorrelationLength, OfNoiseAndOfAProcessOfFirstOrder)
   const std::vector<double> offset(1000, 0.3);
   EXPECT_GT(correlation_length(offset.data(), offset.size()), 300.);
 }
+
+
+
+// Tests that were led alike are one simulation, unless their order matters.
+TEST_F(Planted, ADriftFromTestToTestIsFound)
+{
+  const Settings drift = {{"Friction/Effects",
+                           "subloading, overstress, softening, run_order"},
+                          {"Friction/run_order/Last test", "6"}};
+  std::mt19937   random(3);
+  for (const int order : {1, 6, 4, 2})
+    {
+      Settings settings = paper;
+      settings.insert(settings.end(), drift.begin(), drift.end());
+      settings.emplace_back("Friction/run_order/Change", "-0.2");
+      settings.emplace_back("Friction/run_order/Test", std::to_string(order));
+      MeasuredTest test = planted_test(
+        calibration_case(settings), 1. / 60., 50., 300, 5e-4, random);
+      test.notes["order"] = std::to_string(order);
+      write_measured_test(folder.path() / (std::to_string(order) + ".csv"),
+                          test);
+    }
+  Settings settings = drift;
+  settings.emplace_back("Calibration/Parameters",
+                        "Friction/run_order/Change from -0.5 to 0.5 start 0");
+  const Calibration found = calibrate(fitting(settings));
+  ASSERT_EQ(found.parameters.size(), 1u);
+  EXPECT_NEAR(found.parameters[0].value, -0.2, 0.002);
+}

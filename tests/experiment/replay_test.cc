@@ -248,3 +248,34 @@ TEST(Replay, ALeadInStartsWhileSliding)
   EXPECT_NEAR(curve.friction.front(), 0.098 * law.steady_ratio(0.1), 1e-6);
   EXPECT_NEAR(curve.friction.front(), replay.at(curve.friction, {5.})[0], 1e-6);
 }
+
+
+
+// As which test of its campaign a record was made is its own affair, whatever
+// the case says of runs.
+TEST(Replay, HasTheOrderOfItsTest)
+{
+  const Parameters parameters =
+    point_parameters({{"Friction/Effects", "run_order"},
+                      {"Friction/Static coefficient", "0.2"},
+                      {"Friction/run_order/Change", "0.5"},
+                      {"Friction/run_order/First test", "0"},
+                      {"Friction/run_order/Last test", "20"},
+                      {"Friction/run_order/Test", "10"}});
+  const FrictionLaw law(parameters);
+  const auto        last_friction = [&](const std::string &order) {
+    MeasuredTest test = zigzag();
+    if (!order.empty())
+      test.notes["order"] = order;
+    Replay replay(test);
+    replay.plan(law, Machine(), 1e-6);
+    Replay::Curve curve;
+    replay.simulate(law, Machine(), curve);
+    return std::hypot(curve.friction.back(), curve.friction_y.back());
+  };
+  EXPECT_NEAR(last_friction("0"), 0.2, 1e-9);
+  EXPECT_NEAR(last_friction("5"), 0.2 * (1. + 0.5 * 5. / 20.), 1e-9);
+  EXPECT_NEAR(last_friction("20"), 0.3, 1e-9);
+  EXPECT_NEAR(last_friction("200"), 0.3, 1e-9);
+  EXPECT_NEAR(last_friction(""), 0.25, 1e-9);
+}

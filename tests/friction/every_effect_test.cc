@@ -390,6 +390,8 @@ namespace
         return f * 0.6;
       if (name == "damage")
         return f * 1.3;
+      if (name == "run_order")
+        return f * (1. + 0.3 * 10. / 19.);
       if (name == "direction")
         return f * (1. + 0.25 * (1. - std::cos(dealii::numbers::PI / 9.)));
       if (name == "stribeck")

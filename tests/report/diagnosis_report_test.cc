@@ -116,13 +116,6 @@ TEST(DiagnosisHeadline, WhatOnlyLooksLikeAnEffectComesFirst)
   EXPECT_TRUE(contains(headline(diagnosis), " If not, overstress is missing"))
     << headline(diagnosis);
   EXPECT_TRUE(contains(page_of(diagnosis), "or a zero of the sensor"));
-
-  diagnosis.look_alike = LookAlike{LookAlike::Kind::drift, 0.0042};
-  EXPECT_EQ(headline(diagnosis).find(
-              "A drift over the campaign, +0.42 % of friction from one test"),
-            0u)
-    << headline(diagnosis);
-  EXPECT_TRUE(contains(page_of(diagnosis), "or a drift over the campaign"));
 }
 
 

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,9 +27,6 @@ namespace SlipStep
   constexpr unsigned int n_phases = 7;
 
   std::string name_of(const Phase phase);
-
-  /// Which test was run when, as its record says; nothing if it does not.
-  std::optional<double> order_of(const MeasuredTest &test);
 
   /// Everything known of the rows compared that may explain a difference, all
   /// tests in a row; for both axes of a test the same.

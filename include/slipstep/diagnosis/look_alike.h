@@ -17,7 +17,6 @@ namespace SlipStep
     {
       friction_zero, ///< of the sensor, in all rows of all tests
       load_zero,     ///< likewise [MPa], over the pressure
-      drift,         ///< share of friction from one test to the next one run
       held_parameter ///< of the starting model, not fitted
     };
 
@@ -33,8 +32,7 @@ namespace SlipStep
   /// What makes the starting model explain the tests as well as it does with
   /// the effects found, or, where none was, what it leaves. A zero of the
   /// sensor looks like an effect of direction where motion turns, else like a
-  /// share that does not depend on pressure; a drift over the campaign like any
-  /// that goes with the order of its tests; a wrong value that the case holds
+  /// share that does not depend on pressure; a wrong value that the case holds
   /// like what else changes friction with the same conditions.
   /// @param base the starting model, fitted
   /// @param found the model with the effects named

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace SlipStep
@@ -38,6 +39,9 @@ namespace SlipStep
     {
       return motion == other.motion;
     }
+
+    /// As which of a campaign the test was made, see effect run_order.
+    std::optional<double> order;
 
     /// Choose the steps such that the error which the law estimates for each
     /// is at most @p tolerance, relative to the friction at full slip, and that
@@ -119,6 +123,9 @@ namespace SlipStep
       double      start_time;
       double      row_distance;
     };
+
+    /// The contact that has not been loaded yet.
+    ContactPoint start(const FrictionLaw &law) const;
 
     static Motion motion_of(const MeasuredTest &test,
                             const double        lead_in,

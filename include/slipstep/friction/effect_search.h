@@ -31,6 +31,10 @@ namespace SlipStep
     /// Length of the wave along the track that the model leaves, beyond chance
     /// [mm]; 0 if there is none.
     double track_wave = 0.;
+    /// How many different numbers of order tests have, 0 unless all have one,
+    /// and the first and the last.
+    unsigned int n_orders    = 0;
+    double       first_order = 0., last_order = 0.;
   };
 
   /// Where an effect is looked for: the model so far, and the tests.

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,10 @@ namespace SlipStep
 
     /// What was done to the rows, see tidy_rows(): a line each, to be shown.
     std::vector<std::string> warnings;
+
+    /// As which test of its campaign it was made, if a comment says so
+    /// ("order").
+    std::optional<double> order() const;
   };
 
   /// One of the time series of a test.
