@@ -164,6 +164,7 @@ namespace SlipStep
     const ScoreTest::Together saturated =
       ScoreTest(model, null_draws, workspace.waves.with(smooth)).together();
     result.excess     = saturated.excess;
+    result.scatter    = saturated.scatter;
     result.explained  = saturated.explained;
     result.p_together = saturated.p;
     result.p_replicates =

@@ -73,11 +73,12 @@ namespace SlipStep
 
 
 
-    // Chance of a sum of squares as large, and its mean without cause.
+    // Chance of a sum of squares as large, its mean without cause and its
+    // scatter.
     struct SquareSum
     {
-      double mean = 0.;
-      double p    = 1.;
+      double mean = 0., deviation = 0.;
+      double p = 1.;
     };
 
     // @param parts of the draws along orthonormal directions
@@ -88,10 +89,11 @@ namespace SlipStep
       for (Eigen::Index draw = 0; draw < parts.cols(); ++draw)
         sums.push_back(parts.col(draw).squaredNorm());
       std::sort(sums.begin(), sums.end());
-      double sum = 0.;
-      for (const double value : sums)
-        sum += value;
-      return {sum / sums.size(), share_above(sums, observed)};
+      const Eigen::Map<const Eigen::ArrayXd> all(sums.data(), sums.size());
+      const double                           mean = all.mean();
+      return {mean,
+              std::sqrt((all - mean).square().mean()),
+              share_above(sums, observed)};
     }
 
 
@@ -233,8 +235,9 @@ namespace SlipStep
     result.explained = columns * (mixtures * parts);
     const SquareSum chance =
       compare_squares(mixtures.transpose() * null_parts, result.gain);
-    result.excess = std::max(0., result.gain - chance.mean);
-    result.p      = chance.p;
+    result.excess  = std::max(0., result.gain - chance.mean);
+    result.scatter = chance.deviation;
+    result.p       = chance.p;
     return result;
   }
 

@@ -141,7 +141,8 @@ namespace SlipStep
 
 
     // Two effects that nearly cancel each other, where they promise more than
-    // each alone. They have the share of the level of the second of them.
+    // each alone: by far if one is seen alone, as the formula of that may not
+    // be quite right. They have the share of the level of the second of them.
     void Searcher::add_pairs(const View &view, std::vector<Model> &found)
     {
       constexpr unsigned int most_tried = 3;
@@ -149,6 +150,7 @@ namespace SlipStep
       if (n_effects() + 2 > workspace.most_effects)
         return;
       const double level  = level_of_round(workspace, n_effects() + 1);
+      const double more   = (found.empty() ? 1. : 2.) * least_cost;
       double       single = 0.;
       for (const Model &model : found)
         single = std::max(single, result.model.objective - model.objective);
@@ -161,7 +163,8 @@ namespace SlipStep
       std::vector<std::pair<std::size_t, std::size_t>> seen;
       for (const ScoreTest::Pair &pair : view.pairs)
         {
-          if (pair.p > level || pair.gain < single + 2. * least_cost ||
+          if (pair.p > level ||
+              pair.gain < std::max(single + more, 2. * least_cost) ||
               n_tried == most_tried || workspace.is_late())
             continue;
           const auto names =

@@ -29,9 +29,11 @@ namespace SlipStep
 
 
 
+    // Two standard deviations of an excess are chance.
     bool is_too_much(const GapTest &remainder, const GapTest &gap)
     {
-      return remainder.excess > (1. - least_share) * gap.excess + sure_excess;
+      return remainder.excess > (1. - least_share) * gap.excess +
+                                  std::max(sure_excess, 2. * gap.scatter);
     }
 
 

@@ -17,8 +17,9 @@ namespace SlipStep
     double p_replicates = 1.; ///< what replicates have in common
     double p_track      = 1.; ///< waves along the track
     /// What a model with anything at all could explain, beyond chance.
-    double          excess = 0.;
-    Eigen::VectorXd explained; ///< that part of the residual, whitened
+    double          excess  = 0.;
+    double          scatter = 0.; ///< of the excess, by chance
+    Eigen::VectorXd explained;    ///< that part of the residual, whitened
   };
 
   /// The chance that replicates agree as much in what a model leaves: their

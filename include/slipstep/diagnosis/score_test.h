@@ -98,9 +98,10 @@ namespace SlipStep
     /// chance, and the chance of as much.
     struct Together
     {
-      double          gain   = 0.; ///< with what chance takes off
-      double          excess = 0.; ///< without
-      double          p      = 1.;
+      double          gain    = 0.; ///< with what chance takes off
+      double          excess  = 0.; ///< without
+      double          scatter = 0.; ///< of the excess, by chance
+      double          p       = 1.;
       Eigen::VectorXd explained; ///< part of the residual, whitened
     };
 

@@ -53,8 +53,9 @@ namespace SlipStep
       std::vector<std::string> rivals;
       Verdict                  verdict = Verdict::no_gap;
       /// The objective that noise-free tests leave after the starting model is
-      /// fitted to them; 25 are five standard deviations. Of two hidden effects
-      /// the lesser one, with the other in the model.
+      /// fitted to them, over what noise has along it; 25 are five standard
+      /// deviations. Of two hidden effects the lesser one, with the other in
+      /// the model.
       double detectability = 0.;
       double excess = 0., remainder = 0.; ///< see GapTest
       /// Root mean square of model minus truth, shares of friction.
@@ -143,7 +144,21 @@ namespace SlipStep
 
 
 
-    /// What noise-free tests leave when the hidden effect is not in the model.
+    /// What a model of tests without noise leaves, in units of the variance
+    /// that noise, as uncertain as it is known, has along it.
+    inline double visible(const Workspace &clean, const Model &model)
+    {
+      const Eigen::VectorXd left =
+        model.residual.head(clean.comparison.n_rows());
+      const Eigen::RowVectorXd chance =
+        left.normalized().transpose() * clean.null_draws;
+      return model.objective /
+             std::max(1., chance.squaredNorm() / chance.size());
+    }
+
+
+
+    /// The least of these where a hidden effect is not in the model.
     inline double detectability(Workspace                      &clean,
                                 const Model                    &base,
                                 const std::vector<std::string> &hidden)
@@ -151,7 +166,7 @@ namespace SlipStep
       Model model =
         make_model(clean.start, {}, base.values(), clean.tests, base);
       clean.comparison.fit(model, 0.1);
-      double least = model.objective;
+      double least = visible(clean, model);
       if (hidden.size() < 2)
         return least;
       const View view = score_candidates(clean, model);
@@ -164,7 +179,7 @@ namespace SlipStep
             if (!with_one.has_value())
               continue;
             settle(clean, *with_one);
-            least = std::min(least, with_one->objective);
+            least = std::min(least, visible(clean, *with_one));
           }
       return least;
     }
