@@ -251,7 +251,10 @@ namespace SlipStep
 
   void check_case(const Parameters &parameters)
   {
-    const FrictionLaw     law(parameters);
+    const FrictionLaw law(parameters);
+    for (const std::string &effect : law.effects())
+      if (const auto &check = effect_registry().at(effect).check)
+        check(parameters);
     const Programme       programme = parse_programme(parameters);
     const BlockParameters block(parameters, programme);
     const StepControl     control(parameters, programme, law);

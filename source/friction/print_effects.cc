@@ -65,8 +65,12 @@ namespace SlipStep
   {
     for (const std::string &name : names)
       if (effect_registry().count(name) == 0)
-        throw InputError("there is no effect " + name +
-                         did_you_mean(name, effect_names()));
+        throw InputError(
+          "there is no effect " + name +
+          (name == "compliance" ?
+             ": a diagnosis calls so what Loading/Machine stiffness describes, "
+             "see slipstep parameters Loading" :
+             did_you_mean(name, effect_names())));
     for (const auto &item : effect_registry())
       {
         const EffectInfo &info = item.second;

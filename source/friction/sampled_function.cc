@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace SlipStep
@@ -95,6 +96,34 @@ namespace SlipStep
     , values(samples)
     , curve(std::move(x), std::move(samples))
   {}
+
+
+
+  std::optional<double>
+  SampledFunction::missed(const std::function<double(double)> &function) const
+  {
+    constexpr unsigned int n         = 200000;
+    constexpr double       tolerance = 0.01;
+
+    const double from = places.front(), to = places.back();
+    const double distance = (to - from) / n;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const double x = from + (i + 0.5) * distance;
+        // A jump is somewhere between two samples.
+        const double here   = (*this)(x).value;
+        const double near[] = {(*this)(x - distance).value,
+                               here,
+                               (*this)(x + distance).value};
+        const auto [least, most] =
+          std::minmax_element(std::begin(near), std::end(near));
+        const double value = function(x);
+        if (value < (1. - tolerance) * *least ||
+            value > (1. + tolerance) * *most)
+          return x;
+      }
+    return {};
+  }
 
 
 

@@ -167,3 +167,38 @@ TEST(Expression, is_refused_where_no_table_follows_it)
         << refusal.what();
     }
 }
+
+
+
+// Between two samples nobody sees it unless it is looked for.
+TEST(Expression, is_refused_where_a_feature_is_narrow)
+{
+  const auto words = [](const std::string &formula, const std::string &to) {
+    Parameters parameters;
+    FrictionLaw::declare_parameters(parameters);
+    parameters.set("Friction/Effects", "expression", "test");
+    for (const auto &[key, value] : along_path(formula, to))
+      if (key != "Effects")
+        parameters.set("Friction/" + key, value, "test");
+    try
+      {
+        effect_registry().at("expression").check(parameters);
+      }
+    catch (const InputError &refusal)
+      {
+        return std::string(refusal.what());
+      }
+    return std::string();
+  };
+  EXPECT_NE(words("1 + 0.5 * exp(-((x - 31.3) / 1)^2)", "1e5")
+              .find("it changes within much less than From to To, near x = "),
+            std::string::npos);
+  EXPECT_NE(words("abs(x - 31.3) < 0.2 ? 1.2 : 1", "2e4").find("near x = 31."),
+            std::string::npos);
+  // Wide ones, and jumps at many places.
+  EXPECT_EQ(words("1 + 0.5 * exp(-((x - 31.3) / 1)^2)", "60"), "");
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(words("x < " + std::to_string(0.137 * (i + 1)) + " ? 1 : 0.7",
+                    "3"),
+              "");
+}

@@ -333,6 +333,11 @@ namespace SlipStep
 
     EffectSearch search;
 
+    /// What is looked at once, before a case is run, and not whenever a law is
+    /// made. May be empty.
+    /// @throws InputError
+    std::function<void(const Parameters &)> check = {};
+
     std::function<std::unique_ptr<Effect>(const Parameters &,
                                           const CoefficientBasis &)>
       create;

@@ -27,6 +27,11 @@ namespace SlipStep
        const double                         from,
        const double                         to);
 
+    /// A place where the function is not what its samples make of it, if it
+    /// changes between two of them; looked for at many more.
+    std::optional<double>
+    missed(const std::function<double(double)> &function) const;
+
     /// Value and derivative.
     Rate operator()(const double x) const
     {

@@ -5,6 +5,7 @@
 #include <slipstep/friction/effect.h>
 #include <slipstep/friction/sampled_function.h>
 #include <slipstep/utilities/formula.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -163,6 +164,7 @@ namespace SlipStep
                                  {"From", "0"},
                                  {"To", "100"},
                                  {"Renewal length", "0.002 mm"}};
+        info.check            = check;
         info.search           = {};
         info.search.why_not =
           "it is what describes a gap for which no effect has a name";
@@ -187,14 +189,12 @@ namespace SlipStep
           }
       }
 
-      static SampledFunction sampled_formula(const Parameters &parameters)
+      // The value at x, if it is allowed.
+      static std::function<double(double)>
+      checked_formula(const Parameters &parameters)
       {
-        const double from = parameters.number(key("From"));
-        const double to   = parameters.number(key("To"));
-        if (!(from < to))
-          parameters.reject(key("To"), "must be greater than From");
         const ParsedFormula formula = read_formula(parameters);
-        const auto          value   = [&](const double x) {
+        return [&parameters, formula](const double x) {
           const double result = formula(x);
           if (result >= 1e-6 && result <= 1e6)
             return result;
@@ -203,7 +203,30 @@ namespace SlipStep
               << " is not between 1e-6 and 1e6";
           parameters.reject(key("Formula"), why.str());
         };
-        const auto sampled = SampledFunction::of(value, from, to);
+      }
+
+      // What is narrower than the distance of samples.
+      static void check(const Parameters &parameters)
+      {
+        const std::optional<double> missed =
+          sampled_formula(parameters).missed(checked_formula(parameters));
+        if (missed.has_value())
+          parameters.reject(key("Formula"),
+                            "it changes within much less than From to To, near "
+                            "x = " +
+                              rounded_text(*missed, 6) +
+                              "; state the range that the tests or the "
+                              "programme reach");
+      }
+
+      static SampledFunction sampled_formula(const Parameters &parameters)
+      {
+        const double from = parameters.number(key("From"));
+        const double to   = parameters.number(key("To"));
+        if (!(from < to))
+          parameters.reject(key("To"), "must be greater than From");
+        const auto sampled =
+          SampledFunction::of(checked_formula(parameters), from, to);
         if (!sampled.has_value())
           parameters.reject(key("Formula"),
                             "it varies too quickly between From and To: more "
