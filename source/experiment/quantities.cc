@@ -4,6 +4,7 @@
 #include <slipstep/experiment/sliding_path.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace SlipStep
@@ -213,10 +214,34 @@ namespace SlipStep
 
 
 
+    /// A parabola through three points.
+    struct Parabola
+    {
+      Parabola(const std::array<double, 3> &x, const std::array<double, 3> &y)
+      {
+        const double h = x[1] - x[0], H = x[2] - x[1];
+        const double d = (y[1] - y[0]) / h, D = (y[2] - y[1]) / H;
+        if (h > 0. && H > 0.)
+          {
+            curvature = (D - d) / (h + H);
+            slope     = (H * d + h * D) / (h + H);
+          }
+      }
+
+      double curvature = 0.; ///< half of it
+      double slope     = 0.; ///< at the point in the middle
+    };
+
+
+
     // The vertex of the parabola through the largest coefficient and its
     // neighbours, so that the place does not depend on where the steps fall.
+    // In a corner, which is bent far more than what is beside it, there is
+    // none.
     std::pair<double, double> HistoryReader::peak() const
     {
+      constexpr double corner = 3.;
+
       const auto magnitude = [](const HistoryRow &row) {
         return std::hypot(row.friction, row.friction_y);
       };
@@ -231,21 +256,28 @@ namespace SlipStep
         return {QuantityOfInterest::undefined, QuantityOfInterest::undefined};
 
       const double x1 = path_of_row(i), y1 = magnitude(history[i]);
-      if (i > 0 && i + 1 < history.size())
-        for (const Segment &segment : programme.segments())
-          if (history[i - 1].time >= segment.start_time - round_off() &&
-              history[i + 1].time <= segment.end_time + round_off())
-            {
-              const double h         = x1 - path_of_row(i - 1);
-              const double H         = path_of_row(i + 1) - x1;
-              const double d         = (y1 - magnitude(history[i - 1])) / h;
-              const double D         = (magnitude(history[i + 1]) - y1) / H;
-              const double curvature = (D - d) / (h + H); // half of it
-              const double slope     = (H * d + h * D) / (h + H);
-              if (h > 0. && H > 0. && curvature < 0.)
-                return {x1 - slope / (2. * curvature),
-                        y1 - slope * slope / (4. * curvature)};
-            }
+      if (i < 2 || i + 2 >= history.size())
+        return {x1, y1};
+      const auto around = [&](const std::size_t row) {
+        std::array<double, 3> x, y;
+        for (std::size_t k = 0; k < 3; ++k)
+          {
+            x[k] = path_of_row(row - 1 + k);
+            y[k] = magnitude(history[row - 1 + k]);
+          }
+        return Parabola(x, y);
+      };
+      for (const Segment &segment : programme.segments())
+        if (history[i - 2].time >= segment.start_time - round_off() &&
+            history[i + 2].time <= segment.end_time + round_off())
+          {
+            const Parabola top = around(i);
+            const double   beside =
+              std::min(around(i - 1).curvature, around(i + 1).curvature);
+            if (top.curvature < 0. && top.curvature >= corner * beside)
+              return {x1 - top.slope / (2. * top.curvature),
+                      y1 - top.slope * top.slope / (4. * top.curvature)};
+          }
       return {x1, y1};
     }
 

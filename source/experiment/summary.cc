@@ -397,6 +397,35 @@ namespace SlipStep
         }
     }
 
+    /// The largest friction, and where it was first reached but for round-off,
+    /// which a plateau has everywhere.
+    class Peak
+    {
+    public:
+      explicit Peak(const double least)
+        : value(least)
+        , at_place(least)
+      {}
+
+      double value, place = 0.;
+
+      void consider(const double friction, const double here)
+      {
+        constexpr double round_off = 1e-6;
+
+        value = std::max(value, friction);
+        if (!(friction - round_off * std::abs(friction) > at_place))
+          return;
+        place    = here;
+        at_place = friction;
+      }
+
+    private:
+      double at_place;
+    };
+
+
+
     /// @return false if the history holds no row of this motion
     bool summarise(const Motion                  &motion,
                    const std::vector<HistoryRow> &history,
@@ -409,8 +438,8 @@ namespace SlipStep
       const Tensor<1, 2> &direction = motion.first_direction;
       slide.speed                   = motion.speed;
       // Adding zero turns -0, for which atan2 gives -pi, into +0.
-      slide.angle     = std::atan2(direction[1] + 0., direction[0]);
-      slide.peak      = -std::numeric_limits<double>::infinity();
+      slide.angle = std::atan2(direction[1] + 0., direction[0]);
+      Peak peak(-std::numeric_limits<double>::infinity());
       slide.dip       = std::numeric_limits<double>::infinity();
       slide.statement = motion.statement;
 
@@ -438,16 +467,14 @@ namespace SlipStep
             slide.coefficient   = row.coefficient.mean;
             slide.slip_fraction = row.slip_fraction;
             slide.dip           = std::min(slide.dip, slide.kinetic);
-            if (slide.kinetic > slide.peak)
-              {
-                slide.peak              = slide.kinetic;
-                slide.peak_displacement = slide.length;
-              }
+            peak.consider(slide.kinetic, slide.length);
             rows.push_back(
               {slide.length, row.slip, slide.kinetic, row.loading_ratio.mean});
           }
       if (rows.size() == 1)
         return false;
+      slide.peak              = peak.value;
+      slide.peak_displacement = peak.place;
       look_at_end(rows, motion.is_even, slide);
       return true;
     }
@@ -552,17 +579,14 @@ namespace SlipStep
           is_first = false;
         }
 
-    summary.peak_friction = 0.;
+    Peak peak(0.);
     for (const HistoryRow &row : history)
-      {
-        const double magnitude = std::hypot(row.friction, row.friction_y);
-        if (magnitude > summary.peak_friction)
-          {
-            summary.peak_friction = magnitude;
-            summary.peak_displacement =
-              along(first_direction, row.displacement, row.displacement_y);
-          }
-      }
+      peak.consider(std::hypot(row.friction, row.friction_y),
+                    along(first_direction,
+                          row.displacement,
+                          row.displacement_y));
+    summary.peak_friction     = peak.value;
+    summary.peak_displacement = peak.place;
 
     const HistoryRow &last = history.back();
     summary.final_friction =

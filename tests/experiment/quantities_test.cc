@@ -230,6 +230,33 @@ TEST(Quantities, do_not_depend_on_where_the_steps_fall)
 
 
 
+// Coulomb's friction holds at most its coefficient.
+TEST(Quantities, have_no_peak_above_a_plateau)
+{
+  for (const std::string n : {"7", "20", "33"})
+    {
+      Parameters parameters = point_parameters(
+        {{"Friction/Effects", ""},
+         {"Friction/Static coefficient", "0.2"},
+         {"Loading/Programme", "press 10 MPa in 1 s; slide 1 mm/s for 0.5 mm"},
+         {"Time stepping/Equal steps per statement", n}});
+      declare_quantities(parameters);
+      parameters.set("Output/Quantities",
+                     "peak coefficient; displacement at peak",
+                     "test");
+      const Programme programme = parse_programme(parameters);
+      const auto      values =
+        evaluate_quantities(parse_quantities(parameters, programme),
+                            programme,
+                            point_history(parameters),
+                            0);
+      EXPECT_NEAR(values[0].value, 0.2, 1e-12) << n;
+      EXPECT_LE(values[1].value, 0.5 / std::stod(n) + 1e-12) << n;
+    }
+}
+
+
+
 TEST(Quantities, of_a_run_that_ends_early_are_undefined)
 {
   const Parameters parameters = with_quantities(

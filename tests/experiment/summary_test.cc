@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <random>
 #include <string>
 
 #include "point_run.h"
@@ -264,6 +265,27 @@ TEST(Summary, SlidesAreSeenAlongTheirOwnDirection)
     }
   EXPECT_NEAR(summary.peak_friction, 0.12, 1e-12);
   EXPECT_NEAR(summary.final_friction, 0.1, 1e-12);
+}
+
+
+
+// A plateau is as high everywhere but for round-off: its peak is where it
+// begins.
+TEST(Summary, APlateauHasItsPeakWhereItBegins)
+{
+  const Programme programme("press 1 MPa in 1 s; slide 1 mm/s for 10 mm",
+                            0.,
+                            ".");
+  std::vector<HistoryRow> history = sampled(programme, 100);
+  std::mt19937            random(5);
+  for (HistoryRow &row : history)
+    row.friction =
+      std::min(row.friction, 0.09) * (1. + 1e-9 * (random() % 1000) / 1000.);
+  Summary summary;
+  summarise_history(history, programme, summary);
+  EXPECT_NEAR(summary.slides.at(0).peak, 0.09, 1e-9);
+  EXPECT_NEAR(summary.slides.at(0).peak_displacement, 0.8, 0.1);
+  EXPECT_NEAR(summary.peak_displacement, 0.8, 0.1);
 }
 
 
