@@ -69,7 +69,15 @@ namespace SlipStep
     const Machine     machine(parameters);
     RunRecorder       recorder(parameters, options, "point", law, programme);
     if (!machine.is_rigid())
-      recorder.summary.stability = stability_of(law, programme, machine);
+      {
+        recorder.summary.stability = stability_of(law, programme, machine);
+        if (recorder.summary.stability.empty() &&
+            !steady_slides(programme, 1).empty())
+          recorder.announce(
+            "Whether sliding is stable is not told: the law has no steady "
+            "state at these speeds, as with friction that depends on the "
+            "position, or there are too many of them.");
+      }
     if (options.resume)
       recorder.announce(
         "A contact point writes no checkpoints: the run starts anew.");

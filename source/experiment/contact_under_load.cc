@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/contact_under_load.h>
 
+#include <slipstep/utilities/text.h>
+
 #include <boost/math/tools/roots.hpp>
 
 #include <cmath>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -203,14 +204,15 @@ namespace SlipStep
 
 
 
-  std::string reason_of_slip(const Tensor<1, 2> &load,
+  std::string reason_of_slip(const Tensor<1, 2> &wanted,
                              const Tensor<1, 2> &held,
                              const double        pressure)
   {
-    std::ostringstream message;
-    message << "friction cannot hold the push of " << load.norm()
-            << " MPa; it held " << held.norm() << " MPa at a pressure of "
-            << pressure << " MPa";
-    return message.str();
+    const auto text = [](const Tensor<1, 2> &load) {
+      return rounded_text(load[1] == 0. ? load[0] : load.norm(), 6) + " MPa";
+    };
+    return "friction cannot hold the push of " + text(wanted) +
+           "; it held up to " + text(held) + ", at a pressure of " +
+           rounded_text(pressure, 6) + " MPa";
   }
 } // namespace SlipStep

@@ -162,7 +162,7 @@ namespace SlipStep
             machine.step(law, point, slider, motion, to.pressure, time_step);
         if (!step.holds)
           {
-            control.cut(reason_of_slip(load, slider.load, to.pressure) +
+            control.cut(reason_of_slip(segment.push, slider.load, to.pressure) +
                         " (with a Loading/Machine mass the contact would go on "
                         "sliding)");
             continue;

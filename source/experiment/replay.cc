@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/replay.h>
+#include <slipstep/experiment/step_control.h>
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
@@ -197,7 +198,8 @@ namespace SlipStep
     if (step.end - step.begin > least_share)
       return false;
     if (!std::isfinite(error))
-      throw RunError("no time step is small enough");
+      throw RunError("no time step is small enough" +
+                     words_of_sudden_effects(law));
     slider = tried.slider;
     return true;
   }

@@ -5,6 +5,7 @@
 
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/utilities.h>
@@ -170,6 +171,46 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // Without mass and friction that rises with speed nothing is in equilibrium
+    // from the beginning of a jump to its end: the energy that most of a gap is
+    // goes in one step, however short. "" if it does not.
+    std::string jump_in_words(const std::vector<HistoryRow> &history)
+    {
+      constexpr double most = 0.5, far = 10.;
+
+      const auto gap = [](const HistoryRow &row) {
+        return row.external_work - row.stored_energy - row.dissipated_energy;
+      };
+      double      largest = 0.;
+      std::size_t jump    = 0;
+      for (std::size_t i = 1; i < history.size(); ++i)
+        if (const double lost = gap(history[i]) - gap(history[i - 1]);
+            lost > largest)
+          {
+            largest = lost;
+            jump    = i;
+          }
+      if (jump == 0 || !(largest > most * gap(history.back())))
+        return "";
+      const HistoryRow &before = history[jump - 1], &after = history[jump];
+      const double      length = after.slip - before.slip;
+      if (!(length >
+            far * std::hypot(after.displacement - before.displacement,
+                             after.displacement_y - before.displacement_y)))
+        return "";
+      return "at t = " + rounded_text(after.time, 6) +
+             " s the contact jumps by " + rounded_text(length, 3) +
+             " mm in one step, however short: nothing on the way is in "
+             "equilibrium, and friction just after it is rough; a Loading/"
+             "Machine mass, or friction that rises with speed (effect viscous "
+             "or overstress), makes a motion of it";
+    }
+  } // namespace
+
+
+
   void RunRecorder::finish(const std::string &reason)
   {
     const ResourceUsage end = ResourceUsage::now();
@@ -189,11 +230,14 @@ namespace SlipStep
         summary.reason += "; " + text;
     summarise_history(history, programme, summary);
     const std::string missing = summary.missing_energy();
+    const std::string jump    = jump_in_words(history);
     if (!missing.empty())
       summary.warnings.push_back(
-        missing +
-        ": the time steps are too long, and friction may be wrong, too; " +
-        shorter_steps + " may help");
+        missing + ": " +
+        (jump.empty() ? "the time steps are too long, and friction may be "
+                        "wrong, too; " +
+                          shorter_steps + " may help" :
+                        jump));
     if (has_equal_steps && summary.rejected_steps > 0)
       summary.warnings.push_back(
         "the steps are not equal: " + std::to_string(summary.rejected_steps) +
@@ -209,6 +253,11 @@ namespace SlipStep
             "'" + quantities[i].name +
             "' has no value: at that moment no place on the face divides points "
             "above its loading ratio from points below");
+    if (reason.empty() && summary.dimension == 0)
+      for (std::size_t i = 0; i < quantities.size(); ++i)
+        if (std::isnan(summary.quantities[i].value))
+          summary.warnings.push_back("'" + quantities[i].name +
+                                     "' has no value of a contact point");
     if (!is_writer)
       return;
     if (reason.empty())

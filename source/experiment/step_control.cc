@@ -88,6 +88,20 @@ namespace SlipStep
 
 
 
+  std::string words_of_sudden_effects(const FrictionLaw &law)
+  {
+    for (const std::string &effect : law.effects())
+      for (const char *sudden : {"expression", "damage", "texture"})
+        if (effect == sudden)
+          return "; where the effect " + effect +
+                 " lets friction fall within less slip than the contact's "
+                 "elastic one, friction over stiffness, it jumps: let it fall "
+                 "over more";
+    return "";
+  }
+
+
+
   StepControl::StepControl(const Parameters  &parameters,
                            const Programme   &programme,
                            const FrictionLaw &law)
@@ -100,6 +114,7 @@ namespace SlipStep
     , least_step(parameters.number(least_step_key))
     , elastic_slip_per_pressure(law.static_coefficient() /
                                 law.tangential_stiffness())
+    , sudden(words_of_sudden_effects(law))
   {
     // What was set later goes before, so that a study can change the mode.
     for (const std::string &key : idle_keys(parameters))
@@ -255,7 +270,7 @@ namespace SlipStep
           step * std::max(0.2, std::min(ideal, 0.7)),
           std::string(
             "the error allowed (Time stepping/Tolerance) asks for less than ") +
-            least_step_key + " or the clock's resolution" + remedy);
+            least_step_key + " or the clock's resolution" + sudden + remedy);
         return false;
       }
 

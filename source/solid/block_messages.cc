@@ -2,6 +2,7 @@
 #include <slipstep/solid/block.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +45,15 @@ namespace SlipStep
                       " s: the block has not touched the plane");
         throw RunError(message.str());
       }
+
+    worn_depth = contact.friction_law().wear_rate() > 0. ?
+                   totals.memories[contact_memory("worn_depth_mm").slot] :
+                   0.;
+    if (worn_depth >= parameters.size[parameters.normal_axis()])
+      throw RunError(
+        "At t = " + rounded_text(control.time(), 6) +
+        " s the block is worn through: " + rounded_text(worn_depth, 3) +
+        " mm are gone in the mean (effect wear)");
 
     // Along a side of the block the motion is measured by that side: a thin
     // strip may be stretched by more than its height, but not rise as much, and
@@ -237,6 +247,23 @@ namespace SlipStep
 
 
 
+  // What is worn away has given way, but is still there in the mesh.
+  template <int dim>
+  std::string Block<dim>::warning_of_wear() const
+  {
+    constexpr double small = 0.1;
+
+    const double height = parameters.size[parameters.normal_axis()];
+    if (worn_depth <= small * height)
+      return "";
+    return rounded_text(worn_depth, 3) + " mm of the block's " +
+           rounded_text(height, 3) +
+           " mm are worn away in the mean (effect wear), but it deforms as if "
+           "all of it were there";
+  }
+
+
+
   template <int dim>
   std::string Block<dim>::warning_of_loads() const
   {
@@ -275,6 +302,7 @@ namespace SlipStep
                                       warning_of_pressure(),
                                       warning_of_map(strength_error),
                                       warning_of_opening(),
+                                      warning_of_wear(),
                                       warning_of_solver(),
                                       is_multigrid ?
                                         warning_of_subdivisions(parameters) :

@@ -147,7 +147,9 @@ namespace SlipStep
   std::string Drive::reason_of_failure() const
   {
     if (pushes)
-      return reason_of_slip(push, at_start.load, pressure);
+      return reason_of_slip(programme.segment_at(end_time).push,
+                            at_start.load,
+                            pressure);
     std::ostringstream message;
     message << "the contact gives way faster than the machine's spring of "
             << machine.stiffness()

@@ -78,6 +78,81 @@ TEST(OddInput, APushBeyondFrictionIsNoWrongInput)
 
 
 
+// Words that a reader can go by.
+TEST(OddInput, APushBackIsToldAsItIs)
+{
+  const SlipstepProcess process;
+  process.write("back.prm",
+                "set Friction/Effects =\n"
+                "set Friction/Static coefficient = 0.2\n"
+                "set Loading/Programme = press 5 MPa in 1 s; push -0.5 MPa in "
+                "1 s; push -2.5 MPa in 1 s\n");
+  const auto result = process.run({"point", "back.prm", "--quiet"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(contains(result.err,
+                       "friction cannot hold the push of -2.5 MPa; it held up "
+                       "to -1 MPa, at a pressure of 5 MPa"))
+    << result.err;
+}
+
+
+
+// A spring without mass lets a contact jump whose friction falls with slip
+// alone: no step is short enough.
+TEST(OddInput, AJumpIsNotBlamedOnTheSteps)
+{
+  const SlipstepProcess process;
+  process.write("jump.prm",
+                "set Friction/Effects = subloading, softening\n"
+                "set Friction/Static coefficient = 0.3\n"
+                "set Friction/softening/Kinetic coefficient = 0.2\n"
+                "set Friction/softening/Rate = 5\n"
+                "set Loading/Machine stiffness = 0.5 MPa/mm\n"
+                "set Loading/Programme = press 5 MPa in 1 s; slide 1 mm/s for "
+                "3.5 mm\n"
+                "set Output/Quantities = largest pressure\n");
+  const auto result = process.run({"point", "jump.prm", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(contains(result.err, "s the contact jumps by")) << result.err;
+  EXPECT_FALSE(contains(result.err, "may help")) << result.err;
+  EXPECT_TRUE(
+    contains(result.err, "'largest pressure' has no value of a contact point"));
+}
+
+
+
+TEST(OddInput, WhatIsNoEffectButCalledSoIsTold)
+{
+  const SlipstepProcess process;
+  expect_short_refusal(process.run({"effects", "compliance"}),
+                       "Loading/Machine stiffness");
+  expect_short_refusal(process.run({"effects", "heal"}),
+                       "did you mean healing?");
+}
+
+
+
+// A run has the number of a test that the case says, whichever it follows.
+TEST(OddInput, AnotherOrderThanThatOfTheFollowedTestIsTold)
+{
+  const SlipstepProcess process;
+  process.write("test.csv",
+                "# order: 7\ntime_s,displacement_mm,pressure_MPa,friction\n"
+                "0,0,5,0\n1,1,5,0.1\n2,2,5,0.1\n");
+  process.write("follow.prm",
+                "set Friction/Effects = run_order\n"
+                "set Loading/Programme = follow test.csv\n");
+  EXPECT_TRUE(contains(process.run({"check", "follow.prm"}).err,
+                       "was made as test number 7, but "
+                       "Friction/run_order/Test is 20"));
+  EXPECT_FALSE(contains(
+    process.run({"point", "follow.prm", "--set", "Friction/run_order/Test=7"})
+      .err,
+    "test number"));
+}
+
+
+
 // A value that a program would find as null is told of to the reader, too.
 TEST(OddInput, AFrontThatIsNowhereIsTold)
 {

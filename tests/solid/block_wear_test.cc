@@ -113,3 +113,26 @@ TEST(BlockWear, hardly_depends_on_the_steps)
   EXPECT_LT(std::abs(spreads[1] - spreads[2]),
             0.5 * std::abs(spreads[0] - spreads[1]) + 1e-6);
 }
+
+
+
+// Geometry and stiffness are those of the fresh block.
+TEST(BlockWear, tells_when_little_is_left)
+{
+  const Settings few_steps = {{"Time stepping/Equal steps per statement", "10"},
+                              {"Block/Subdivisions", "4, 2"}};
+  const auto     end       = [&](const double specific_rate) {
+    return run_block_case<2>(make_parameters(worn(specific_rate) + few_steps));
+  };
+  const auto is_warned = [](const BlockResult &result) {
+    for (const std::string &warning : result.summary.warnings)
+      if (warning.find("of the block's 5 mm are worn away") !=
+          std::string::npos)
+        return true;
+    return false;
+  };
+  EXPECT_FALSE(is_warned(end(50.)));
+  EXPECT_TRUE(is_warned(end(200.)));
+  EXPECT_NE(end(1500.).failure.find("the block is worn through"),
+            std::string::npos);
+}

@@ -49,10 +49,10 @@ namespace SlipStep
   constexpr double fastest_slip = 1e6;
 
   /// Why a push ends a run.
-  /// @param load tangential, that is not held [MPa]
+  /// @param wanted by the programme [MPa]
   /// @param held last load that was [MPa]
   /// @param pressure at which it was [MPa]
-  std::string reason_of_slip(const dealii::Tensor<1, 2> &load,
+  std::string reason_of_slip(const dealii::Tensor<1, 2> &wanted,
                              const dealii::Tensor<1, 2> &held,
                              const double                pressure);
 } // namespace SlipStep

@@ -10,6 +10,10 @@
 
 namespace SlipStep
 {
+  /// What to say where no time step is small enough and the law has effects
+  /// with which friction can fall at once; else "".
+  std::string words_of_sudden_effects(const FrictionLaw &law);
+
   /// Chooses the time steps of a programme from the error that the friction law
   /// estimates, for a contact point and for the block alike.
   ///
@@ -122,6 +126,7 @@ namespace SlipStep
     const unsigned int most_steps;  ///< per statement
     const double       least_step;  ///< relative to the statement
     const double       elastic_slip_per_pressure;
+    const std::string  sudden; ///< words_of_sudden_effects()
 
     std::size_t  segment          = 0;
     double       begin            = 0.;

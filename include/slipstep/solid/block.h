@@ -229,6 +229,7 @@ namespace SlipStep
     std::string              warning_of_loads() const;
     std::string              warning_of_pressure() const;
     std::string              warning_of_opening() const;
+    std::string              warning_of_wear() const;
     std::string              warning_of_solver() const;
     std::vector<std::string> warnings() const;
 
@@ -338,6 +339,7 @@ namespace SlipStep
     // By how much the map of the strength is off as the contact points see it.
     double         strength_error        = 0.;
     double         contact_share         = 1.;
+    double         worn_depth            = 0.; // mean [mm]
     double         largest_contact_share = 0.; // that of a flat face is 1
     OpeningSummary opening;
   };
