@@ -72,8 +72,12 @@ namespace SlipStep
                        ": this file is there already, and is kept");
     write_file(line.slurm, job_array(the_case, line, output));
     if (!line.quiet)
-      std::cout << "sbatch " << line.slurm << "   # "
-                << the_case.variants.size() << " jobs" << std::endl;
+      std::cout << "sbatch "
+                << (line.slurm.find_first_of(" '\"\\$&;|<>*?()#~`!") ==
+                        std::string::npos ?
+                      line.slurm :
+                      word(line.slurm))
+                << "   # " << the_case.variants.size() << " jobs" << std::endl;
     return done;
   }
 } // namespace SlipStep

@@ -19,8 +19,6 @@ namespace SlipStep
 {
   namespace
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-
     /// The value of an option, or "" if it was not given.
     std::string value_of(const CommandLine &line, const std::string &option)
     {
@@ -65,9 +63,9 @@ namespace SlipStep
         {}
       if (end != text.size() || !std::isfinite(value) || value < 0. ||
           value > most)
-        throw InputError(
-          "--" + option + " " + text + ": must be a number, 0 or more" +
-          (std::isfinite(most) ? ", at most " + rounded_text(most, 3) : ""));
+        throw InputError("--" + option + " " + text +
+                         ": must be a number, 0 or more, at most " +
+                         rounded_text(most, 3));
       return value;
     }
 
@@ -91,7 +89,7 @@ namespace SlipStep
       options.edition =
         std::min<std::uint64_t>(whole_number(line, "edition", options.edition),
                                 1000);
-      options.noise_factor    = number(line, "noise-factor", 1., infinity);
+      options.noise_factor    = number(line, "noise-factor", 1., 30.);
       options.amplitude       = number(line, "amplitude", 0., 0.5);
       options.with_replicates = line.plant_options.count("no-replicates") == 0;
       return options;

@@ -149,7 +149,8 @@ namespace SlipStep
 
   double Reference::kinetic(const double speed) const
   {
-    return exists() ? (*formula)(speed * mm_min) : undefined;
+    const double value = exists() ? (*formula)(speed * mm_min) : undefined;
+    return std::isfinite(value) ? value : undefined;
   }
 
 

@@ -44,7 +44,10 @@ namespace SlipStep
         const std::string known = lower_case(candidate);
         const std::size_t limit =
           (std::max(wanted.size(), known.size()) + 2) / 3;
-        const std::size_t distance = edit_distance(wanted, known);
+        // A name cut short, "heal", is nearer to what it begins than to "wear".
+        const bool is_begun = wanted.size() > 2 && known.find(wanted) == 0;
+        const std::size_t distance =
+          is_begun ? 1 : edit_distance(wanted, known);
         if (distance <= limit && distance < best_distance)
           {
             best          = candidate;

@@ -36,10 +36,19 @@ namespace SlipStep
           if (safe != '_' || folder.empty() || folder.back() != '_')
             folder += safe;
         }
-      // Hidden folders, "..", and the report's own folder.
+      // Hidden folders and "..".
       if (folder.empty() || folder.front() == '.' || folder.front() == '-')
         folder.insert(0, "_");
-      if (folder == "report")
+      // What the results of a sweep have beside its members.
+      static const std::set<std::string> taken = {"report",
+                                                  "report.html",
+                                                  "used_parameters.prm",
+                                                  "point",
+                                                  "compare",
+                                                  "refine",
+                                                  "calibrate",
+                                                  "diagnose"};
+      if (taken.count(folder) > 0)
         folder += "_";
       return folder;
     }

@@ -56,6 +56,7 @@ TEST_F(Plant, WrongOptions)
   expect_refusal({"a", "--tests", "4294967298"}, "2 to 20 tests");
   expect_refusal({"a", "--noise", "loud"}, "heavy_tails");
   expect_refusal({"a", "--noise-factor", "nan"}, "must be a number, 0 or more");
+  expect_refusal({"a", "--noise-factor", "1000"}, "at most 30");
   expect_refusal({"a", "--resume"}, "has no option --resume");
   expect_refusal({"--open", "missing"}, "cannot be opened");
   expect_refusal({"a", "--open", "missing"}, "takes no folder");

@@ -16,6 +16,7 @@ TEST(NearestName, FindsWhatWasMeant)
   EXPECT_EQ(nearest_name("Raet", names), "Rate");
   EXPECT_EQ(nearest_name("Stepness", names), "Steepness");
   EXPECT_EQ(nearest_name("Normal", names), "Normal stiffness");
+  EXPECT_EQ(nearest_name("heal", {"wear", "healing"}), "healing");
 }
 
 

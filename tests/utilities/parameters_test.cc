@@ -453,6 +453,13 @@ TEST_F(ParametersTest, VariantsNameTheirKeys)
   // Nothing leaves the output folder or hits the report's own.
   EXPECT_EQ(p.variants()[0].folder, "_..-slow_soft");
   EXPECT_NE(p.variants()[1].folder, "report");
+  for (const std::string taken :
+       {"report.html", "used_parameters.prm", "point"})
+    EXPECT_EQ(read("subsection Variants\nsubsection " + taken +
+                   "\nset Block/Degree = 2\nend\nend\n")
+                .variants()[0]
+                .folder,
+              taken + "_");
 
   // An including file can undo the sweep.
   write("sweep.prm", text);
