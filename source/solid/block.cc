@@ -303,6 +303,7 @@ namespace SlipStep
   {
     newton.residual_norms.clear();
     newton.failure.clear();
+    newton.n_uphill = 0;
     Vector       update(right_hand_side);
     Tensor<1, 2> motion;
 
@@ -411,8 +412,23 @@ namespace SlipStep
 
 
 
-  // Halve the update until the residual falls. If it never does, the whole
-  // update is the best guess at the other side of a kink.
+  // The whole update is the best guess at the other side of a kink. Between
+  // kinks it goes round and round, and a little of it finds the way out; never
+  // the same share, nor the same way in the next try of a step.
+  template <int dim>
+  double Block<dim>::share_of_uphill_update()
+  {
+    constexpr double golden = 0.6180339887498949, most = 0.03, range = 10.;
+
+    const unsigned int k = newton.n_uphill++, n_tries = control.n_rejected();
+    if (k == 0 && n_tries % 2 == 0)
+      return 1.;
+    return most * std::pow(range, -std::fmod((k + n_tries) * golden, 1.));
+  }
+
+
+
+  // Halve the update until the residual falls, if it ever does.
   template <int dim>
   double Block<dim>::line_search(const Vector       &update,
                                  const Tensor<1, 2> &motion,
@@ -433,7 +449,7 @@ namespace SlipStep
         if (norm < (1. - 1e-4 * share) * old_norm || norm <= wanted_norm())
           return norm;
       }
-    return residual_after(1.);
+    return residual_after(share_of_uphill_update());
   }
 
 

@@ -69,6 +69,12 @@ namespace SlipStep
           }
         least = Utilities::MPI::min(least, communicator);
         most  = Utilities::MPI::max(most, communicator);
+        if (!drive.is_unknown() && !inertia.exists() &&
+            d != parameters.normal_axis() &&
+            std::max(least, -most) > parameters.size[d])
+          throw RunError("At t = " + rounded_text(control.time(), 6) +
+                         " s the block slides away along " + "xyz"[d] +
+                         ": friction cannot hold the loads of its faces");
         const double motion =
           std::min(most - least, std::max(std::abs(least), std::abs(most)));
         if (motion <= 0.05 * parameters.size[d])
@@ -112,16 +118,39 @@ namespace SlipStep
                std::string::npos)
       message << "not even the beginning of the loads is in equilibrium: they "
                  "lift the block or tip it over, or, if they do hold it on the "
-                 "plane, more Block/Newton iterations than "
+                 "plane, "
+              << remedy_of_proportional_loads()
+              << "more Block/Newton iterations than "
               << parameters.newton_iterations
               << " or, where round-off is in the way, a larger Block/Newton "
                  "tolerance may help ("
               << newton.failure << ")";
     else if (drive.is_unknown() && drive.mass() == 0. && !inertia.exists())
       message << drive.reason_of_failure() << " (" << newton.failure << ")";
+    else if (!inertia.exists() && !parameters.is_held_along_plane())
+      message << "friction can hardly hold the loads of the faces, of which "
+                 "none has 'drive' ("
+              << newton.failure << ")";
     else
       message << newton.failure << remedy_of_jumps();
     return message.str();
+  }
+
+
+
+  // Slip of a length that the law states, however small the load.
+  template <int dim>
+  std::string Block<dim>::remedy_of_proportional_loads() const
+  {
+    const auto &effects = contact.friction_law().effects();
+    const auto  has     = [&](const char *const effect) {
+      return std::find(effects.begin(), effects.end(), effect) != effects.end();
+    };
+    return !parameters.is_held_along_plane() && has("subloading") &&
+               !has("overstress") && !has("perzyna") ?
+             "press it before loads along the plane grow, or give effect "
+             "subloading an 'Elastic range' or effect overstress beside it, or " :
+             "";
   }
 
 

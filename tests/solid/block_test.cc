@@ -430,3 +430,48 @@ TEST(Failure, pressure_lost)
     << result.failure;
   EXPECT_GT(result.history.size(), 10u);
 }
+
+
+
+// Where edges of a soft block slip outward and its middle sticks, updates that
+// never lower the residual went round and round.
+TEST(Newton, presses_soft_blocks_whatever_their_friction)
+{
+  for (const std::string friction :
+       {"0.2", "0.25", "0.3", "0.35", "0.4", "0.5"})
+    for (const std::string mesh : {"4, 2", "8, 4"})
+      {
+        const auto result = run_block_case<2>(
+          make_parameters({{"Friction/Effects", ""},
+                           {"Friction/Static coefficient", friction},
+                           {"Block/Dimension", "2"},
+                           {"Block/Size", "10 mm, 2 mm"},
+                           {"Block/Subdivisions", mesh},
+                           {"Block/Degree", "2"},
+                           {"Block/Young modulus", "5 MPa"},
+                           {"Block/Poisson ratio", "0.49"},
+                           {"Loading/Programme", "press 0.1 MPa in 1 s"}}));
+        EXPECT_EQ(result.failure, "") << friction << ", " << mesh;
+        EXPECT_NEAR(result.history.back().normal_load, 1., 1e-6);
+        // Symmetry.
+        EXPECT_NEAR(result.history.back().tangential_load, 0., 1e-6);
+      }
+}
+
+
+
+// Nothing but friction holds it along the plane.
+TEST(Failure, slides_away_where_friction_does_not_hold_its_loads)
+{
+  const auto result = run_block_case<2>(make_parameters(
+    {{"Friction/Effects", ""},
+     {"Friction/Static coefficient", "0.2"},
+     {"Block/Dimension", "2"},
+     {"Block/Size", "10 mm, 2 mm"},
+     {"Block/Subdivisions", "4, 2"},
+     {"Block/Faces/top", "pressure 1 MPa at once; traction 0.25 0 MPa"},
+     {"Loading/Programme", "hold 1 s"}}));
+  EXPECT_NE(result.failure.find("friction can"), std::string::npos)
+    << result.failure;
+  EXPECT_NEAR(result.history.back().time, 0.8, 1e-3);
+}

@@ -186,6 +186,7 @@ namespace SlipStep
     void   forget_iterations();
     bool   only_round_off_is_left() const;
     double linear_tolerance(const double norm) const;
+    double share_of_uphill_update();
     double line_search(const Vector               &update,
                        const dealii::Tensor<1, 2> &motion,
                        const double                old_norm);
@@ -226,6 +227,7 @@ namespace SlipStep
     bool                     tips_over() const;
     std::string              reason_of_failure() const;
     std::string              remedy_of_jumps() const;
+    std::string              remedy_of_proportional_loads() const;
     std::string              warning_of_loads() const;
     std::string              warning_of_pressure() const;
     std::string              warning_of_opening() const;
@@ -306,6 +308,7 @@ namespace SlipStep
       double              drive_weight = 0.; // of forces of the drive therein
       std::vector<double> residual_norms;
       unsigned int        n_iterations = 0, n_linear = 0;
+      unsigned int        n_uphill = 0; // updates of a stage that never helped
       std::string         failure;
     };
 

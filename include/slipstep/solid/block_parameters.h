@@ -149,6 +149,16 @@ namespace SlipStep
                          });
     }
 
+    /// Whether a face is driven or prescribed in the contact plane.
+    bool is_held_along_plane() const
+    {
+      return std::any_of(
+        faces.begin(), faces.end(), [this](const FaceConditions &face) {
+          return face.is_driven || face.is_prescribed[tangential_axis(0)] ||
+                 (dimension == 3 && face.is_prescribed[tangential_axis(1)]);
+        });
+    }
+
     /// Number of cells at the beginning.
     double n_cells() const;
 
