@@ -404,6 +404,43 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // Tests whose number effect run_order does not know, or takes for that of
+    // one of its ends.
+    std::string warning_of_order(const Parameters                &parameters,
+                                 const std::vector<CampaignTest> &tests)
+    {
+      if (!FrictionLaw(parameters).has("run_order"))
+        return "";
+      const std::string section = "Friction/run_order/";
+      const auto        end     = [&](const char *const key) {
+        return section + key + " = " + parameters.text(section + key);
+      };
+      std::size_t n_unknown = 0, n_beyond = 0;
+      for (const CampaignTest &test : tests)
+        if (const auto order = test.rows.order(); !order.has_value())
+          ++n_unknown;
+        else if (*order < parameters.number(section + "First test") ||
+                 *order > parameters.number(section + "Last test"))
+          ++n_beyond;
+      std::string words;
+      if (n_unknown > 0)
+        words = std::to_string(n_unknown) +
+                " of the tests do not say in which order they were made "
+                "('# order: 7'), and are taken for " +
+                end("Test");
+      if (n_beyond > 0)
+        words += (words.empty() ? "" : "; ") + std::to_string(n_beyond) +
+                 " of the tests were made before " + end("First test") +
+                 " or after " + end("Last test") +
+                 ", beyond which effect run_order stays";
+      return words;
+    }
+  } // namespace
+
+
+
   std::vector<std::string> Campaign::warnings() const
   {
     constexpr std::size_t most_alike = 3;
@@ -424,6 +461,9 @@ namespace SlipStep
         *std::find(result.begin(), result.end(), warnings[most_alike - 1]) +=
           " (and so in " + std::to_string(warnings.size() - most_alike) +
           " more)";
+    const std::string words_of_order = warning_of_order(parameters, tests);
+    if (!words_of_order.empty())
+      result.push_back(words_of_order);
     if (depends_on_position(parameters))
       {
         const std::string words = warning_of_positions(tests);

@@ -27,8 +27,7 @@ namespace SlipStep
         : replay(motion)
         , law(law)
         , machine(machine)
-        , heeds_order(
-            std::count(law.effects().begin(), law.effects().end(), "run_order"))
+        , heeds_order(law.has("run_order"))
       {
         replay.simulate(law, machine, curve);
       }

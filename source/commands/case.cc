@@ -184,11 +184,8 @@ namespace SlipStep
                        const Programme       &programme,
                        std::set<std::string> &warnings)
     {
-      const std::string              key = "Friction/run_order/Test";
-      const std::vector<std::string> effects =
-        parameters.list("Friction/Effects");
-      if (std::find(effects.begin(), effects.end(), "run_order") ==
-          effects.end())
+      const std::string key = "Friction/run_order/Test";
+      if (!FrictionLaw(parameters).has("run_order"))
         return;
       for (const FollowedTest &followed : programme.followed())
         if (followed.test.order().value_or(parameters.number(key)) !=

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/commands/element_check.h>
 
+#include <slipstep/friction/law.h>
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/report/case_text.h>
 #include <slipstep/utilities/exceptions.h>
@@ -45,12 +46,8 @@ namespace SlipStep
                      "follow " + fs::proximate(test.file, the_case.resolve("."))
                                    .generic_string(),
                      "diagnosis");
-      const std::vector<std::string> effects =
-        parameters.list("Friction/Effects");
       const std::optional<double> order = read_measured_test(test.file).order();
-      if (order.has_value() &&
-          std::find(effects.begin(), effects.end(), "run_order") !=
-            effects.end())
+      if (order.has_value() && FrictionLaw(parameters).has("run_order"))
         parameters.set("Friction/run_order/Test",
                        rounded_text(*order, 15),
                        "diagnosis");

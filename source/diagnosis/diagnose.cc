@@ -162,7 +162,7 @@ namespace SlipStep
     {
       if (!result.has_gap || ingested.workspace->is_late())
         return;
-      stage("whether a zero, a drift or a held parameter explains as much");
+      stage("whether a zero or a held parameter explains as much");
       result.look_alike = find_look_alike(*ingested.workspace,
                                           ingested.base,
                                           final_model,

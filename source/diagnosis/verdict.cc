@@ -29,11 +29,9 @@ namespace SlipStep
 
 
 
-    // Two standard deviations of an excess are chance.
     bool is_too_much(const GapTest &remainder, const GapTest &gap)
     {
-      return remainder.excess > (1. - least_share) * gap.excess +
-                                  std::max(sure_excess, 2. * gap.scatter);
+      return remainder.excess > (1. - least_share) * gap.excess + gap.slack();
     }
 
 

@@ -162,7 +162,11 @@ namespace SlipStep
             machine.step(law, point, slider, motion, to.pressure, time_step);
         if (!step.holds)
           {
-            control.cut(reason_of_slip(segment.push, slider.load, to.pressure) +
+            control.cut(reason_of_slip(load.norm() < slider.load.norm() ?
+                                         load :
+                                         segment.push,
+                                       slider.load,
+                                       from.pressure) +
                         " (with a Loading/Machine mass the contact would go on "
                         "sliding)");
             continue;

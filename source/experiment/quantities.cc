@@ -128,6 +128,9 @@ namespace SlipStep
 
       double time_of(const double displacement, std::size_t &segment) const;
 
+      /// Begin and end of a statement, of two the first [s].
+      std::pair<double, double> times_of_statement(const double time) const;
+
       /// Path of the drive, with what pushes moved.
       double path_of_row(const std::size_t row) const;
 
@@ -184,25 +187,38 @@ namespace SlipStep
 
 
 
+    // A replayed test has a segment per sample, which says nothing about the
+    // friction: only the borders of statements are kinks.
+    std::pair<double, double>
+    HistoryReader::times_of_statement(const double time) const
+    {
+      const auto &segments = programme.segments();
+      std::size_t first    = 0;
+      while (first + 1 < segments.size() &&
+             segments[first].end_time < time - round_off())
+        ++first;
+      std::size_t last = first;
+      while (first > 0 &&
+             segments[first - 1].statement == segments[last].statement)
+        --first;
+      while (last + 1 < segments.size() &&
+             segments[last + 1].statement == segments[first].statement)
+        ++last;
+      return {segments[first].start_time, segments[last].end_time};
+    }
+
+
+
     template <typename Value>
     double HistoryReader::interpolate(const std::size_t segment,
                                       const double      time,
                                       const Value      &value) const
     {
-      // A replayed test has a segment per sample, which says nothing about the
-      // friction: only the borders of statements are kinks.
-      const auto &segments = programme.segments();
-      std::size_t first = segment, last = segment;
-      while (first > 0 &&
-             segments[first - 1].statement == segments[segment].statement)
-        --first;
-      while (last + 1 < segments.size() &&
-             segments[last + 1].statement == segments[segment].statement)
-        ++last;
+      const auto [begin, end] =
+        times_of_statement(programme.segments()[segment].end_time);
       std::vector<double> times, values;
       for (const HistoryRow &row : history)
-        if (row.time >= segments[first].start_time - round_off() &&
-            row.time <= segments[last].end_time + round_off())
+        if (row.time >= begin - round_off() && row.time <= end + round_off())
           {
             times.push_back(row.time);
             values.push_back(value(row));
@@ -256,8 +272,13 @@ namespace SlipStep
         return {QuantityOfInterest::undefined, QuantityOfInterest::undefined};
 
       const double x1 = path_of_row(i), y1 = magnitude(history[i]);
-      if (i < 2 || i + 2 >= history.size())
-        return {x1, y1};
+      const auto [begin, end] = times_of_statement(history[i].time);
+      const auto is_near =
+        [&, begin = begin, end = end](const std::size_t row) {
+          return row < history.size() &&
+                 history[row].time >= begin - round_off() &&
+                 history[row].time <= end + round_off();
+        };
       const auto around = [&](const std::size_t row) {
         std::array<double, 3> x, y;
         for (std::size_t k = 0; k < 3; ++k)
@@ -267,18 +288,23 @@ namespace SlipStep
           }
         return Parabola(x, y);
       };
-      for (const Segment &segment : programme.segments())
-        if (history[i - 2].time >= segment.start_time - round_off() &&
-            history[i + 2].time <= segment.end_time + round_off())
-          {
-            const Parabola top = around(i);
-            const double   beside =
-              std::min(around(i - 1).curvature, around(i + 1).curvature);
-            if (top.curvature < 0. && top.curvature >= corner * beside)
-              return {x1 - top.slope / (2. * top.curvature),
-                      y1 - top.slope * top.slope / (4. * top.curvature)};
-          }
-      return {x1, y1};
+      // Beyond the first row they are as far as can be.
+      if (!is_near(i - 1) || !is_near(i + 1))
+        return {x1, y1};
+      const Parabola      top = around(i);
+      std::vector<double> beside;
+      if (is_near(i - 2))
+        beside.push_back(around(i - 1).curvature);
+      if (is_near(i + 2))
+        beside.push_back(around(i + 1).curvature);
+      if (!(top.curvature < 0.) ||
+          (!beside.empty() &&
+           top.curvature <
+             corner *
+               std::min(0., *std::min_element(beside.begin(), beside.end()))))
+        return {x1, y1};
+      return {x1 - top.slope / (2. * top.curvature),
+              y1 - top.slope * top.slope / (4. * top.curvature)};
     }
 
 

@@ -176,9 +176,10 @@ namespace SlipStep
     // Without mass and friction that rises with speed nothing is in equilibrium
     // from the beginning of a jump to its end: the energy that most of a gap is
     // goes in one step, however short. "" if it does not.
-    std::string jump_in_words(const std::vector<HistoryRow> &history)
+    std::string jump_in_words(const std::vector<HistoryRow> &history,
+                              const bool                     is_block)
     {
-      constexpr double most = 0.5, far = 10.;
+      constexpr double most = 0.5, far = 10., felt = 1e-3;
 
       const auto gap = [](const HistoryRow &row) {
         return row.external_work - row.stored_energy - row.dissipated_energy;
@@ -192,20 +193,23 @@ namespace SlipStep
             largest = lost;
             jump    = i;
           }
-      if (jump == 0 || !(largest > most * gap(history.back())))
+      if (jump == 0 || !(gap(history.back()) > 0.) ||
+          largest < most * gap(history.back()))
         return "";
       const HistoryRow &before = history[jump - 1], &after = history[jump];
       const double      length = after.slip - before.slip;
-      if (!(length >
-            far * std::hypot(after.displacement - before.displacement,
-                             after.displacement_y - before.displacement_y)))
+      if (!(length > felt * history.back().slip &&
+            length >
+              far * std::hypot(after.displacement - before.displacement,
+                               after.displacement_y - before.displacement_y)))
         return "";
       return "at t = " + rounded_text(after.time, 6) +
              " s the contact jumps by " + rounded_text(length, 3) +
              " mm in one step, however short: nothing on the way is in "
-             "equilibrium, and friction just after it is rough; a Loading/"
-             "Machine mass, or friction that rises with speed (effect viscous "
-             "or overstress), makes a motion of it";
+             "equilibrium, and friction just after it is rough; a " +
+             (is_block ? "Block/Density" : "Loading/Machine mass") +
+             ", or friction that rises with speed (effect viscous or "
+             "overstress), makes a motion of it";
     }
   } // namespace
 
@@ -230,7 +234,8 @@ namespace SlipStep
         summary.reason += "; " + text;
     summarise_history(history, programme, summary);
     const std::string missing = summary.missing_energy();
-    const std::string jump    = jump_in_words(history);
+    const std::string jump =
+      has_equal_steps ? "" : jump_in_words(history, summary.dimension > 0);
     if (!missing.empty())
       summary.warnings.push_back(
         missing + ": " +

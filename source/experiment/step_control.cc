@@ -90,13 +90,12 @@ namespace SlipStep
 
   std::string words_of_sudden_effects(const FrictionLaw &law)
   {
-    for (const std::string &effect : law.effects())
-      for (const char *sudden : {"expression", "damage", "texture"})
-        if (effect == sudden)
-          return "; where the effect " + effect +
-                 " lets friction fall within less slip than the contact's "
-                 "elastic one, friction over stiffness, it jumps: let it fall "
-                 "over more";
+    for (const std::string effect : {"expression", "damage", "texture"})
+      if (law.has(effect))
+        return "; where the effect " + effect +
+               " lets friction fall within less slip than the contact's "
+               "elastic one, friction over stiffness, it jumps: let it fall "
+               "over more";
     return "";
   }
 
@@ -233,6 +232,7 @@ namespace SlipStep
   void StepControl::shrink(const double wanted_step, const std::string &reason)
   {
     ++rejected;
+    ++tries;
     count_step();
     const double resolution =
       std::max(smallest_step,
@@ -275,6 +275,7 @@ namespace SlipStep
       }
 
     ++accepted;
+    tries = 0;
     count_step();
     begin = end;
     if (begin >= programme.segments()[segment].end_time)

@@ -12,6 +12,9 @@ namespace SlipStep
 {
   namespace
   {
+    // How near to each other samples are beside a jump, as a share of x.
+    constexpr double sharpest = 1e-6;
+
     /// Takes the samples.
     class Sampler
     {
@@ -59,8 +62,8 @@ namespace SlipStep
       void
       append(const double end, const double value, const unsigned int depth)
       {
-        constexpr double       tolerance = 3e-4, sharpest = 1e-6;
-        constexpr unsigned int deepest = 60;
+        constexpr double       tolerance = 3e-4;
+        constexpr unsigned int deepest   = 60;
 
         // Never at the same place of a wave.
         place              = std::fmod(place + dealii::numbers::PI_2, 1.);
@@ -106,15 +109,16 @@ namespace SlipStep
     constexpr double       tolerance = 0.01;
 
     const double from = places.front(), to = places.back();
-    const double distance = (to - from) / n;
+    // A jump is somewhere between two samples.
+    const double beside =
+      std::max((to - from) / n,
+               sharpest * std::max(std::abs(from), std::abs(to)));
     for (unsigned int i = 0; i < n; ++i)
       {
-        const double x = from + (i + 0.5) * distance;
-        // A jump is somewhere between two samples.
-        const double here   = (*this)(x).value;
-        const double near[] = {(*this)(x - distance).value,
-                               here,
-                               (*this)(x + distance).value};
+        const double x      = from + (i + 0.5) * (to - from) / n;
+        const double near[] = {(*this)(x - beside).value,
+                               (*this)(x).value,
+                               (*this)(x + beside).value};
         const auto [least, most] =
           std::minmax_element(std::begin(near), std::end(near));
         const double value = function(x);

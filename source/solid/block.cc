@@ -420,7 +420,7 @@ namespace SlipStep
   {
     constexpr double golden = 0.6180339887498949, most = 0.03, range = 10.;
 
-    const unsigned int k = newton.n_uphill++, n_tries = control.n_rejected();
+    const unsigned int k = newton.n_uphill++, n_tries = control.n_tries();
     if (k == 0 && n_tries % 2 == 0)
       return 1.;
     return most * std::pow(range, -std::fmod((k + n_tries) * golden, 1.));

@@ -53,7 +53,7 @@ namespace SlipStep
       throw RunError(
         "At t = " + rounded_text(control.time(), 6) +
         " s the block is worn through: " + rounded_text(worn_depth, 3) +
-        " mm are gone in the mean (effect wear)");
+        " mm are gone, on average over the load (effect wear)");
 
     // Along a side of the block the motion is measured by that side: a thin
     // strip may be stretched by more than its height, but not rise as much, and
@@ -70,7 +70,7 @@ namespace SlipStep
         least = Utilities::MPI::min(least, communicator);
         most  = Utilities::MPI::max(most, communicator);
         if (!drive.is_unknown() && !inertia.exists() &&
-            d != parameters.normal_axis() &&
+            d != parameters.normal_axis() && !parameters.is_held_along(d) &&
             std::max(least, -most) > parameters.size[d])
           throw RunError("At t = " + rounded_text(control.time(), 6) +
                          " s the block slides away along " + "xyz"[d] +
@@ -118,19 +118,17 @@ namespace SlipStep
                std::string::npos)
       message << "not even the beginning of the loads is in equilibrium: they "
                  "lift the block or tip it over, or, if they do hold it on the "
-                 "plane, "
-              << remedy_of_proportional_loads()
-              << "more Block/Newton iterations than "
+                 "plane, more Block/Newton iterations than "
               << parameters.newton_iterations
               << " or, where round-off is in the way, a larger Block/Newton "
                  "tolerance may help ("
-              << newton.failure << ")";
+              << newton.failure << ")" << remedy_of_proportional_loads();
     else if (drive.is_unknown() && drive.mass() == 0. && !inertia.exists())
       message << drive.reason_of_failure() << " (" << newton.failure << ")";
-    else if (!inertia.exists() && !parameters.is_held_along_plane())
-      message << "friction can hardly hold the loads of the faces, of which "
-                 "none has 'drive' ("
-              << newton.failure << ")";
+    else if (!inertia.exists() && parameters.only_friction_holds_loads())
+      message << "friction, which alone holds the loads of the faces along the "
+                 "plane, can hardly do so ("
+              << newton.failure << ")" << remedy_of_jumps();
     else
       message << newton.failure << remedy_of_jumps();
     return message.str();
@@ -142,14 +140,14 @@ namespace SlipStep
   template <int dim>
   std::string Block<dim>::remedy_of_proportional_loads() const
   {
-    const auto &effects = contact.friction_law().effects();
-    const auto  has     = [&](const char *const effect) {
-      return std::find(effects.begin(), effects.end(), effect) != effects.end();
+    const auto has = [&](const char *const effect) {
+      return contact.friction_law().has(effect);
     };
-    return !parameters.is_held_along_plane() && has("subloading") &&
+    return parameters.only_friction_holds_loads() && has("subloading") &&
                !has("overstress") && !has("perzyna") ?
-             "press it before loads along the plane grow, or give effect "
-             "subloading an 'Elastic range' or effect overstress beside it, or " :
+             "; it needs some slip for any load along the plane, which begins "
+             "with the pressure: press it before, or give effect subloading an "
+             "'Elastic range', or effect overstress beside it" :
              "";
   }
 
@@ -160,10 +158,8 @@ namespace SlipStep
   template <int dim>
   std::string Block<dim>::remedy_of_jumps() const
   {
-    const Segment &now     = programme.segment_at(control.end_of_step());
-    const auto    &effects = contact.friction_law().effects();
-    if (opening.has_happened() &&
-        std::find(effects.begin(), effects.end(), "adhesion") != effects.end())
+    const Segment &now = programme.segment_at(control.end_of_step());
+    if (opening.has_happened() && contact.friction_law().has("adhesion"))
       return "; where the face lifts off, its bonds (effect adhesion) break at "
              "once, and there may be no equilibrium between";
     if (inertia.exists() || now.end.velocity.norm() == 0.)
@@ -287,8 +283,8 @@ namespace SlipStep
       return "";
     return rounded_text(worn_depth, 3) + " mm of the block's " +
            rounded_text(height, 3) +
-           " mm are worn away in the mean (effect wear), but it deforms as if "
-           "all of it were there";
+           " mm are worn away, on average over the load (effect wear), but it "
+           "deforms as if all of it were there";
   }
 
 

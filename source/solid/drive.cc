@@ -147,7 +147,9 @@ namespace SlipStep
   std::string Drive::reason_of_failure() const
   {
     if (pushes)
-      return reason_of_slip(programme.segment_at(end_time).push,
+      return reason_of_slip(push.norm() < at_start.load.norm() ?
+                              push :
+                              programme.segment_at(end_time).push,
                             at_start.load,
                             pressure);
     std::ostringstream message;

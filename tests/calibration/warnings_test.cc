@@ -116,3 +116,37 @@ TEST(CalibrationWarnings, TestsThatBeginElsewhereAreTold)
   EXPECT_TRUE(is_told(0., 12.3, "subloading, texture"));
   EXPECT_FALSE(is_told(0., 0., "subloading, texture"));
 }
+
+
+
+// Effect run_order needs the number of every test, between its ends.
+TEST(CalibrationWarnings, TestsWithoutAnOrderAreTold)
+{
+  const TemporaryFolder folder;
+  std::mt19937          random(4);
+  const auto            words = [&](const std::vector<std::string> &orders) {
+    for (std::size_t i = 0; i < orders.size(); ++i)
+      {
+        MeasuredTest test =
+          planted_test(calibration_case({}), 1. / 60., 1., 60, 1e-3, random);
+        if (!orders[i].empty())
+          test.notes["order"] = orders[i];
+        write_measured_test(folder.path() / (std::to_string(i) + ".csv"), test);
+      }
+    Parameters parameters = one_coefficient(folder);
+    parameters.set("Friction/Effects", "run_order", "test");
+    parameters.set("Friction/run_order/Last test", "9", "test");
+    std::string all;
+    for (const std::string &warning : Campaign(parameters).warnings())
+      all += warning + "; ";
+    return all;
+  };
+  EXPECT_FALSE(contains(words({"1", "9", "4"}), "order"));
+  EXPECT_TRUE(contains(words({"1", "", "4"}),
+                       "1 of the tests do not say in which order they were "
+                       "made ('# order: 7'), and are taken for "
+                       "Friction/run_order/Test = 20"));
+  EXPECT_TRUE(contains(words({"0", "10", "4"}),
+                       "2 of the tests were made before Friction/run_order/"
+                       "First test = 1 or after"));
+}

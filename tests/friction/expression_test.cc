@@ -173,13 +173,16 @@ TEST(Expression, is_refused_where_no_table_follows_it)
 // Between two samples nobody sees it unless it is looked for.
 TEST(Expression, is_refused_where_a_feature_is_narrow)
 {
-  const auto words = [](const std::string &formula, const std::string &to) {
+  const auto words = [](const std::string &formula,
+                        const std::string &to,
+                        const std::string &from = "0") {
     Parameters parameters;
     FrictionLaw::declare_parameters(parameters);
     parameters.set("Friction/Effects", "expression", "test");
     for (const auto &[key, value] : along_path(formula, to))
       if (key != "Effects")
         parameters.set("Friction/" + key, value, "test");
+    parameters.set("Friction/expression/From", from, "test");
     try
       {
         effect_registry().at("expression").check(parameters);
@@ -195,6 +198,12 @@ TEST(Expression, is_refused_where_a_feature_is_narrow)
             std::string::npos);
   EXPECT_NE(words("abs(x - 31.3) < 0.2 ? 1.2 : 1", "2e4").find("near x = 31."),
             std::string::npos);
+  // Where samples are no nearer to a jump than the places looked at.
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(words("x < " + std::to_string(105. + 0.137 * i) + " ? 1 : 0.7",
+                    "110",
+                    "100"),
+              "");
   // Wide ones, and jumps at many places.
   EXPECT_EQ(words("1 + 0.5 * exp(-((x - 31.3) / 1)^2)", "60"), "");
   for (int i = 0; i < 20; ++i)

@@ -3,7 +3,9 @@
 #define slipstep_diagnosis_gap_h
 
 #include <slipstep/diagnosis/candidate_scores.h>
+#include <slipstep/diagnosis/rules.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace SlipStep
@@ -20,6 +22,12 @@ namespace SlipStep
     double          excess  = 0.;
     double          scatter = 0.; ///< of the excess, by chance
     Eigen::VectorXd explained;    ///< that part of the residual, whitened
+
+    /// What of the excess may be chance: two standard deviations.
+    double slack() const
+    {
+      return std::max(sure_excess, 2. * scatter);
+    }
   };
 
   /// The chance that replicates agree as much in what a model leaves: their

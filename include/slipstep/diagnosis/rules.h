@@ -23,7 +23,7 @@ namespace SlipStep
   constexpr double sufficient_share = 0.8;
   /// In any case, as far as an excess is known ...
   constexpr double least_share = 0.6;
-  /// ... its own scatter being about this.
+  /// ... which is to this at best.
   constexpr double sure_excess = 25.;
   /// A candidate that has to change friction by more to be seen cannot be
   /// tested.

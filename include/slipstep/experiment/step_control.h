@@ -97,6 +97,12 @@ namespace SlipStep
       return accepted;
     }
 
+    /// How often the present step was made shorter.
+    unsigned int n_tries() const
+    {
+      return tries;
+    }
+
     unsigned int n_rejected() const
     {
       return rejected;
@@ -108,8 +114,8 @@ namespace SlipStep
     void serialize(Archive &archive, const unsigned int)
     {
       archive &segment &begin &end &largest_step &first_step &full_step
-        &first_of_segment &accepted &rejected &smallest_step &steps_of_statement
-          &rows_of_statement;
+        &first_of_segment &accepted &rejected &tries &smallest_step
+          &steps_of_statement &rows_of_statement;
     }
 
   private:
@@ -137,6 +143,7 @@ namespace SlipStep
     bool         first_of_segment = true;
     unsigned int accepted         = 0;
     unsigned int rejected         = 0;
+    unsigned int tries            = 0; ///< of the step, that were rejected
     double       smallest_step    = 0.;
     unsigned int steps_of_statement = 0; ///< tried
     unsigned int rows_of_statement  = 0; ///< of a test that is followed

@@ -64,7 +64,7 @@ namespace SlipStep
     double strength_factor = 1.;
 
     /// Room for what single effects remember, without an allocation per point.
-    static constexpr unsigned int     most_memories = 16;
+    static constexpr unsigned int     most_memories = 20;
     std::array<double, most_memories> memories{};
 
     double &operator[](const ContactMemory &memory)

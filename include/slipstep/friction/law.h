@@ -170,6 +170,12 @@ namespace SlipStep
       return names;
     }
 
+    /// Whether an effect is active.
+    bool has(const std::string &effect) const
+    {
+      return std::find(names.begin(), names.end(), effect) != names.end();
+    }
+
     /// What the active effects remember, in the order of
     /// contact_memories().
     std::vector<ContactMemory> memories() const;

@@ -120,7 +120,7 @@ namespace SlipStep
     void serialize(Archive &archive, const unsigned int)
     {
       archive &control &old_step &n_newton_total &n_linear_total &external_work
-        &largest_imbalance &largest_normal_load &contact_share
+        &largest_imbalance &largest_normal_load &contact_share &worn_depth
           &largest_contact_share &opening
             .share &steps_since_check &most_cells_wanted &largest_jump
               &mesh_changes &mesh_is_new &tolerance &solver_in_use
@@ -342,7 +342,7 @@ namespace SlipStep
     // By how much the map of the strength is off as the contact points see it.
     double         strength_error        = 0.;
     double         contact_share         = 1.;
-    double         worn_depth            = 0.; // mean [mm]
+    double         worn_depth            = 0.; // mean over the load [mm]
     double         largest_contact_share = 0.; // that of a flat face is 1
     OpeningSummary opening;
   };

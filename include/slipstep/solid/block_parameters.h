@@ -149,14 +149,28 @@ namespace SlipStep
                          });
     }
 
-    /// Whether a face is driven or prescribed in the contact plane.
-    bool is_held_along_plane() const
+    /// Whether a face is driven, or prescribed, along an axis of the contact
+    /// plane.
+    bool is_held_along(const unsigned int axis) const
     {
-      return std::any_of(
-        faces.begin(), faces.end(), [this](const FaceConditions &face) {
-          return face.is_driven || face.is_prescribed[tangential_axis(0)] ||
-                 (dimension == 3 && face.is_prescribed[tangential_axis(1)]);
-        });
+      return std::any_of(faces.begin(),
+                         faces.end(),
+                         [axis](const FaceConditions &face) {
+                           return face.is_driven || face.is_prescribed[axis];
+                         });
+    }
+
+    /// The same of any axis along which faces are loaded: there only friction
+    /// holds the block.
+    bool only_friction_holds_loads() const
+    {
+      for (unsigned int i = 0; i + 1 < dimension; ++i)
+        for (const FaceConditions &face : faces)
+          for (const auto &traction : face.tractions)
+            if (traction[tangential_axis(i)] != 0. &&
+                !is_held_along(tangential_axis(i)))
+              return true;
+      return false;
     }
 
     /// Number of cells at the beginning.

@@ -64,8 +64,8 @@ namespace SlipStep
            "n",
            "20",
            number,
-           "number of this test; measured tests that are fitted have their own, "
-           "from a comment '# order: 7'"}};
+           "number of this test; measured tests that are fitted have their own "
+           "if a comment '# order: 7' says so"}};
         info.neutral_settings = {{"Change", "0"}};
         info.typical_settings = {{"Change", "0.3"}, {"Test", "11"}};
         info.search = {"differs from test to test, never within one", search};
