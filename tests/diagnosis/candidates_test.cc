@@ -38,6 +38,9 @@ namespace
     range.typical_friction = 0.1;
     range.widest_angle     = 1.5;
     range.track_wave       = 2.;
+    range.n_orders         = 12;
+    range.first_order      = 3.;
+    range.last_order       = 17.;
     return range;
   }
 } // namespace

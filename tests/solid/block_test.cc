@@ -463,15 +463,31 @@ TEST(Newton, presses_soft_blocks_whatever_their_friction)
 // Nothing but friction holds it along the plane.
 TEST(Failure, slides_away_where_friction_does_not_hold_its_loads)
 {
-  const auto result = run_block_case<2>(make_parameters(
-    {{"Friction/Effects", ""},
-     {"Friction/Static coefficient", "0.2"},
-     {"Block/Dimension", "2"},
-     {"Block/Size", "10 mm, 2 mm"},
-     {"Block/Subdivisions", "4, 2"},
-     {"Block/Faces/top", "pressure 1 MPa at once; traction 0.25 0 MPa"},
-     {"Loading/Programme", "hold 1 s"}}));
-  EXPECT_NE(result.failure.find("friction can"), std::string::npos)
-    << result.failure;
-  EXPECT_NEAR(result.history.back().time, 0.8, 1e-3);
+  const auto sliding = [](const std::string &top, const std::string &degree) {
+    return run_block_case<2>(
+      make_parameters({{"Friction/Effects", ""},
+                       {"Friction/Static coefficient", "0.2"},
+                       {"Friction/Normal stiffness", "1e5"},
+                       {"Block/Dimension", "2"},
+                       {"Block/Size", "10 mm, 2 mm"},
+                       {"Block/Subdivisions", "4, 2"},
+                       {"Block/Degree", degree},
+                       {"Block/Faces/top", "pressure 1 MPa at once; " + top},
+                       {"Loading/Programme", "hold 1 s"}}));
+  };
+  for (const std::string degree : {"1", "2"})
+    {
+      const auto away = sliding("traction 0.25 0 MPa", degree);
+      EXPECT_TRUE(
+        away.failure.find("the block slides away along x: friction cannot "
+                          "hold the loads of its faces") != std::string::npos ||
+        away.failure.find("friction, which alone holds the loads of the faces "
+                          "along the plane, can hardly do so") !=
+          std::string::npos)
+        << away.failure;
+      EXPECT_NEAR(away.history.back().time, 0.8, 1e-3);
+      EXPECT_EQ(sliding("traction 0.15 0 MPa", degree).failure, "");
+      // It goes as far as it is told.
+      EXPECT_EQ(sliding("displacement x 20 mm", degree).failure, "");
+    }
 }
