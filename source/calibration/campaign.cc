@@ -391,13 +391,9 @@ namespace SlipStep
   {
     bool depends_on_position(const Parameters &parameters)
     {
-      const std::vector<std::string> effects =
-        parameters.list("Friction/Effects");
-      const auto has = [&](const std::string &name) {
-        return std::find(effects.begin(), effects.end(), name) != effects.end();
-      };
-      return has("texture") ||
-             (has("expression") &&
+      const FrictionLaw law(parameters);
+      return law.has("texture") ||
+             (law.has("expression") &&
               parameters.text("Friction/expression/Covariate") == "position");
     }
   } // namespace

@@ -46,9 +46,11 @@ namespace SlipStep
         throw RunError(message.str());
       }
 
-    worn_depth = contact.friction_law().wear_rate() > 0. ?
-                   totals.memories[contact_memory("worn_depth_mm").slot] :
-                   0.;
+    // Off the plane nothing bears a load to weigh it by.
+    if (contact.friction_law().wear_rate() > 0.)
+      worn_depth =
+        std::max(worn_depth,
+                 totals.memories[contact_memory("worn_depth_mm").slot]);
     if (worn_depth >= parameters.size[parameters.normal_axis()])
       throw RunError(
         "At t = " + rounded_text(control.time(), 6) +
