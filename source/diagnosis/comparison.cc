@@ -4,6 +4,8 @@
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 
+#include <boost/math/constants/constants.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -63,15 +65,39 @@ namespace SlipStep
 
 
 
-    double typical_friction(const MeasuredTest &rows)
+    // What was taken off is known to the noise only, and where a hum is as slow
+    // as friction nothing was.
+    void add_hum(const Hum                      &hum,
+                 const std::vector<double>      &time,
+                 const std::vector<std::size_t> &borders,
+                 Series                         &series)
     {
-      double sum = 0.;
-      for (std::size_t i = 0; i < rows.friction.size(); ++i)
-        sum += std::pow(rows.friction[i], 2) +
-               (rows.friction_y.empty() ? 0. : std::pow(rows.friction_y[i], 2));
-      return std::sqrt(sum / rows.friction.size());
+      for (const double quarter : {0., 0.25})
+        {
+          Hum wave   = hum;
+          wave.phase = boost::math::constants::two_pi<double>() * quarter;
+          std::vector<double> means(series.time.size());
+          average(
+            borders,
+            [&](const std::size_t row) {
+              return wave.at(time[row] - time.front());
+            },
+            means.data());
+          series.hum.push_back(means);
+        }
     }
   } // namespace
+
+
+
+  double typical_friction(const MeasuredTest &rows)
+  {
+    double sum = 0.;
+    for (std::size_t i = 0; i < rows.friction.size(); ++i)
+      sum += std::pow(rows.friction[i], 2) +
+             (rows.friction_y.empty() ? 0. : std::pow(rows.friction_y[i], 2));
+    return std::sqrt(sum / rows.friction.size());
+  }
 
 
 
@@ -88,6 +114,11 @@ namespace SlipStep
         compared.begin   = n;
         compared.series.assign(test.has_two_axes() ? 2 : 1,
                                series_of(compared, test));
+        for (std::size_t s = 0; s < test.hum.size(); ++s)
+          add_hum(test.hum[s],
+                  test.rows.time,
+                  compared.borders,
+                  compared.series[s]);
         compared.size = compared.series.size() * compared.n_bins();
         n += compared.size;
         // A test that names no condition is one by itself.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/findings.h>
+#include <slipstep/diagnosis/hum_of_tests.h>
 #include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/intervals.h>
@@ -128,6 +129,14 @@ namespace SlipStep
           workspace.noise.n_contrasts > 0 ? "replicates" : "stated";
         diagnosis.noise.push_back(component);
       }
+    const HumOfTests hum = hum_of(workspace.comparison, workspace.tests);
+    if (hum.n_told > 0)
+      diagnosis.noise.push_back({"hum of the mains",
+                                 hum.share,
+                                 "of friction, from test to test",
+                                 "spectra",
+                                 hum.least,
+                                 hum.most});
   }
 
 

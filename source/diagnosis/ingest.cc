@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/gap.h>
+#include <slipstep/diagnosis/hum_of_tests.h>
 #include <slipstep/diagnosis/motion_noise.h>
 #include <slipstep/diagnosis/outlier.h>
 #include <slipstep/diagnosis/record_warnings.h>
@@ -165,6 +166,8 @@ namespace SlipStep
       void begin(const std::vector<CampaignTest> &tests);
 
       void calibrate();
+
+      void take_off_hum();
 
       void keep_near();
 
@@ -335,6 +338,21 @@ namespace SlipStep
         }
       comparison.fit(result.base, 0.01);
       keep_near();
+    }
+
+
+
+    void Preparer::take_off_hum()
+    {
+      const std::vector<CampaignTest> tests =
+        without_hum(result.workspace->tests, result.base);
+      if (tests.empty())
+        return;
+      const std::vector<double> scaled = result.base.scaled;
+      begin(tests);
+      result.base.scaled = scaled;
+      result.base.simulator->plan(scaled);
+      calibrate();
     }
 
 
@@ -515,6 +533,7 @@ namespace SlipStep
       begin(tests);
       tell("calibrating the starting model");
       calibrate();
+      take_off_hum();
       for (unsigned int n = 0; n < 2 && drop_outlier(); ++n)
         calibrate();
       tell("noise");

@@ -55,23 +55,39 @@ namespace SlipStep
 
 
 
-    // What a unit of gain, offset and slope adds to the rows, times their
+    std::size_t n_waves(const std::vector<Series> &series)
+    {
+      std::size_t n = 0;
+      for (const Series &one : series)
+        n += one.hum.size();
+      return n;
+    }
+
+
+
+    // What a unit of gain, offset, slope and hum adds to the rows, times their
     // standard deviations: the gain in common, the others of each axis.
     RowMatrix common_columns(const std::vector<Series> &series,
                              const double               level,
                              const Noise               &noise)
     {
       RowMatrix columns =
-        RowMatrix::Zero(n_rows(series), 1 + 2 * series.size());
-      Eigen::Index row = 0;
+        RowMatrix::Zero(n_rows(series),
+                        1 + 2 * series.size() + n_waves(series));
+      Eigen::Index row = 0, wave = 1 + 2 * series.size();
       for (std::size_t s = 0; s < series.size(); ++s)
-        for (std::size_t i = 0; i < series[s].time.size(); ++i, ++row)
-          {
-            columns(row, 0)         = noise.gain * series[s].friction[i];
-            columns(row, 1 + 2 * s) = noise.offset * level;
-            columns(row, 2 + 2 * s) =
-              noise.slope * level * (series[s].time[i] - 0.5);
-          }
+        {
+          for (const std::vector<double> &values : series[s].hum)
+            columns.col(wave++).segment(row, values.size()) =
+              Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
+          for (std::size_t i = 0; i < series[s].time.size(); ++i, ++row)
+            {
+              columns(row, 0)         = noise.gain * series[s].friction[i];
+              columns(row, 1 + 2 * s) = noise.offset * level;
+              columns(row, 2 + 2 * s) =
+                noise.slope * level * (series[s].time[i] - 0.5);
+            }
+        }
       return columns;
     }
   } // namespace

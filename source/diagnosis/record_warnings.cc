@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/hum_of_tests.h>
 #include <slipstep/diagnosis/record_warnings.h>
 
 #include <slipstep/measured_data/test_rows.h>
@@ -32,6 +33,26 @@ namespace SlipStep
             << " test(s) hang together (correlation of neighbours up to "
             << decay
             << "): they tell as much as fewer rows would, and are weighed so.";
+      result.warnings.push_back(words.str());
+    }
+
+
+
+    void warn_of_hum(Ingested &result)
+    {
+      const HumOfTests hum =
+        hum_of(result.workspace->comparison, result.workspace->tests);
+      if (hum.n_told == 0)
+        return;
+      std::ostringstream words;
+      words << std::setprecision(2) << "The mains hum in the friction of "
+            << hum.n_told << " test(s): " << std::lround(hum.frequency)
+            << " Hz, " << 100. * hum.share
+            << " % of friction. It is taken off, and what looks like it counts "
+               "as noise. Rows that are further apart than "
+            << 500. / std::lround(hum.frequency)
+            << " ms see it as a slower wave: a low-pass filter before the "
+               "recorder helps.";
       result.warnings.push_back(words.str());
     }
 
@@ -110,6 +131,7 @@ namespace SlipStep
                  "differences cannot be trusted. Export more digits.";
         ingested.warnings.push_back(words.str());
       }
+    warn_of_hum(ingested);
     warn_of_rows(ingested);
     warn_of_temperatures(ingested);
     if (ingested.is_kept_near)

@@ -9,10 +9,10 @@
 
 namespace SlipStep
 {
-  RowMatrix draw_null(const Comparison    &comparison,
-                      const NoiseEstimate &estimate,
-                      const unsigned int   n_draws,
-                      const std::uint64_t  seed)
+  RowMatrix draw_noise(const Comparison    &comparison,
+                       const NoiseEstimate &estimate,
+                       const unsigned int   n_draws,
+                       const std::uint64_t  seed)
   {
     RowMatrix draws(comparison.n_rows(), n_draws);
     side_by_side(n_draws, [&](const std::size_t draw) {
@@ -23,6 +23,17 @@ namespace SlipStep
         draws.block(test.begin, draw, test.size, 1) =
           sample_noise(test.series, test.level, noise, random);
     });
+    return draws;
+  }
+
+
+
+  RowMatrix draw_null(const Comparison    &comparison,
+                      const NoiseEstimate &estimate,
+                      const unsigned int   n_draws,
+                      const std::uint64_t  seed)
+  {
+    RowMatrix draws = draw_noise(comparison, estimate, n_draws, seed);
     comparison.whiten(draws);
     return draws;
   }

@@ -7,6 +7,7 @@
 #include <slipstep/diagnosis/rules.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace SlipStep
@@ -142,15 +143,44 @@ namespace SlipStep
 
 
 
+    // Whether a model is farther from the tests than another in their plain
+    // differences, and by more than noise makes it: where a right model changes
+    // d, squares rise by -d^2 - 2 d n, n being noise.
+    bool is_farther(const Workspace &workspace,
+                    const Model     &model,
+                    const Model     &base)
+    {
+      constexpr unsigned int n_draws = 100;
+      constexpr double       clearly = 3.; // standard deviations
+
+      const Comparison &comparison = workspace.comparison;
+      Eigen::VectorXd   after      = comparison.difference(model);
+      Eigen::VectorXd   change     = after - comparison.difference(base);
+      RowMatrix         noise      = draw_noise(comparison,
+                                   workspace.noise,
+                                   n_draws,
+                                   workspace.start.integer("Diagnosis/Seed"));
+      for (const ComparedTest &test : comparison.tests)
+        {
+          after.segment(test.begin, test.size) /= test.level;
+          change.segment(test.begin, test.size) /= test.level;
+          noise.middleRows(test.begin, test.size) /= test.level;
+        }
+      const double squares = change.squaredNorm();
+      const double rise    = 2. * after.dot(change) - squares;
+      const double scatter =
+        2. * (noise.transpose() * change).norm() / std::sqrt(1. * n_draws);
+      return rise > std::max(0., clearly * scatter - squares);
+    }
+
+
+
     // Whether names explain enough to be told.
     bool are_sufficient(Workspace &workspace, Judgement &judgement)
     {
       const Model &model = judgement.found.model;
       const Model &base  = judgement.base;
-      const auto   rms   = [&](const Model &one) {
-        return relative_rms(workspace.comparison, one);
-      };
-      if (is_at_bound(model) || rms(model) > rms(base) ||
+      if (is_at_bound(model) || is_farther(workspace, model, base) ||
           left_out_gain(workspace, base, model) <= 0. ||
           !explains_by_itself(workspace, judgement))
         return false;

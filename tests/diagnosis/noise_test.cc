@@ -61,6 +61,9 @@ namespace
                 const double rows = std::pow(noise.white, 2) *
                                     series[s].row_noise[i] *
                                     series[t].row_noise[j];
+                if (s == t)
+                  for (const std::vector<double> &wave : series[s].hum)
+                    value += wave[i] * wave[j];
                 if (row == column)
                   value += rows * (1. - series[s].row_share);
                 if (s == t)
@@ -78,10 +81,10 @@ namespace
 namespace
 {
   // White rows; rows that hang together, in part and wholly; drift that forgets
-  // within the same seconds.
+  // within the same seconds; hum.
   std::vector<std::pair<Series, Noise>> kinds_of_noise(const std::size_t n)
   {
-    std::vector<std::pair<Series, Noise>> result(4,
+    std::vector<std::pair<Series, Noise>> result(5,
                                                  {series_of(n, 0.001),
                                                   usual_noise()});
     result[1].first.row_share   = 0.6;
@@ -92,6 +95,13 @@ namespace
     result[3].first.row_decay   = 0.9;
     result[3].first.duration    = 3.;
     result[3].second.by_seconds = 0.8;
+    for (const double phase : {0., 1.5708})
+      {
+        result[4].first.hum.emplace_back();
+        for (const double time : result[4].first.time)
+          result[4].first.hum.back().push_back(0.003 *
+                                               std::cos(40. * time + phase));
+      }
     return result;
   }
 } // namespace

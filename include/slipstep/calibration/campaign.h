@@ -7,6 +7,7 @@
 #include <slipstep/experiment/machine.h>
 #include <slipstep/experiment/replay.h>
 #include <slipstep/friction/law.h>
+#include <slipstep/measured_data/mains_hum.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -28,6 +29,9 @@ namespace SlipStep
     Replay replay;
     /// To which its positions were rounded, coarsely [mm]; 0 if they were not.
     double motion_step = 0.;
+    /// The hum of the mains in the friction of each axis, taken off where it
+    /// can be told; empty without any.
+    std::vector<Hum> hum;
 
     /// Whether friction_y is compared, too.
     bool has_two_axes() const

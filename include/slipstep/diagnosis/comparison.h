@@ -35,6 +35,9 @@ namespace SlipStep
     }
   };
 
+  /// Root mean square of the friction of a test, of both axes.
+  double typical_friction(const MeasuredTest &rows);
+
   /// For each time that of another test that is nearest to it; both rise.
   std::vector<std::size_t> partners(const std::vector<double> &time,
                                     const std::vector<double> &other);

@@ -32,7 +32,7 @@ namespace SlipStep
     std::string name;
     double      value = 0.;
     std::string unit;       ///< "of friction", "of the rows' own noise"
-    std::string source;     ///< "replicates" or "stated"
+    std::string source;     ///< "replicates", "stated" or "spectra"
     double      lower = 0.; ///< 95 % interval
     double      upper = 0.;
   };

@@ -60,6 +60,9 @@ namespace SlipStep
     double row_share = 0., row_decay = 0.;
     ///@}
     double duration = 1.; ///< of the test, over the usual one
+    /// Cosine and sine of the hum of the mains, as large as one believes it to
+    /// be, at these times; empty without any.
+    std::vector<std::vector<double>> hum;
 
     /// Over which drift forgets, a share of the test's own duration.
     double drift_time(const Noise &noise) const;
@@ -68,6 +71,7 @@ namespace SlipStep
   /// Turns noise into independent numbers of variance one, and back, for one
   /// test: one series, or one per axis with the gain in common.
   ///
+  /// A hum of unknown phase is common to the rows of a series like an offset.
   /// Drift and rows are whitened by the innovations of a Kalman filter, the
   /// rest by an update of low rank: the work is proportional to the rows.
   class Whitener

@@ -14,10 +14,16 @@
 
 namespace SlipStep
 {
-  /// What a campaign in which the model is right would look like: whitened
-  /// samples of noise as columns. Each has noise of its own, as plausible as
-  /// the estimate by which it is whitened, so that the few degrees of freedom
-  /// of replicates are in the scatter of everything computed from it.
+  /// What a campaign in which the model is right would look like: samples of
+  /// noise as columns. Each has noise of its own, as plausible as the estimate,
+  /// so that the few degrees of freedom of replicates are in the scatter of
+  /// everything computed from it.
+  RowMatrix draw_noise(const Comparison    &comparison,
+                       const NoiseEstimate &estimate,
+                       const unsigned int   n_draws,
+                       const std::uint64_t  seed);
+
+  /// The same, whitened by the noise that was estimated.
   RowMatrix draw_null(const Comparison    &comparison,
                       const NoiseEstimate &estimate,
                       const unsigned int   n_draws,

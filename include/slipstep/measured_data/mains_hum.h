@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef slipstep_measured_data_mains_hum_h
+#define slipstep_measured_data_mains_hum_h
+
+#include <vector>
+
+namespace SlipStep
+{
+  /// The wave that the mains leave in a series of friction. Rows further apart
+  /// than half its period see it as a slower wave, which looks like friction.
+  struct Hum
+  {
+    double frequency = 0.; ///< [Hz]; 0 without any
+    double amplitude = 0.; ///< of the friction coefficient
+    double phase     = 0.; ///< [rad] of the cosine, at the first row
+    /// Not so where the rows see it as slow as friction itself, or noise hides
+    /// it: the amplitude is then the one that other series have, and nothing is
+    /// known of the phase.
+    bool is_told = false;
+
+    /// @param time [s] since the first row
+    double at(const double time) const;
+  };
+
+  /// What a model leaves of a series of friction.
+  struct HumSeries
+  {
+    std::vector<double> time;      ///< [s], rising
+    std::vector<double> left;      ///< measured less simulated
+    double              level = 1; ///< of friction, to which a hum is compared
+  };
+
+  /// The hum of the mains (50 or 60 Hz, or the double) in every series, in
+  /// their order; empty if there is none.
+  ///
+  /// It is found by its frequency: in the spectrum of a series it stands above
+  /// its neighbours, which a smooth remainder does not. It must do so in more
+  /// series than chance allows (1e-5), and its phase must not be the same in
+  /// series of the same motion, as that of a wave along the track is.
+  std::vector<Hum> find_mains_hum(const std::vector<HumSeries> &series);
+} // namespace SlipStep
+
+#endif

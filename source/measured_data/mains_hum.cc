@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/measured_data/mains_hum.h>
+#include <slipstep/measured_data/test_rows.h>
+
+#include <boost/math/constants/constants.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/tools/minima.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <utility>
+
+namespace SlipStep
+{
+  namespace
+  {
+    using Complex = std::complex<double>;
+
+    constexpr double two_pi = boost::math::constants::two_pi<double>();
+
+    /// By chance as high in one series of those with a hum, or in all of them.
+    constexpr double rare_in_one = 0.01, rare_in_all = 1e-5;
+
+    /// Steps of a series from row to row, seen from a frequency: what is near
+    /// to it turns slowly, and is added up in a few hundred blocks. Steps,
+    /// since what is smooth or jumps has no slope in their spectrum. Distances
+    /// of frequencies are counted in waves per duration.
+    class Neighbourhood
+    {
+    public:
+      Neighbourhood(const HumSeries &series, const double frequency);
+
+      /// Whether the rows see the frequency as one or two waves at most, or as
+      /// a constant.
+      bool is_slow() const;
+
+      /// @return chance that a peak near the frequency is as high, and its
+      ///   distance from it
+      std::pair<double, double> peak() const;
+
+    private:
+      Complex sum(const std::vector<Complex> &values,
+                  const double                distance) const;
+
+      double power(const double distance) const
+      {
+        return std::norm(sum(steps, distance));
+      }
+
+      std::vector<double>  place;   ///< of the blocks, from 0 to 1
+      std::vector<Complex> steps;   ///< times a window
+      std::vector<Complex> window;  ///< the same of a constant
+      double               reach;   ///< of the search for a peak
+      double               weights; ///< of the window
+    };
+
+
+
+    double window_at(const HumSeries &series, const std::size_t row)
+    {
+      return 0.5 *
+             (1. - std::cos(two_pi * (series.time[row] - series.time.front()) /
+                            (series.time.back() - series.time.front())));
+    }
+
+
+
+    Complex
+    turn(const HumSeries &series, const std::size_t row, const double frequency)
+    {
+      return std::polar(1.,
+                        -two_pi * frequency *
+                          (series.time[row] - series.time.front()));
+    }
+
+
+
+    Neighbourhood::Neighbourhood(const HumSeries &series,
+                                 const double     frequency)
+    {
+      // The mains keep their frequency within this [Hz]. In a longer record
+      // they wander, and are a wave of one frequency no more.
+      constexpr double      mains_tolerance = 0.05;
+      constexpr double      farthest        = 1.;
+      constexpr std::size_t most_blocks     = 256;
+
+      const std::size_t n        = series.time.size();
+      const std::size_t n_blocks = std::min(n - 1, most_blocks);
+      const double      duration = series.time.back() - series.time.front();
+      reach   = std::clamp(mains_tolerance * duration, 0.5, farthest);
+      weights = 0.;
+      for (std::size_t b = 0; b < n_blocks; ++b)
+        {
+          const std::size_t begin = 1 + b * (n - 1) / n_blocks;
+          const std::size_t end   = 1 + (b + 1) * (n - 1) / n_blocks;
+          double            at    = 0.;
+          Complex           step = 0., constant = 0.;
+          for (std::size_t i = begin; i < end; ++i)
+            {
+              const double  weight = window_at(series, i);
+              const Complex turned = weight * turn(series, i, frequency);
+              step += turned * (series.left[i] - series.left[i - 1]);
+              constant += turned;
+              weights += weight;
+              at += (series.time[i] - series.time.front()) / duration /
+                    (end - begin);
+            }
+          place.push_back(at);
+          steps.push_back(step);
+          window.push_back(constant);
+        }
+    }
+
+
+
+    Complex Neighbourhood::sum(const std::vector<Complex> &values,
+                               const double                distance) const
+    {
+      Complex result = 0.;
+      for (std::size_t b = 0; b < values.size(); ++b)
+        result +=
+          values[b] * std::polar(1. / weights, -two_pi * distance * place[b]);
+      return result;
+    }
+
+
+
+    bool Neighbourhood::is_slow() const
+    {
+      constexpr double seen = 0.15; // of a constant
+
+      return std::max(std::abs(sum(window, -0.25)),
+                      std::abs(sum(window, 0.25))) > seen;
+    }
+
+
+
+    // Amplitude and phase of the cosine whose steps are nearest to those of the
+    // series.
+    Complex amplitude_of(const HumSeries &series, const double frequency)
+    {
+      // Sums of products of the steps of cosine and minus sine.
+      double cc = 0., cs = 0., ss = 0., cy = 0., sy = 0.;
+      for (std::size_t i = 1; i < series.time.size(); ++i)
+        {
+          const Complex unit =
+            turn(series, i, frequency) - turn(series, i - 1, frequency);
+          const double y      = series.left[i] - series.left[i - 1];
+          const double weight = window_at(series, i);
+          cc += weight * unit.real() * unit.real();
+          cs += weight * unit.real() * unit.imag();
+          ss += weight * unit.imag() * unit.imag();
+          cy += weight * unit.real() * y;
+          sy += weight * unit.imag() * y;
+        }
+      const double determinant = cc * ss - cs * cs;
+      return {(ss * cy - cs * sy) / determinant,
+              (cc * sy - cs * cy) / determinant};
+    }
+
+
+
+    std::pair<double, double> Neighbourhood::peak() const
+    {
+      // The median of n exponential numbers scatters as the mean of fewer.
+      constexpr int    first = 5, step = 2, n = 10;
+      constexpr double n_known = 0.48 * n;
+
+      std::vector<double> neighbours;
+      for (int i = 0; i < n / 2; ++i)
+        for (const int side : {-1, 1})
+          neighbours.push_back(power(side * (first + i * step)));
+      double highest = 0., distance = 0.;
+      for (double at = -reach; at <= reach; at += 0.5)
+        if (power(at) > highest)
+          {
+            highest  = power(at);
+            distance = at;
+          }
+      const auto best = boost::math::tools::brent_find_minima(
+        [&](const double at) { return -power(at); },
+        distance - 0.5,
+        distance + 0.5,
+        12);
+      const double usual = median(std::move(neighbours));
+      if (!(usual > 0.))
+        return {highest > 0. ? 0. : 1., best.first};
+      const double chance =
+        std::pow(1. + std::log(2.) * power(best.first) / usual / n_known,
+                 -n_known);
+      return {std::min(1., (1. + 2. * reach) * chance), best.first};
+    }
+
+
+
+    /// Series of the same motion, as far as one can see: of as many rows and,
+    /// but for a per cent, the same duration.
+    using Motion = std::pair<std::size_t, long>;
+
+    Motion motion_of(const HumSeries &series)
+    {
+      return {series.time.size(),
+              std::lround(100. *
+                          std::log(series.time.back() - series.time.front()))};
+    }
+
+
+
+    /// One frequency in the series of one motion.
+    struct Group
+    {
+      std::vector<double>  chances;
+      bool                 is_seen = false; ///< by rows that are close enough
+      std::vector<Complex> phases;          ///< of those that tell
+    };
+
+
+
+    // Of several such chances together. (R. A. Fisher, Statistical Methods for
+    // Research Workers, 1932.)
+    double joint_chance(const std::vector<double> &chances)
+    {
+      double sum = 0.;
+      for (const double chance : chances)
+        sum -= 2. * std::log(std::max(chance, 1e-300));
+      return boost::math::cdf(
+        boost::math::complement(boost::math::chi_squared(2. * chances.size()),
+                                sum));
+    }
+
+
+
+    // Whether waves of the same motion begin at the same place, as what the
+    // track does to friction: the mean of the cosines of differences of phase.
+    bool is_led_by_motion(const std::map<Motion, Group> &groups)
+    {
+      constexpr double together = 0.7;
+
+      double cosines = 0., n_pairs = 0.;
+      for (const auto &[motion, group] : groups)
+        {
+          Complex sum = 0.;
+          for (const Complex &phase : group.phases)
+            sum += phase;
+          const double n = group.phases.size();
+          cosines += 0.5 * (std::norm(sum) - n);
+          n_pairs += 0.5 * n * (n - 1.);
+        }
+      return n_pairs >= 2. && cosines > together * n_pairs;
+    }
+
+
+
+    // One motion alone would also have one wave of the track: it must be seen
+    // as fast as it is, or begin anywhere; and of many none tells for all.
+    double chance_of(const std::map<Motion, Group> &groups)
+    {
+      constexpr double most_of_one = 1e-3;
+
+      std::vector<double> chances;
+      bool                is_told = false;
+      for (const auto &[motion, group] : groups)
+        {
+          const double chance = joint_chance(group.chances);
+          chances.push_back(groups.size() > 1 ? std::max(chance, most_of_one) :
+                                                chance);
+          is_told = is_told || group.is_seen || group.phases.size() > 2;
+        }
+      if (groups.empty() || is_led_by_motion(groups) ||
+          (groups.size() == 1 && !is_told))
+        return 1.;
+      return joint_chance(chances);
+    }
+
+
+
+    /// One frequency in all series.
+    struct Tried
+    {
+      std::vector<Hum> hums;
+      double           chance = 1.;
+    };
+
+
+
+    void set_wave(Hum &hum, const Complex &amplitude)
+    {
+      hum.amplitude = std::abs(amplitude);
+      hum.phase     = std::arg(amplitude);
+    }
+
+
+
+    // A hum that is as strong as in other series is told, too, however faint
+    // there; what is slow, or otherwise, is only believed to be as strong.
+    void compare_with_others(const std::vector<HumSeries> &series,
+                             const std::vector<bool>      &are_slow,
+                             std::vector<Hum>             &hums)
+    {
+      constexpr double factor = 2.;
+
+      std::vector<double> shares;
+      for (std::size_t i = 0; i < hums.size(); ++i)
+        if (hums[i].is_told)
+          shares.push_back(hums[i].amplitude / series[i].level);
+      const double share = median(std::move(shares));
+      for (std::size_t i = 0; i < hums.size(); ++i)
+        if (!hums[i].is_told && hums[i].frequency > 0.)
+          {
+            const double usual = share * series[i].level;
+            if (!are_slow[i])
+              set_wave(hums[i], amplitude_of(series[i], hums[i].frequency));
+            hums[i].is_told = hums[i].amplitude > usual / factor &&
+                              hums[i].amplitude < usual * factor;
+            if (!hums[i].is_told)
+              hums[i].amplitude = usual;
+          }
+    }
+
+
+
+    // One frequency in one series.
+    Hum look(const HumSeries         &series,
+             const double             frequency,
+             std::map<Motion, Group> &groups,
+             bool                    &is_slow)
+    {
+      const Neighbourhood near(series, frequency);
+      Hum                 hum;
+      hum.frequency = frequency;
+      is_slow       = near.is_slow();
+      if (is_slow)
+        return hum;
+      const double duration         = series.time.back() - series.time.front();
+      const auto [chance, distance] = near.peak();
+      Group &group                  = groups[motion_of(series)];
+      group.chances.push_back(chance);
+      group.is_seen = 2. * frequency * duration < series.time.size() - 1;
+      if (chance < rare_in_one)
+        {
+          hum.frequency += distance / duration;
+          set_wave(hum, amplitude_of(series, hum.frequency));
+          hum.is_told = true;
+          group.phases.push_back(std::polar(1., hum.phase));
+        }
+      return hum;
+    }
+
+
+
+    Tried try_frequency(const std::vector<HumSeries> &series,
+                        const double                  frequency)
+    {
+      constexpr std::size_t fewest_rows = 32;
+
+      Tried                   result;
+      std::map<Motion, Group> groups;
+      std::vector<bool>       are_slow;
+      for (const HumSeries &one : series)
+        {
+          bool is_slow = true;
+          result.hums.push_back(one.time.size() < fewest_rows ?
+                                  Hum() :
+                                  look(one, frequency, groups, is_slow));
+          are_slow.push_back(is_slow);
+        }
+      result.chance = chance_of(groups);
+      compare_with_others(series, are_slow, result.hums);
+      return result;
+    }
+  } // namespace
+
+
+
+  double Hum::at(const double time) const
+  {
+    return amplitude * std::cos(two_pi * frequency * time + phase);
+  }
+
+
+
+  std::vector<Hum> find_mains_hum(const std::vector<HumSeries> &series)
+  {
+    Tried best;
+    for (const double frequency : {50., 60., 100., 120.})
+      {
+        Tried tried = try_frequency(series, frequency);
+        if (tried.chance < best.chance)
+          best = std::move(tried);
+      }
+    return best.chance <= rare_in_all ? best.hums : std::vector<Hum>();
+  }
+} // namespace SlipStep

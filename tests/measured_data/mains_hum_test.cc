@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The hum of the mains in what a model leaves of records, which it must not be
+// found in without it: neither by chance, nor in waves of the track.
+
+#include <slipstep/measured_data/mains_hum.h>
+
+#include <boost/math/constants/constants.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace SlipStep;
+
+namespace
+{
+  using Random = std::mt19937_64;
+
+  constexpr double two_pi = boost::math::constants::two_pi<double>();
+
+  double uniform(Random &random, const double lower, const double upper)
+  {
+    return std::uniform_real_distribution<double>(lower, upper)(random);
+  }
+
+  // Replicates of some conditions, which last from 10 s to an hour: white noise
+  // of 1 and a drift of 0.5, and a smooth remainder of an effect that is
+  // missing in the model.
+  std::vector<HumSeries>
+  records(Random &random, const std::size_t n, const double remainder)
+  {
+    std::normal_distribution<double> normal;
+    std::vector<HumSeries>           result;
+    double                           duration = 10.;
+    std::size_t                      n_rows   = 200;
+    for (std::size_t r = 0; r < n; ++r)
+      {
+        if (r % 2 == 0)
+          {
+            duration =
+              std::exp(uniform(random, std::log(10.), std::log(3600.)));
+            n_rows = static_cast<std::size_t>(uniform(random, 140., 400.));
+          }
+        HumSeries    one;
+        double       drift = normal(random);
+        const double kept  = std::exp(-1. / (0.1 * n_rows));
+        for (std::size_t i = 0; i < n_rows; ++i)
+          {
+            const double share = static_cast<double>(i) / (n_rows - 1);
+            drift = kept * drift + std::sqrt(1. - kept * kept) * normal(random);
+            one.time.push_back(share * duration);
+            one.left.push_back(normal(random) + 0.5 * drift +
+                               remainder * std::exp(-share / 0.1) +
+                               remainder * (share > 0.6));
+          }
+        result.push_back(one);
+      }
+    return result;
+  }
+
+  // Of the strokes of one speed the waves are the same.
+  void add_track_waves(Random                 &random,
+                       std::vector<HumSeries> &series,
+                       const double            amplitude)
+  {
+    const double n_waves = uniform(random, 4., 30.);
+    for (HumSeries &one : series)
+      for (std::size_t i = 0; i < one.time.size(); ++i)
+        one.left[i] += amplitude * std::sin(two_pi * n_waves * one.time[i] /
+                                            one.time.back());
+  }
+
+  void add_hum(Random                 &random,
+               std::vector<HumSeries> &series,
+               const double            frequency,
+               const double            amplitude)
+  {
+    for (HumSeries &one : series)
+      {
+        const double phase = uniform(random, 0., two_pi);
+        for (std::size_t i = 0; i < one.time.size(); ++i)
+          one.left[i] +=
+            amplitude * std::cos(two_pi * frequency * one.time[i] + phase);
+      }
+  }
+} // namespace
+
+
+
+// Of every wave most is taken off, whose amplitude scatters by a tenth in such
+// noise; where it is as slow as the remainder it need not be told.
+TEST(MainsHum, IsFoundByItsFrequency)
+{
+  Random random(1);
+  for (const double frequency : {50., 60., 49.9998})
+    for (const double remainder : {0., 5.})
+      {
+        std::vector<HumSeries>       with    = records(random, 20, remainder);
+        const std::vector<HumSeries> without = with;
+        add_hum(random, with, frequency, 1.);
+        const std::vector<Hum> found = find_mains_hum(with);
+        ASSERT_EQ(found.size(), with.size());
+        std::size_t n_told = 0, n_near = 0;
+        double      left = 0.;
+        for (std::size_t r = 0; r < with.size(); ++r)
+          {
+            if (!found[r].is_told)
+              continue;
+            ++n_told;
+            n_near += std::abs(found[r].frequency - frequency) <
+                      0.3 / with[r].time.back();
+            for (std::size_t i = 0; i < with[r].time.size(); ++i)
+              left += std::pow(with[r].left[i] - without[r].left[i] -
+                                 found[r].at(with[r].time[i]),
+                               2) /
+                      with[r].time.size();
+          }
+        EXPECT_GE(n_told, 15U) << frequency << ' ' << remainder;
+        EXPECT_GE(n_near + 1, n_told);
+        EXPECT_LT(left / n_told, 0.2 * 0.5);
+      }
+}
+
+
+
+TEST(MainsHum, IsNotFoundWithoutIt)
+{
+  Random      random(2);
+  std::size_t n_found = 0;
+  for (unsigned int campaign = 0; campaign < 600; ++campaign)
+    {
+      std::vector<HumSeries> series =
+        records(random, 1 + campaign % 20, campaign % 3 == 0 ? 5. : 0.);
+      if (campaign % 3 == 1)
+        add_track_waves(random, series, uniform(random, 0.2, 3.));
+      n_found += !find_mains_hum(series).empty();
+    }
+  EXPECT_LE(n_found, 1U);
+}
+
+
+
+// Waves of the track whose frequency is that of the mains by chance.
+TEST(MainsHum, IsNoWaveOfTheTrack)
+{
+  Random                 random(3);
+  std::vector<HumSeries> series = records(random, 8, 0.);
+  for (std::size_t r = 0; r < series.size(); ++r)
+    {
+      series[r] = series[r % 2];
+      for (double &left : series[r].left)
+        left += std::normal_distribution<double>()(random);
+    }
+  std::vector<HumSeries> hummed = series;
+  for (HumSeries &one : series)
+    for (std::size_t i = 0; i < one.time.size(); ++i)
+      one.left[i] += 2. * std::cos(two_pi * 50. * one.time[i]);
+  EXPECT_TRUE(find_mains_hum(series).empty());
+  add_hum(random, hummed, 50., 2.);
+  EXPECT_FALSE(find_mains_hum(hummed).empty());
+}
+
+
+
+// Rows in step with the mains see it as a constant, or as one slow wave: it is
+// not told from friction there, but as strong as in the others.
+TEST(MainsHum, IsGuessedWhereItIsSlow)
+{
+  Random                 random(4);
+  std::vector<HumSeries> series = records(random, 14, 0.);
+  for (double &time : series[2].time)
+    time *= 0.2 * (series[2].time.size() - 1) / series[2].time.back();
+  for (double &time : series[3].time)
+    time *= (0.2 * (series[3].time.size() - 1) + 0.02) / series[3].time.back();
+  for (HumSeries &one : series)
+    one.level = 4.;
+  series[2].level = 8.;
+  add_hum(random, series, 50., 1.);
+  const std::vector<Hum> found = find_mains_hum(series);
+  ASSERT_EQ(found.size(), series.size());
+  EXPECT_FALSE(found[2].is_told);
+  EXPECT_FALSE(found[3].is_told);
+  EXPECT_EQ(found[2].frequency, 50.);
+  EXPECT_NEAR(found[2].amplitude, 2., 0.3);
+  EXPECT_NEAR(found[3].amplitude, 1., 0.15);
+}
