@@ -331,6 +331,20 @@ namespace SlipStep
 
 
 
+    bool touches_bound(const Linearisation   &optimum,
+                       const Eigen::VectorXd &direction)
+    {
+      constexpr double near = 0.01;
+
+      for (Eigen::Index i = 0; i < direction.size(); ++i)
+        if (direction(i) != 0. &&
+            std::abs(optimum.scaled[i] - 0.5) > 0.5 - near)
+          return true;
+      return false;
+    }
+
+
+
     // What would tell more of a direction, in words.
     std::string best_test(Simulator                       &simulator,
                           const Linearisation             &optimum,
@@ -368,7 +382,16 @@ namespace SlipStep
             }
         }
       if (words.empty() && n_simulated > proposed.size() / 2)
-        return "; no other speed, pressure, path, rest or direction would tell";
+        {
+          // Where a parameter ends at a bound, its effect may be gone, and says
+          // nothing of other speeds.
+          const Conditions now           = conditions_of(simulator.campaign);
+          const bool       has_one_speed = now.fastest < 1.2 * now.slowest;
+          return has_one_speed && touches_bound(optimum, direction) ?
+                   "; all tests have about the same speed: others may tell" :
+                   "; no other speed, pressure, path, rest or direction would "
+                   "tell";
+        }
       if (best > 0.5 * before)
         return "";
       return "; " + words +

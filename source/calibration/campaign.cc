@@ -127,24 +127,61 @@ namespace SlipStep
 
   namespace
   {
+    // Fewer rows show no noise.
+    constexpr std::size_t fewest_rows = 8;
+
+    double largest_friction(const MeasuredTest &test)
+    {
+      double largest = 0.;
+      for (const auto *values : {&test.friction, &test.friction_y})
+        for (const double value : *values)
+          largest = std::max(largest, std::abs(value));
+      if (largest == 0.)
+        throw InputError(test.file.string() +
+                         ": the friction is zero throughout");
+      return largest;
+    }
+
+
+
+    // Of few rows the scatter may be anything, and is taken to be more like
+    // that of the others: the usual share of friction counts as so many rows.
+    void share_noise_of_short_tests(std::vector<CampaignTest> &tests)
+    {
+      constexpr std::size_t enough = 30;
+
+      std::vector<double> shares;
+      for (const CampaignTest &test : tests)
+        if (test.rows.time.size() >= fewest_rows && test.noise > 0.)
+          shares.push_back(test.noise / largest_friction(test.rows));
+      if (shares.size() < 2)
+        return;
+      const double usual = median(shares);
+      for (CampaignTest &test : tests)
+        {
+          const std::size_t n = test.rows.time.size();
+          if (!test.noise_is_stated && n >= fewest_rows && n < enough &&
+              test.noise > 0.)
+            test.noise *=
+              std::pow(usual * largest_friction(test.rows) / test.noise,
+                       static_cast<double>(enough) / (n + enough));
+        }
+    }
+
+
+
     // A record without visible noise, filtered or generated, must not outweigh
     // all others: an estimate counts at least a ten-thousandth of the friction
     // and a tenth of what is usual among the tests.
     void keep_noise_visible(std::vector<CampaignTest> &tests)
     {
+      share_noise_of_short_tests(tests);
       std::vector<double> estimates;
       for (const CampaignTest &test : tests)
         estimates.push_back(test.noise);
       for (CampaignTest &test : tests)
         {
-          double largest = 0.;
-          for (const auto *values :
-               {&test.rows.friction, &test.rows.friction_y})
-            for (const double value : *values)
-              largest = std::max(largest, std::abs(value));
-          if (largest == 0.)
-            throw InputError(test.rows.file.string() +
-                             ": the friction is zero throughout");
+          const double largest = largest_friction(test.rows);
           const double least =
             std::max(1e-4 * largest, 0.1 * median(estimates));
           if (test.noise_is_stated || test.noise >= least)
@@ -152,8 +189,10 @@ namespace SlipStep
           test.noise = least;
           std::ostringstream warning;
           warning << test.rows.file.string()
-                  << ": hardly any noise is visible; " << std::setprecision(2)
-                  << least
+                  << (test.rows.time.size() < fewest_rows ?
+                        ": its rows are too few to see noise in; " :
+                        ": hardly any noise is visible; ")
+                  << std::setprecision(2) << least
                   << " is taken, unless a line '# noise: ...' says more.";
           test.rows.warnings.push_back(warning.str());
         }

@@ -309,6 +309,7 @@ namespace SlipStep
       describe_tests(ingested, final_model, result);
       describe_shrink(ingested, final_model, result);
       describe_doubts(workspace, result);
+      describe_few_levels(workspace, final_model, result);
       const Eigen::VectorXd base_difference =
         comparison.difference(ingested.base);
       std::vector<std::pair<std::string, Eigen::VectorXd>> changes;

@@ -5,6 +5,7 @@
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/intervals.h>
 
+#include <boost/algorithm/string/join.hpp>
 #include <boost/crc.hpp>
 
 #include <algorithm>
@@ -232,14 +233,19 @@ namespace SlipStep
                                     step("calibrated", ingested.base)};
       for (std::size_t part = 0; part + 1 < after.parts.size(); ++part)
         {
-          Model so_far =
-            make_model(workspace.start,
-                       {after.parts.begin(), after.parts.begin() + part + 1},
-                       after.values(),
-                       workspace.tests,
-                       after);
-          comparison.fit(so_far, 0.1);
-          steps.push_back(step("with " + after.parts[part].name, so_far));
+          const std::optional<Model> so_far =
+            if_possible([&]() -> std::optional<Model> {
+              Model model = make_model(workspace.start,
+                                       {after.parts.begin(),
+                                        after.parts.begin() + part + 1},
+                                       after.values(),
+                                       workspace.tests,
+                                       after);
+              comparison.fit(model, 0.1);
+              return model;
+            });
+          if (so_far.has_value())
+            steps.push_back(step("with " + after.parts[part].name, *so_far));
         }
       if (!after.parts.empty())
         steps.push_back(step("with " + after.parts.back().name, after));
@@ -304,6 +310,65 @@ namespace SlipStep
     diagnosis.steps.push_back({"noise alone",
                                shrink.noise_floor,
                                static_cast<double>(comparison.n_rows())});
+  }
+
+
+
+  namespace
+  {
+    // Values that tests were made at: those within a twentieth are one.
+    std::size_t n_levels(const Eigen::VectorXd &values)
+    {
+      constexpr double same = 1.05;
+
+      std::vector<double> sorted;
+      for (const double value : values)
+        if (value > 0.)
+          sorted.push_back(value);
+      std::sort(sorted.begin(), sorted.end());
+      std::size_t n     = 0;
+      double      level = 0.;
+      for (const double value : sorted)
+        if (value > same * level)
+          {
+            level = value;
+            ++n;
+          }
+      return n;
+    }
+  } // namespace
+
+
+
+  void describe_few_levels(const Workspace &workspace,
+                           const Model     &model,
+                           Diagnosis       &diagnosis)
+  {
+    for (const std::string covariate : {"pressure", "speed"})
+      {
+        std::vector<std::string> names;
+        std::size_t              n_numbers = 1; // the coefficient
+        for (const Part &part : model.parts)
+          if (part.corrects.empty() && part.formula.along == covariate)
+            {
+              names.push_back(part.name);
+              n_numbers +=
+                part.formula.parameters.size() + part.formula.n_in_texts;
+            }
+        const std::size_t n =
+          n_levels(values_of(workspace.covariates, covariate));
+        if (names.size() > 1 && n <= n_numbers)
+          diagnosis.warnings.push_back(
+            "The tests have " + std::to_string(n) + " levels of " + covariate +
+            ", and " + boost::algorithm::join(names, " and ") +
+            " with the "
+            "coefficient have " +
+            std::to_string(n_numbers) +
+            " numbers: they would fit any friction at these. Another formula "
+            "of " +
+            covariate + " does as well, and a test at another " + covariate +
+            " would tell.");
+      }
   }
 
 

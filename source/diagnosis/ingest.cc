@@ -314,17 +314,14 @@ namespace SlipStep
     {
       Workspace  &workspace  = *result.workspace;
       Comparison &comparison = workspace.comparison;
-      Simulator  &simulator  = *result.base.simulator;
       for (unsigned int pass = 0; pass < 3; ++pass)
         {
           if (!comparison.fit(result.base, pass < 2 ? 1. : 0.01))
             throw RunError("the starting model cannot be simulated");
-          simulator.plan(result.base.scaled);
-          simulator.correct(result.base.scaled, correction_share);
+          replan(result.base);
           if (pass == 2)
             break;
-          const Eigen::VectorXd difference =
-            comparison.difference(simulator, result.base.scaled);
+          const Eigen::VectorXd difference = comparison.difference(result.base);
           weigh_motion(Eigen::VectorXd::Zero(comparison.n_rows()));
           const double row_freedom = judge_rows(difference);
           weigh_motion(motion_noise(comparison,
@@ -348,10 +345,10 @@ namespace SlipStep
         without_hum(result.workspace->tests, result.base);
       if (tests.empty())
         return;
-      const std::vector<double> scaled = result.base.scaled;
+      std::vector<double> scaled = result.base.scaled;
       begin(tests);
-      result.base.scaled = scaled;
-      result.base.simulator->plan(scaled);
+      result.base.scaled.swap(scaled);
+      replan(result.base);
       calibrate();
     }
 
@@ -375,8 +372,7 @@ namespace SlipStep
       if (!plain.has_value() || rms(base) < lost_fit * rms(*plain))
         return;
       base.scaled = plain->scaled;
-      base.simulator->plan(base.scaled);
-      base.simulator->correct(base.scaled, correction_share);
+      replan(base);
       workspace.comparison.fit(base,
                                0.01,
                                {},

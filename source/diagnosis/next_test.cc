@@ -14,9 +14,6 @@ namespace SlipStep
 {
   namespace
   {
-    // Standard deviations at which two predictions count as told apart.
-    constexpr double told_apart = 5.;
-
     // Strength (see Shape) of an effect that a test is to reveal: a change of
     // some three per cent.
     constexpr double worthwhile_strength = 3.;
@@ -163,16 +160,19 @@ namespace SlipStep
     NextTest choose_test(const std::vector<ProposedTest> &proposed,
                          const Distance                  &distance_of)
     {
+      // By less it is not better.
+      constexpr double clearly = 1.1;
+
       NextTest                  best;
       std::pair<double, double> least_cost;
       for (const ProposedTest &test : proposed)
         {
           const double    distance = distance_of(test.motion);
           const std::pair cost(test.reach, duration_of(test.motion));
-          const bool      is_enough  = distance >= told_apart;
-          const bool      had_enough = best.distance >= told_apart;
+          const bool      is_enough  = distance >= NextTest::told_apart;
+          const bool      had_enough = best.tells();
           if (!(is_enough && (!had_enough || cost < least_cost)) &&
-              !(!had_enough && distance > best.distance))
+              !(!had_enough && distance > clearly * best.distance))
             continue;
           best.words     = test.words;
           best.programme = test.programme;
@@ -230,7 +230,7 @@ namespace SlipStep
                   [&](const MeasuredTest &motion) {
                     return separation(workspace, base, *with, motion);
                   });
-    return best.distance >= told_apart / 2. ? best.words : "";
+    return best.distance >= NextTest::told_apart / 2. ? best.words : "";
   }
 
 

@@ -45,14 +45,26 @@ namespace SlipStep
       if (hum.n_told == 0)
         return;
       std::ostringstream words;
-      words << std::setprecision(2) << "The mains hum in the friction of "
-            << hum.n_told << " test(s): " << std::lround(hum.frequency)
-            << " Hz, " << 100. * hum.share
+      const long         of_mains = std::lround(hum.frequency);
+      const bool         is_mains = of_mains >= 50;
+      words << std::setprecision(2)
+            << (is_mains ? "The mains hum" : "A wave in time hums")
+            << " in the friction of " << hum.n_told << " test(s): ";
+      if (is_mains)
+        words << of_mains;
+      else
+        words << hum.frequency;
+      words << " Hz, " << 100. * hum.share
             << " % of friction. It is taken off, and what looks like it counts "
-               "as noise. Rows that are further apart than "
-            << 500. / std::lround(hum.frequency)
-            << " ms see it as a slower wave: a low-pass filter before the "
-               "recorder helps.";
+               "as noise. ";
+      if (is_mains)
+        words << "Rows that are further apart than " << 500. / of_mains
+              << " ms see it as a slower wave: a low-pass filter before the "
+                 "recorder helps.";
+      else
+        words << "It begins elsewhere in every replicate, which nothing does "
+                 "that the contact makes: the mains look so where rows are "
+                 "nearly in step with them, or it is the recorder's.";
       result.warnings.push_back(words.str());
     }
 

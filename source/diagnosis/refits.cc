@@ -204,21 +204,30 @@ namespace SlipStep
 
 
 
-  void settle(const Workspace &workspace, Model &model)
+  bool replan(Model &model, const Simulator *like)
   {
-    Model settled = model.copy();
+    Model planned = model.copy();
     try
       {
-        settled.simulator->plan(model.scaled, model.simulator.get());
-        settled.simulator->correct(model.scaled, correction_share);
+        planned.simulator->plan(model.scaled, like);
+        planned.simulator->correct(model.scaled, correction_share);
       }
     catch (const RunError &)
       {
-        // It sticks and slips: the steps that it was fitted with have to do.
         throw_if_stopped();
-        return;
+        return false;
       }
-    if (workspace.comparison.fit(settled, 0.01))
+    model = planned;
+    return true;
+  }
+
+
+
+  void settle(const Workspace &workspace, Model &model)
+  {
+    Model settled = model.copy();
+    if (replan(settled, model.simulator.get()) &&
+        workspace.comparison.fit(settled, 0.01))
       model = settled;
   }
 

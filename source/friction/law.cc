@@ -451,6 +451,14 @@ namespace SlipStep
 
 
 
+  // Of what is slip in the metric in which the law is isotropic.
+  Tensor<1, 2> FrictionLaw::true_slip(const Tensor<1, 2> &slip) const
+  {
+    return is_anisotropic ? inverse_cone * slip : slip;
+  }
+
+
+
   // Slip e s is P e s in the metric in which the law is isotropic.
   double FrictionLaw::path_per_slip(const Tensor<1, 2> &slip_direction) const
   {
@@ -478,7 +486,7 @@ namespace SlipStep
   // Off the plane: mu goes on healing, the traction is lost. Until then all
   // slip that was elastic and all motion become slip, for a share s = f_0 /
   // (f_0 - f_n) of the stage in which the normal traction changes from f_0 to
-  // f_n.
+  // f_n; what follows only carries the point to another place.
   void FrictionLaw::open(const Tensor<1, 2> &slip_increment,
                          const double        normal_traction,
                          LocalSystem        &local,
@@ -493,7 +501,9 @@ namespace SlipStep
         local.slip = local.trial_norm / alpha_t;
       }
     evolve_coefficient(local);
-    const SlipStepData step = step_data(local);
+    SlipStepData step = step_data(local);
+    step.carried = true_slip(local.start.traction / alpha_t + slip_increment) -
+                   step.path * step.direction;
 
     end                 = local.start;
     end.traction        = Tensor<1, 2>();

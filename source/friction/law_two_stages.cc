@@ -84,7 +84,9 @@ namespace SlipStep
                  std::min(range_of_coefficient[0], start.coefficient),
                  std::max(range_of_coefficient[1], start.coefficient));
 
-    const SlipStepData rest = step_data(first.end, first.end, more, more_time);
+    SlipStepData rest = step_data(first.end, first.end, more, more_time);
+    if (first.end.normal_traction <= 0.)
+      rest.carried = (TwoStages::carry - 1.) * first.slip_increment;
     for (const StrengthEffect *effect : strength_effects)
       effect->remember(rest, state);
     if (first.end.normal_traction <= 0.)

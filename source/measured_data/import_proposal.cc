@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/measured_data/column_words.h>
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/import_map.h>
 #include <slipstep/measured_data/import_proposal.h>
@@ -18,83 +19,14 @@ namespace SlipStep
 {
   namespace
   {
-    /// Words in the names of columns that speak for a key, and against it.
-    struct KeyWords
-    {
-      std::string              key;
-      std::vector<std::string> words;  ///< parts of a name
-      std::vector<std::string> labels; ///< whole names
-      std::vector<std::string> against;
-    };
-
-    // In English and German.
-    const std::vector<KeyWords> &key_words()
-    {
-      static const std::vector<KeyWords> all = {
-        {"Time", {"time", "zeit", "elapsed"}, {"t"}, {"step", "date", "temp"}},
-        {"Displacement",
-         {"displ",
-          "position",
-          "distance",
-          "weg",
-          "stroke",
-          "travel",
-          "slip",
-          "verschiebung",
-          "strecke"},
-         {"x", "u", "s", "d", "pos", "path", "hub"},
-         {"wear",
-          "verschlei",
-          "radius",
-          "thick",
-          "dicke",
-          "width",
-          "height",
-          "normal",
-          "vertical"}},
-        {"Friction",
-         {"coefficient",
-          "friction",
-          "reibwert",
-          "reibungszahl",
-          "beiwert",
-          "reibungskoeff"},
-         {"mu", "cof", "\xC2\xB5", "\xCE\xBC", "\xB5", "f"},
-         {"force", "kraft", "load", "stress", "torque", "moment"}},
-        {"Tangential load",
-         {"friction",
-          "tangential",
-          "reibkraft",
-          "reibungskraft",
-          "shear",
-          "lateral",
-          "pull",
-          "zugkraft"},
-         {"ft",
-          "fx",
-          "f_t",
-          "f_x",
-          "ff",
-          "fr",
-          "f_r",
-          "t",
-          "f",
-          "force",
-          "kraft"},
-         {"coefficient", "stress", "normal", "torque"}},
-        {"Normal load",
-         {"normal", "load", "anpress", "last", "vertical", "clamp"},
-         {"fn", "fz", "f_n", "f_z", "n", "p"},
-         {"stress", "friction", "tangential", "shear"}},
-        {"Pressure",
-         {"pressure", "stress", "druck", "pressung", "spannung"},
-         {"p", "sigma", "sigma_n", "sn"},
-         {"shear", "tau", "schub", "oil", "friction", "atmos"}},
-        {"Temperature", {"temp"}, {"t", "theta"}, {}}};
-      return all;
-    }
-
     const std::vector<std::string> shear_words = {"shear", "tau", "schub"};
+
+    // What was ordered is not what was.
+    const std::vector<std::string> ordered_words = {" set",
+                                                    "_set",
+                                                    "soll",
+                                                    "target",
+                                                    "nominal"};
 
     bool has_word(const std::string              &name,
                   const std::vector<std::string> &words)
@@ -179,6 +111,9 @@ namespace SlipStep
 
       void guess_column(const std::string &key, const std::size_t column);
 
+      std::size_t motion_of_friction(const KeyWords   &displacement,
+                                     const std::size_t best) const;
+
       void guess_shear_stress();
 
       std::size_t first_column_left() const;
@@ -213,16 +148,19 @@ namespace SlipStep
       if (layout.decimal_mark != '\0')
         guess("Raw file/Decimal mark",
               layout.decimal_mark == ',' ? "comma" : "point",
-              layout.has_doubtful_commas ?
-                "all numbers with a comma have three digits behind it: does "
-                "it part thousands?" :
+              layout.has_doubtful_marks ?
+                std::string("all numbers with a ") +
+                  (layout.decimal_mark == ',' ? "comma" : "point") +
+                  " have three digits behind it: does it part thousands?" :
                 "as the numbers have it");
       if (layout.thousands_mark != '\0')
         guess("Raw file/Thousands mark",
               layout.thousands_mark == '.' ? "point" :
               layout.thousands_mark == ',' ? "comma" :
                                              "apostrophe",
-              "numbers have a second mark");
+              layout.decimal_mark == '\0' ?
+                "three digits stand behind each, where there is one" :
+                "numbers have a second mark");
       if (layout.header_line == 0 || layout.has_unclear_header)
         {
           guess("Raw file/Has header",
@@ -340,6 +278,8 @@ namespace SlipStep
         }
       if (words.key == "Displacement" && !varies)
         return 0;
+      if (has_word(seen.name, ordered_words))
+        --points;
       if (words.key == "Friction" && seen.unit != "%" &&
           !finite[column].empty() &&
           median(finite[column]) > 3.) // a percentage, or a force
@@ -436,8 +376,46 @@ namespace SlipStep
           if (points == 0 ||
               (words.key == "Tangential load" && taken_as("Friction")))
             continue;
+          if (words.key == "Displacement")
+            best = motion_of_friction(words, best);
           guess_column(words.key, best);
         }
+    }
+
+
+
+    // A way that only grows, or one that was ordered, may be called like a
+    // displacement as well: that which friction resists is taken.
+    std::size_t Observer::motion_of_friction(const KeyWords   &displacement,
+                                             const std::size_t best) const
+    {
+      constexpr double hardly = 0.5, clearly = 0.9;
+
+      const auto column_of = [&](const std::string &key) {
+        std::size_t column = values.size();
+        int         points = 0;
+        for (const KeyWords &words : key_words())
+          for (std::size_t i = 0; words.key == key && i < values.size(); ++i)
+            if (const int found = score(words, i); found > points)
+              {
+                column = i;
+                points = found;
+              }
+        return column;
+      };
+      std::size_t friction = column_of("Friction");
+      if (friction == values.size())
+        friction = column_of("Tangential load");
+      if (friction == values.size())
+        return best;
+      const auto share = [&](const std::size_t i) {
+        return std::abs(share_of_resistance(values[i], values[friction]));
+      };
+      if (share(best) < hardly)
+        for (std::size_t i = 0; i < values.size(); ++i)
+          if (score(displacement, i) > 0 && share(i) > clearly)
+            return i;
+      return best;
     }
 
 
@@ -573,7 +551,8 @@ namespace SlipStep
         guess("Convention/Friction sign",
               "as recorded",
               words + ": is a zero of the sensor to be taken off "
-                      "(Correction/Zero)?");
+                      "(Correction/Zero), or is this displacement a way that "
+                      "only grows?");
     }
 
 

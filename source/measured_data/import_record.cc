@@ -131,6 +131,7 @@ namespace SlipStep
 
       /// What was done and supposed, for the comments of the tests.
       std::map<std::string, std::string> notes;
+      std::vector<std::string>           doubts;
     };
 
 
@@ -352,6 +353,12 @@ namespace SlipStep
                                  friction_of_one_sign(time, motion, signal) :
                                  std::nullopt;
           const double value = take_off_zero(zero, time, motion, signal);
+          if (zero.rfind("mean of the first", 0) == 0 && std::abs(value) > 0. &&
+              moves_in_first(zero, time, motion))
+            doubts.push_back("Correction/Zero = " + zero +
+                             ": the record moves in that time. If it touches "
+                             "the plane then, friction is taken off with the "
+                             "zero");
           if (sign.has_value() &&
               std::abs(sign->forth - sign->back) <= alike * sign->scatter)
             throw InputError("it takes off nearly all, " +
@@ -567,6 +574,8 @@ namespace SlipStep
           for (double &value : *series)
             value = -value;
       tidy(record);
+      for (const std::string &words : doubts)
+        record.warnings.push_back(raw_file.file.string() + ": " + words);
       for (const std::string &words : columns.contradictions())
         {
           record.warnings.push_back(raw_file.file.string() + ": " + words);

@@ -30,7 +30,10 @@ namespace SlipStep
     class Neighbourhood
     {
     public:
-      Neighbourhood(const HumSeries &series, const double frequency);
+      /// @param is_seen as it is, not as another one
+      Neighbourhood(const HumSeries &series,
+                    const double     frequency,
+                    const bool       is_seen = false);
 
       /// Whether the rows see the frequency as one or two waves at most, or as
       /// a constant.
@@ -40,18 +43,27 @@ namespace SlipStep
       ///   distance from it
       std::pair<double, double> peak() const;
 
+      /// The highest one farther away [waves].
+      double highest_beyond() const;
+
     private:
       Complex sum(const std::vector<Complex> &values,
                   const double                distance) const;
 
+      /// Of the noise of rows the power of steps grows with the square of the
+      /// frequency, of a drift it does not: where that is known, it is held
+      /// against its first power.
       double power(const double distance) const
       {
-        return std::norm(sum(steps, distance));
+        const double from_zero = std::abs(n_waves + distance);
+        return std::norm(sum(steps, distance)) /
+               (n_waves > 0. ? std::max(from_zero, 1.) : 1.);
       }
 
       std::vector<double>  place;   ///< of the blocks, from 0 to 1
       std::vector<Complex> steps;   ///< times a window
       std::vector<Complex> window;  ///< the same of a constant
+      double               n_waves; ///< that rows see; 0 if they may see others
       double               reach;   ///< of the search for a peak
       double               weights; ///< of the window
     };
@@ -78,7 +90,8 @@ namespace SlipStep
 
 
     Neighbourhood::Neighbourhood(const HumSeries &series,
-                                 const double     frequency)
+                                 const double     frequency,
+                                 const bool       is_seen)
     {
       // The mains keep their frequency within this [Hz]. In a longer record
       // they wander, and are a wave of one frequency no more.
@@ -89,6 +102,7 @@ namespace SlipStep
       const std::size_t n        = series.time.size();
       const std::size_t n_blocks = std::min(n - 1, most_blocks);
       const double      duration = series.time.back() - series.time.front();
+      n_waves                    = is_seen ? frequency * duration : 0.;
       reach   = std::clamp(mains_tolerance * duration, 0.5, farthest);
       weights = 0.;
       for (std::size_t b = 0; b < n_blocks; ++b)
@@ -137,6 +151,24 @@ namespace SlipStep
 
 
 
+    double Neighbourhood::highest_beyond() const
+    {
+      constexpr double nearest = 2.;
+
+      // Of rows, or of blocks of them.
+      const double farthest = 0.45 * place.size();
+      double       highest = 0., result = nearest;
+      for (double at = nearest; at < farthest; at += 0.5)
+        if (power(at) / at > highest)
+          {
+            highest = power(at) / at;
+            result  = at;
+          }
+      return result;
+    }
+
+
+
     // Amplitude and phase of the cosine whose steps are nearest to those of the
     // series.
     Complex amplitude_of(const HumSeries &series, const double frequency)
@@ -155,6 +187,10 @@ namespace SlipStep
           cy += weight * unit.real() * y;
           sy += weight * unit.imag() * y;
         }
+      // Where rows meet every wave twice, one of the two is never seen.
+      const double ridge = 1e-3 * (cc + ss);
+      cc += ridge;
+      ss += ridge;
       const double determinant = cc * ss - cs * cs;
       return {(ss * cy - cs * sy) / determinant,
               (cc * sy - cs * cy) / determinant};
@@ -195,15 +231,20 @@ namespace SlipStep
 
 
 
-    /// Series of the same motion, as far as one can see: of as many rows and,
-    /// but for a per cent, the same duration.
-    using Motion = std::pair<std::size_t, long>;
+    /// Series of about the same speed and the same distance of rows: a wave of
+    /// the track looks alike in them.
+    using Motion = std::pair<long, long>;
 
     Motion motion_of(const HumSeries &series)
     {
-      return {series.time.size(),
-              std::lround(100. *
-                          std::log(series.time.back() - series.time.front()))};
+      constexpr double per_factor_of_e = 30.;
+
+      const double duration = series.time.back() - series.time.front();
+      return {std::lround(per_factor_of_e *
+                          std::log(duration / series.time.size())),
+              series.speed > 0. ?
+                std::lround(per_factor_of_e * std::log(series.speed)) :
+                0};
     }
 
 
@@ -257,19 +298,22 @@ namespace SlipStep
     // as fast as it is, or begin anywhere; and of many none tells for all.
     double chance_of(const std::map<Motion, Group> &groups)
     {
-      constexpr double most_of_one = 1e-3;
+      constexpr double      most_of_one = 1e-3;
+      constexpr std::size_t several     = 4;
 
       std::vector<double> chances;
+      std::size_t         n_found = 0;
       bool                is_told = false;
       for (const auto &[motion, group] : groups)
         {
           const double chance = joint_chance(group.chances);
           chances.push_back(groups.size() > 1 ? std::max(chance, most_of_one) :
                                                 chance);
+          n_found += chance < rare_in_one;
           is_told = is_told || group.is_seen || group.phases.size() > 2;
         }
-      if (groups.empty() || is_led_by_motion(groups) ||
-          (groups.size() == 1 && !is_told))
+      if (groups.empty() || (groups.size() == 1 && !is_told) ||
+          (n_found < several && is_led_by_motion(groups)))
         return 1.;
       return joint_chance(chances);
     }
@@ -350,20 +394,27 @@ namespace SlipStep
 
 
 
-    Tried try_frequency(const std::vector<HumSeries> &series,
-                        const double                  frequency)
+    bool is_long_enough(const HumSeries &series)
     {
       constexpr std::size_t fewest_rows = 32;
 
+      return series.time.size() >= fewest_rows;
+    }
+
+
+
+    Tried try_frequency(const std::vector<HumSeries> &series,
+                        const double                  frequency)
+    {
       Tried                   result;
       std::map<Motion, Group> groups;
       std::vector<bool>       are_slow;
       for (const HumSeries &one : series)
         {
           bool is_slow = true;
-          result.hums.push_back(one.time.size() < fewest_rows ?
-                                  Hum() :
-                                  look(one, frequency, groups, is_slow));
+          result.hums.push_back(is_long_enough(one) ?
+                                  look(one, frequency, groups, is_slow) :
+                                  Hum());
           are_slow.push_back(is_slow);
         }
       result.chance = chance_of(groups);
@@ -377,6 +428,71 @@ namespace SlipStep
   double Hum::at(const double time) const
   {
     return amplitude * std::cos(two_pi * frequency * time + phase);
+  }
+
+
+
+  namespace
+  {
+    // Of a peak in one of the differences, and of what is there in all others.
+    struct Chances
+    {
+      double of_own = 1., of_others = 1.;
+    };
+
+    Chances chances_of(const std::vector<HumSeries> &differences,
+                       const std::size_t             own,
+                       const double                  frequency)
+    {
+      constexpr double most_of_one = 1e-3;
+
+      Chances             result;
+      std::vector<double> others;
+      for (std::size_t i = 0; i < differences.size(); ++i)
+        if (is_long_enough(differences[i]))
+          {
+            const Neighbourhood near(differences[i], frequency, true);
+            if (near.is_slow())
+              continue;
+            const double chance = near.peak().first;
+            if (i == own)
+              result.of_own = chance;
+            else
+              others.push_back(std::max(chance, most_of_one));
+          }
+      if (others.size() > 1)
+        result.of_others = joint_chance(others);
+      return result;
+    }
+  } // namespace
+
+
+
+  std::vector<Hum>
+  find_hum_of_replicates(const std::vector<HumSeries> &differences,
+                         const std::vector<HumSeries> &series)
+  {
+    constexpr double      rare = 1e-3;
+    constexpr std::size_t most = 10; // peaks that are tried
+
+    double      least = rare, best = 0.;
+    std::size_t n_tried = 0;
+    for (std::size_t i = 0; i < differences.size() && n_tried < most; ++i)
+      {
+        if (!is_long_enough(differences[i]))
+          continue;
+        ++n_tried;
+        const double frequency =
+          Neighbourhood(differences[i], 0.).highest_beyond() /
+          (differences[i].time.back() - differences[i].time.front());
+        const Chances chances = chances_of(differences, i, frequency);
+        if (chances.of_own < rare && chances.of_others < least)
+          {
+            least = chances.of_others;
+            best  = frequency;
+          }
+      }
+    return best > 0. ? try_frequency(series, best).hums : std::vector<Hum>();
   }
 
 

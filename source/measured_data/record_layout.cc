@@ -136,9 +136,8 @@ namespace SlipStep
           marks.decimal        = last;
           marks.thousands      = alike ? '\0' : used.front();
           const std::size_t at = cell.find(last);
-          marks.is_doubtful    = alike && last == ',' && end - at == 4 &&
-                              at - begin <= 3 && at > begin &&
-                              cell[begin] != '0';
+          marks.is_doubtful    = alike && end - at == 4 && at - begin <= 3 &&
+                              at > begin && cell[begin] != '0';
         }
       return marks;
     }
@@ -304,14 +303,36 @@ namespace SlipStep
       layout.comment_marks.assign(marks.begin(), marks.end());
     }
 
+    // Digits behind a mark that are always three are no decimals where some
+    // numbers of a column have none, or where a number has two such marks.
+    void find_thousands(const std::vector<std::size_t> &n_marked,
+                        const std::vector<std::size_t> &n_whole,
+                        std::map<char, std::size_t>    &doubtful,
+                        std::map<char, std::size_t>    &decimals,
+                        std::map<char, std::size_t>    &thousands)
+    {
+      bool are_mixed = false;
+      for (std::size_t k = 0; k < n_marked.size(); ++k)
+        are_mixed = are_mixed || (n_marked[k] >= 2 && n_whole[k] > 0);
+      for (const char mark : {'.', ','})
+        if (doubtful[mark] > 0 && doubtful[mark] == decimals[mark] &&
+            (thousands[mark] > 0 ||
+             (are_mixed && decimals[mark == '.' ? ',' : '.'] == 0)))
+          {
+            thousands[mark] += decimals[mark];
+            decimals[mark] = 0;
+          }
+    }
+
     void find_numbers(const std::vector<std::string> &lines,
                       const TableFound               &table,
                       RecordLayout                   &layout)
     {
       std::vector<std::size_t> n_numbers(layout.n_cells, 0),
         n_filled(layout.n_cells, 0);
-      std::map<char, std::size_t> decimals, thousands;
-      std::size_t                 n_doubtful = 0;
+      std::map<char, std::size_t> decimals, thousands, doubtful;
+      std::vector<std::size_t>    n_whole(layout.n_cells, 0),
+        n_marked(layout.n_cells, 0);
       for (std::size_t i = table.first; i < lines.size(); ++i)
         {
           if (!table.is_row[i])
@@ -324,24 +345,30 @@ namespace SlipStep
               n_numbers[k] += marks.is_number;
               ++decimals[marks.decimal];
               ++thousands[marks.thousands];
-              n_doubtful += marks.is_doubtful;
+              if (marks.is_doubtful)
+                ++doubtful[marks.decimal];
+              n_marked[k] += marks.is_doubtful;
+              n_whole[k] += marks.is_number && marks.decimal == '\0' &&
+                            marks.thousands == '\0';
             }
         }
+      find_thousands(n_marked, n_whole, doubtful, decimals, thousands);
       decimals.erase('\0');
       thousands.erase('\0');
       layout.decimal_mark = decimals[','] > decimals['.'] ? ',' :
                             decimals['.'] > 0             ? '.' :
                                                             '\0';
       for (const auto &[mark, n] : thousands)
-        if (mark != layout.decimal_mark)
+        if (n > 0 && mark != layout.decimal_mark)
           layout.thousands_mark = mark;
       // 1.234 where other numbers have a decimal comma.
       if (layout.decimal_mark == ',' && decimals['.'] > 0)
         layout.thousands_mark = '.';
       if (layout.decimal_mark == '.' && decimals[','] > 0)
         layout.thousands_mark = ',';
-      layout.has_doubtful_commas =
-        n_doubtful > 0 && n_doubtful == decimals[','];
+      const char mark = layout.decimal_mark;
+      layout.has_doubtful_marks =
+        mark != '\0' && doubtful[mark] == decimals[mark];
       for (std::size_t k = 0; k < layout.n_cells; ++k)
         if (n_numbers[k] >= 2 && 2 * n_numbers[k] > n_filled[k])
           layout.numbers.push_back(k);

@@ -117,16 +117,33 @@ namespace SlipStep
                     mean_over_path(steps[1], &MovingStep::signal));
     }
 
-    double mean_of_first(const double               duration,
-                         const std::vector<double> &time,
-                         const std::vector<double> &signal)
+    const std::string of_first = "mean of the first ";
+
+    double duration_of(const std::string &zero)
+    {
+      const double duration =
+        parse_quantity(zero.substr(of_first.size()), Dimension::time, true);
+      if (!(duration >= 0.))
+        throw InputError("a time of 0 s or more is needed");
+      return duration;
+    }
+
+    double least_of(const std::vector<double> &time)
     {
       double first = std::nan("");
       for (const double t : time)
         if (!std::isnan(t))
           first = std::fmin(first, t);
-      double      sum = 0.;
-      std::size_t n   = 0;
+      return first;
+    }
+
+    double mean_of_first(const double               duration,
+                         const std::vector<double> &time,
+                         const std::vector<double> &signal)
+    {
+      const double first = least_of(time);
+      double       sum   = 0.;
+      std::size_t  n     = 0;
       for (std::size_t i = 0; i < signal.size(); ++i)
         if (time[i] <= first + duration && !std::isnan(signal[i]))
           {
@@ -147,23 +164,35 @@ namespace SlipStep
                        const std::vector<double> &displacement,
                        std::vector<double>       &signal)
   {
-    const std::string of_first = "mean of the first ";
-    double            value    = 0.;
+    double value = 0.;
     if (zero == "mean of strokes")
       value = mean_of_strokes(time, displacement, signal);
     else if (zero.rfind(of_first, 0) == 0)
-      {
-        const double duration =
-          parse_quantity(zero.substr(of_first.size()), Dimension::time, true);
-        if (!(duration >= 0.))
-          throw InputError("a time of 0 s or more is needed");
-        value = mean_of_first(duration, time, signal);
-      }
+      value = mean_of_first(duration_of(zero), time, signal);
     else if (zero != "none")
       throw InputError("allowed: none, mean of strokes, mean of the first 2 s");
     for (double &row : signal)
       row -= value;
     return value;
+  }
+
+
+
+  bool moves_in_first(const std::string         &zero,
+                      const std::vector<double> &time,
+                      const std::vector<double> &displacement)
+  {
+    const double        last = least_of(time) + duration_of(zero);
+    std::vector<double> all, first;
+    for (std::size_t i = 0; i < time.size(); ++i)
+      if (!std::isnan(time[i]) && !std::isnan(displacement[i]))
+        {
+          all.push_back(displacement[i]);
+          if (time[i] <= last)
+            first.push_back(displacement[i]);
+        }
+    return range_of(first) >
+           2. * std::max(least_band * range_of(all), 3. * noise_level(all));
   }
 
 

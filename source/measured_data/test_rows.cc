@@ -41,6 +41,8 @@ namespace SlipStep
     {
       double done     = 0.; ///< against the motion
       double possible = 0.; ///< the same without signs
+      /// Rows over which it is done, and those over which it drives.
+      std::size_t n = 0, n_driving = 0;
     };
 
     void add_work(const std::vector<double> &displacement,
@@ -58,6 +60,8 @@ namespace SlipStep
             0.5 * (friction[i] + friction[i - 1]) * (smooth[i] - smooth[i - 1]);
           work.done += done;
           work.possible += std::abs(done);
+          work.n += done != 0.;
+          work.n_driving += done < 0.;
         }
     }
 
@@ -82,7 +86,7 @@ namespace SlipStep
 
       void check_pressure() const;
 
-      void check_sign_of_friction() const;
+      void check_sign_of_friction();
 
       void check_friction_has_sign() const;
 
@@ -270,7 +274,7 @@ namespace SlipStep
 
 
     // A single row, of an error code or a spike, has no say.
-    void RowsOfTest::check_sign_of_friction() const
+    void RowsOfTest::check_sign_of_friction()
     {
       const auto bounded = [](std::vector<double> friction) {
         if (friction.empty())
@@ -283,15 +287,22 @@ namespace SlipStep
       Work work;
       add_work(test.displacement, bounded(test.friction), work);
       add_work(test.displacement_y, bounded(test.friction_y), work);
-      if (work.done >= -0.5 * work.possible)
-        {
-          check_friction_has_sign();
-          return;
-        }
-
       std::size_t row = 0;
       while (test.friction[row] == 0. && row + 1 < kept.size())
         ++row;
+      if (work.done >= -0.5 * work.possible)
+        {
+          check_friction_has_sign();
+          // And not in a jump of a counter only.
+          if (work.done < 0.5 * work.possible && 10 * work.n_driving > work.n)
+            warn("friction drives the motion in " +
+                   rounded_text(50. * (1. - work.done / work.possible), 2) +
+                   " % of its work: is the displacement a way that only "
+                   "grows, or has the sensor of the force a zero?",
+                 row);
+          return;
+        }
+
       origin.reject(kept[row],
                     "friction",
                     "friction drives the motion instead of resisting it, "

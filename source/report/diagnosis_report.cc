@@ -240,7 +240,10 @@ namespace SlipStep
           list_text(next.separates);
       if (!text.empty() && next.distance > 0.)
         text += ": what they predict differs by " +
-                short_text(next.distance, 2) + " standard deviations";
+                short_text(next.distance, 2) + " standard deviations" +
+                (next.tells() ? "" :
+                                ", so that it is the best of the usual tests, "
+                                "and tells little");
       return html + (text.empty() ? "" : paragraph(text + "."));
     }
 

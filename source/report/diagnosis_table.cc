@@ -154,8 +154,9 @@ namespace SlipStep
              wrapped_text("next test: " + next.words +
                             (next.separates.empty() ?
                                "" :
-                               " (tells about " + list_text(next.separates) +
-                                 ")"),
+                               (next.tells() ? " (tells about " :
+                                               " (tells little about ") +
+                                 list_text(next.separates) + ")"),
                           2,
                           terminal_width) +
              (next.programme.empty() ? "" : "    " + next.programme + "\n");

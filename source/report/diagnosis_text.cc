@@ -140,8 +140,13 @@ namespace SlipStep
                          names_text(diagnosis) + all_plain_words(diagnosis) +
                          ": with " + list_text(diagnosis.effects) + " " +
                          shrink_words(diagnosis.shrink);
-      if (!diagnosis.next_test.words.empty())
-        text += "; " + diagnosis.next_test.words + " would tell";
+      const NextTest &next = diagnosis.next_test;
+      if (next.tells())
+        text += "; " + next.words + " would tell";
+      else if (!next.words.empty())
+        text += "; none of the usual tests would tell surely, and " +
+                next.words + " best, by " + short_text(next.distance, 2) +
+                " standard deviations";
       return text;
     }
 

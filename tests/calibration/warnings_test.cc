@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,40 @@ TEST(CalibrationWarnings, AWrongNoiseThatIsStatedIsTold)
   EXPECT_TRUE(contains(large, "that is too much")) << large;
   EXPECT_FALSE(contains(right, "the noise that is stated")) << right;
   EXPECT_TRUE(contains(small, "which is too little")) << small;
+}
+
+
+
+// Of few rows the noise may seem to be anything: they do not outweigh others.
+TEST(CalibrationWarnings, FewRowsDoNotOutweighOthers)
+{
+  const auto noise_of = [](const unsigned int n_rows) {
+    const TemporaryFolder folder;
+    std::mt19937_64       random(n_rows);
+    for (unsigned int number = 0; number < 12; ++number)
+      {
+        std::normal_distribution<double> noise(0.13, 1e-3);
+        MeasuredTest                     test;
+        for (unsigned int i = 0; i < n_rows; ++i)
+          {
+            test.time.push_back(i);
+            test.displacement.push_back(i);
+            test.pressure.push_back(5.8);
+            test.friction.push_back(noise(random));
+          }
+        write_measured_test(folder.path() / (std::to_string(number) + ".csv"),
+                            test);
+      }
+    return Campaign(one_coefficient(folder)).tests;
+  };
+  for (const unsigned int n_rows : {10, 15, 25})
+    for (const CampaignTest &test : noise_of(n_rows))
+      {
+        EXPECT_GT(test.noise, 0.4e-3) << n_rows;
+        EXPECT_LT(test.noise, 2e-3) << n_rows;
+      }
+  const auto few = noise_of(4);
+  EXPECT_TRUE(contains(few[0].rows.warnings.back(), "too few to see noise in"));
 }
 
 

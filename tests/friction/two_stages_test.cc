@@ -278,6 +278,43 @@ TEST(TwoStages, slip_counts_until_the_contact_opens)
 
 
 
+// Whatever a point goes through, on the plane and off it, it is where it was
+// moved to, less the slip that is elastic.
+TEST(TwoStages, place_is_where_the_point_was_moved_to)
+{
+  Testing::RandomLoads loads(7);
+  for (const Settings &more : {Settings{{"Effects", "texture"}},
+                               Settings{{"Effects", "texture, subloading"}},
+                               Settings{{"Effects", "texture, anisotropy"},
+                                        {"anisotropy/Ratio", "2"},
+                                        {"anisotropy/Angle", "30 deg"}}})
+    {
+      const auto           law = make_law(more);
+      ContactPoint         point(*law);
+      dealii::Tensor<1, 2> place;
+      for (unsigned int step = 0; step < 300; ++step)
+        {
+          const Move move{loads.random_slip(-5., 0.),
+                          loads.uniform(-5., 10.),
+                          loads.uniform(0.5, 1.5)};
+          make_step(*law, move, point.committed().normal_traction, 1., point);
+          point.commit();
+          place += move.duration * move.velocity;
+          const ContactState &state = point.committed();
+          const auto elastic = invert(law->elastic_tangent()) * state.traction;
+          EXPECT_NEAR(state[contact_memory("track_1_mm")] + elastic[0],
+                      place[0],
+                      1e-9)
+            << more.front().second << ' ' << step;
+          EXPECT_NEAR(state[contact_memory("track_2_mm")] + elastic[1],
+                      place[1],
+                      1e-9);
+        }
+    }
+}
+
+
+
 // A law with two stable answers to the same traction: one that slides goes on,
 // whatever the steps, and one that sticks does not.
 TEST(TwoStages, sliding_goes_on_where_it_can)

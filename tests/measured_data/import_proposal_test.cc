@@ -247,6 +247,36 @@ namespace
      "t [s],d [mm],Fn [N],COF [%]\n0,0,10,0\n1,1,10,20\n2,2,10,20\n",
      {"Columns/Friction = COF [%]"},
      {}},
+    // Three digits behind every mark, and whole numbers beside them.
+    {"german_thousands.csv",
+     "Zeit [s];Weg [um];Reibkraft [mN];Normalkraft [mN]\n"
+     "0;0;29.028;581.250\n1;500;58.314;579.770\n2;1.000;58.618;578.089\n"
+     "3;1.500;57.766;579.196\n",
+     {"Raw file/Thousands mark = point"},
+     {"Raw file/Decimal mark"}},
+    {"two_marks.csv",
+     "Zeit [s];Weg [mm];Reibkraft [mN];Normalkraft [mN]\n"
+     "1;1;120.000;1.000.000\n2;2;121.000;1.001.000\n3;3;121.500;1.002.000\n",
+     {"Raw file/Thousands mark = point"},
+     {"Raw file/Decimal mark"}},
+    {"three_digits.csv",
+     "t [s],d [mm],Fx [N],Fz [N]\n"
+     "0.000,0.000,10.125,100.250\n0.500,1.500,10.250,100.125\n"
+     "1.000,3.000,10.375,100.375\n",
+     {"Raw file/Decimal mark = point"},
+     {"Raw file/Thousands mark"}},
+    // A way that only grows beside the position.
+    {"distance_and_position.csv",
+     "t [s],Sliding distance [mm],Position [mm],Fx [N],Fz [N]\n"
+     "0,0,0,10,100\n1,1,1,10,100\n2,2,2,10,100\n3,3,1,-10,100\n"
+     "4,4,0,-10,100\n5,5,1,10,100\n",
+     {"Columns/Displacement = Position [mm] in mm"},
+     {"Convention/Friction sign"}},
+    {"set_and_actual.csv",
+     "t [s],Position set [mm],Position act [mm],p [MPa],mu\n"
+     "0,0,0,5,0\n1,1,0.9,5,0.1\n2,2,1.9,5,0.1\n",
+     {"Columns/Displacement = Position act [mm] in mm"},
+     {}},
     {"nameless.csv",
      "t [s],d [mm],p [MPa],signal\n0,0,10,0\n1,1,10,20\n2,2,10,20\n",
      {"? Columns/Friction = column 4"},

@@ -185,3 +185,40 @@ TEST(MainsHum, IsGuessedWhereItIsSlow)
   EXPECT_NEAR(found[2].amplitude, 2., 0.3);
   EXPECT_NEAR(found[3].amplitude, 1., 0.15);
 }
+
+
+
+// Rows in step with the mains but for 0.02 Hz, and the same two times: what is
+// a wave of the track is not in the differences.
+TEST(MainsHum, IsFoundInDifferencesOfReplicates)
+{
+  std::normal_distribution<double> normal;
+  Random                           random(5);
+  unsigned int                     n_found = 0, n_false = 0;
+  for (unsigned int campaign = 0; campaign < 200; ++campaign)
+    {
+      std::vector<HumSeries> series = records(random, 12, 3.);
+      const double           waves  = uniform(random, 3., 10.);
+      for (std::size_t r = 0; r < series.size(); ++r)
+        for (double &time : series[r].time)
+          time *= waves / 0.02 / series[r].time.back();
+      const bool hums = campaign < 50;
+      if (hums)
+        add_hum(random, series, 0.02, 1.);
+      add_track_waves(random, series, 1.);
+      std::vector<HumSeries> differences;
+      for (std::size_t r = 0; r < series.size(); r += 2)
+        {
+          differences.push_back(series[r]);
+          for (std::size_t i = 0; i < series[r].left.size(); ++i)
+            differences.back().left[i] -= series[r + 1].left[i];
+        }
+      const std::vector<Hum> found =
+        find_hum_of_replicates(differences, series);
+      (hums ? n_found : n_false) += !found.empty();
+      if (hums && !found.empty())
+        EXPECT_NEAR(found[0].frequency, 0.02, 0.01) << campaign;
+    }
+  EXPECT_GE(n_found, 25U);
+  EXPECT_LE(n_false, 2U);
+}

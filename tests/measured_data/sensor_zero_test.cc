@@ -77,3 +77,17 @@ TEST(SensorZero, ARestHasNoSign)
     }
   EXPECT_FALSE(friction_of_one_sign(time, place, friction).has_value());
 }
+
+
+
+TEST(SensorZero, MotionInItsTimeIsSeen)
+{
+  std::vector<double> time, place;
+  for (int i = 0; i <= 100; ++i)
+    {
+      time.push_back(0.1 * i);
+      place.push_back(std::max(0., i - 30.) + 1e-4 * (i % 2));
+    }
+  EXPECT_FALSE(moves_in_first("mean of the first 2 s", time, place));
+  EXPECT_TRUE(moves_in_first("mean of the first 5 s", time, place));
+}

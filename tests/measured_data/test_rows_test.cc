@@ -141,6 +141,18 @@ TEST(TestRows, AWrongSignIsAskedNotGuessed)
 
 
 
+// Friction forth and back over a way that only grows.
+TEST(TestRows, FrictionThatDrivesHalfTheTimeIsTold)
+{
+  std::string rows;
+  for (int i = 0; i < 200; ++i)
+    rows += std::to_string(i) + ',' + std::to_string(0.1 * i) + ",5," +
+            (i / 50 % 2 == 0 ? "0.1" : "-0.1") + '\n';
+  expect_warning(read(rows), "drives the motion in 50 %");
+}
+
+
+
 TEST(TestRows, NoiseIsMeasuredUnderASignal)
 {
   std::mt19937                     random(2);
@@ -300,10 +312,12 @@ TEST(TestRows, ACounterThatWrapsIsTold)
                    return 0.01 * i - (i > 102 ? 1.024 : 0.);
                  }),
                  "jumps by -1.01 mm within one row, against the motion");
-  expect_warning(record([](const int i) {
-                   return -std::fmod(0.01 * i, 0.512) + 0.512;
-                 }),
-                 "Such rows: 3");
+  // But for the jumps it is driven, which is told, too.
+  const MeasuredTest driven =
+    record([](const int i) { return -std::fmod(0.01 * i, 0.512) + 0.512; });
+  ASSERT_EQ(driven.warnings.size(), 2u);
+  EXPECT_TRUE(
+    contains(driven.warnings[0] + driven.warnings[1], "Such rows: 3"));
   const auto has_jump = [](const MeasuredTest &test) {
     for (const std::string &warning : test.warnings)
       if (warning.find("jumps") != std::string::npos)

@@ -194,6 +194,14 @@ namespace SlipStep
     std::string programme; ///< as Loading/Programme takes it
     std::vector<std::string> separates; ///< names
     double distance = 0.; ///< of the predictions, standard deviations
+
+    /// From which distance on a test tells.
+    static constexpr double told_apart = 5.;
+
+    bool tells() const
+    {
+      return distance >= told_apart;
+    }
   };
 
   /// A simulation of the block of one test.

@@ -23,6 +23,12 @@ namespace SlipStep
                        const Model    &after,
                        Diagnosis      &diagnosis);
 
+  /// Warn of names that have as many numbers as there are levels of what they
+  /// depend on: they fit anything.
+  void describe_few_levels(const Workspace &workspace,
+                           const Model     &model,
+                           Diagnosis       &diagnosis);
+
   /// What would change the verdict.
   void describe_doubts(const Workspace &workspace, Diagnosis &diagnosis);
   ///@}

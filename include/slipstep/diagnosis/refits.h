@@ -31,6 +31,12 @@ namespace SlipStep
   /// Whether a parameter of what was added ends at a bound that makes no sense.
   bool is_at_bound(const Model &model);
 
+  /// Give a model time steps for the parameters that it has, with their error
+  /// taken out.
+  /// @return false if none do, as where the contact sticks and slips: it keeps
+  ///   those that it has
+  bool replan(Model &model, const Simulator *like = nullptr);
+
   /// Fit a model once more with time steps of its own, the error of which is
   /// taken out.
   void settle(const Workspace &workspace, Model &model);

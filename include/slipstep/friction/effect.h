@@ -31,6 +31,14 @@ namespace SlipStep
     /// Way that the contact slips over the plane [mm]; where anisotropy
     /// measures slip in a metric of its own, not the same as that.
     double path = slip;
+    /// Way that a point goes over the plane while it is off it [mm].
+    dealii::Tensor<1, 2> carried = {};
+
+    /// The whole way [mm].
+    dealii::Tensor<1, 2> way() const
+    {
+      return path * direction + carried;
+    }
 
     /// lambda, by backward Euler [mm/s].
     double slip_rate() const

@@ -300,7 +300,8 @@ namespace SlipStep
     dealii::Tensor<1, 2> slip_normal(const ContactState &state) const;
 
     dealii::Tensor<1, 2>
-           slip_direction(const dealii::Tensor<1, 2> &direction) const;
+    slip_direction(const dealii::Tensor<1, 2> &direction) const;
+    dealii::Tensor<1, 2> true_slip(const dealii::Tensor<1, 2> &slip) const;
     double path_per_slip(const dealii::Tensor<1, 2> &slip_direction) const;
     dealii::Tensor<1, 2> pull_back(const dealii::Tensor<1, 2> &gradient,
                                    const dealii::Tensor<1, 2> &direction) const;

@@ -25,9 +25,10 @@ namespace SlipStep
   /// What a model leaves of a series of friction.
   struct HumSeries
   {
-    std::vector<double> time;      ///< [s], rising
-    std::vector<double> left;      ///< measured less simulated
-    double              level = 1; ///< of friction, to which a hum is compared
+    std::vector<double> time;       ///< [s], rising
+    std::vector<double> left;       ///< measured less simulated
+    double              level = 1.; ///< of friction, which a hum is a share of
+    double              speed = 0.; ///< on average [mm/s]
   };
 
   /// The hum of the mains (50 or 60 Hz, or the double) in every series, in
@@ -35,9 +36,19 @@ namespace SlipStep
   ///
   /// It is found by its frequency: in the spectrum of a series it stands above
   /// its neighbours, which a smooth remainder does not. It must do so in more
-  /// series than chance allows (1e-5), and its phase must not be the same in
-  /// series of the same motion, as that of a wave along the track is.
+  /// series than chance allows (1e-5), and unless there are such
+  /// of several motions, its phase must not be the same in those of one, as
+  /// that of a wave along the track is.
   std::vector<Hum> find_mains_hum(const std::vector<HumSeries> &series);
+
+  /// The same of any frequency that rows see as it is, as that of the mains is
+  /// in step with rows but for a tenth of a hertz: it has to be in the
+  /// differences of replicates, which nothing is in that the contact does. A
+  /// peak of one of them, with a chance of less than 1e-3, is held against all
+  /// others (1e-3).
+  std::vector<Hum>
+  find_hum_of_replicates(const std::vector<HumSeries> &differences,
+                         const std::vector<HumSeries> &series);
 } // namespace SlipStep
 
 #endif

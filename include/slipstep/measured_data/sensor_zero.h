@@ -24,6 +24,12 @@ namespace SlipStep
                        const std::vector<double> &displacement,
                        std::vector<double>       &signal);
 
+  /// Whether a record moves, by more than it trembles, in the time that
+  /// "mean of the first 2 s" takes.
+  bool moves_in_first(const std::string         &zero,
+                      const std::vector<double> &time,
+                      const std::vector<double> &displacement);
+
   /// Take a drift that is linear in time off the same, about the middle of the
   /// record: the slope that fits best, by least squares, beside a mean forth
   /// and a mean back.

@@ -21,15 +21,16 @@ namespace SlipStep
     /// The age of what now touches, with the renewal length of this effect.
     const ContactMemory hold_memory = register_memory({"hold_time_s"});
 
-    /// Where slip has brought the contact to, along the first axis.
+    /// Where the contact has got to over the plane, along the first axis.
     const ContactMemory position_memory = register_memory(
       {"position_mm", 0., -std::numeric_limits<double>::infinity()});
 
     /// A formula of the user's own, of one covariate x:
     /// \f[ G = g\left(\min(\max(x, x_0), x_1)\right). \f]
     /// x is the logarithm log10 of the slip rate [mm/s], the pressure [MPa],
-    /// the slip path [mm], the position along the first axis, where slip has
-    /// brought the contact since it was first loaded [mm], the hold time as the
+    /// the slip path [mm], the position along the first axis, where the contact
+    /// has got to over the plane, or its block while it is off it [mm], the
+    /// hold time as the
     /// age of the contact with renewal length \f$D_c\f$ [s], the temperature
     /// rise at the beginning of the step [degC] or the angle of slip [deg]. The
     /// formula is sampled when it is read; the law uses a monotone cubic
@@ -102,7 +103,7 @@ namespace SlipStep
           end[hold_memory] =
             step.normal_traction > 0. ? hold_time(step).value : 0.;
         if (covariate == "position")
-          end[position_memory] = position(step).value;
+          end[position_memory] = step.start[position_memory] + step.way()[0];
       }
 
       virtual std::vector<ContactMemory> memories() const override

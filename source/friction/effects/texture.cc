@@ -15,7 +15,7 @@ namespace SlipStep
   {
     using dealii::numbers::PI;
 
-    /// Where slip has brought the contact, along the two axes of its plane.
+    /// Where the contact has got to over the plane, along its two axes.
     const ContactMemory track_1 = register_memory(
       {"track_1_mm", 0., -std::numeric_limits<double>::infinity()});
     const ContactMemory track_2 = register_memory(
@@ -27,8 +27,8 @@ namespace SlipStep
     ///     s_3 \sin 3\theta + c_3 \cos 3\theta\right), \quad
     ///     \theta = \frac{2\pi\,e \cdot x}{\Lambda} + \varphi, \f]
     /// where e is the unit vector across the grooves and x where slip has
-    /// brought the contact since it was first loaded: forth and back are the
-    /// same places, unlike the slip path. Chosen.
+    /// brought the contact, or its block while it is off the plane: forth and
+    /// back are the same places, unlike the slip path. Chosen.
     class Texture : public StrengthEffect
     {
     public:
@@ -91,8 +91,8 @@ namespace SlipStep
       virtual void remember(const SlipStepData &step,
                             ContactState       &end) const override
       {
-        end[track_1] = step.start[track_1] + step.path * step.direction[0];
-        end[track_2] = step.start[track_2] + step.path * step.direction[1];
+        end[track_1] = step.start[track_1] + step.way()[0];
+        end[track_2] = step.start[track_2] + step.way()[1];
       }
 
       virtual std::vector<ContactMemory> memories() const override
@@ -108,7 +108,7 @@ namespace SlipStep
         info.formula =
           "G = 1 + w (sin(theta) + s_2 sin(2 theta) + c_2 cos(2 theta) + s_3 "
           "sin(3 theta) + c_3 cos(3 theta)), theta = 2 pi e.x / Lambda + phi, x: "
-          "place that slip has brought the contact to";
+          "where the contact has got to over the plane";
         info.latex =
           "G = 1 + w \\left(\\sin\\theta + s_2 \\sin 2\\theta + c_2 \\cos "
           "2\\theta + s_3 \\sin 3\\theta + c_3 \\cos 3\\theta\\right), \\quad "

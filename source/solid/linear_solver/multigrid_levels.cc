@@ -16,6 +16,7 @@
 #include <deal.II/multigrid/mg_transfer_global_coarsening.h>
 
 #include <algorithm>
+#include <map>
 
 namespace SlipStep
 {
@@ -63,19 +64,83 @@ namespace SlipStep
 
 
 
-    // The library makes coarser meshes from copies, which keep the memory of
-    // the finest one.
+    // How many generations of cells every cell has that is refined, known on
+    // all ranks.
+    template <int dim>
+    std::map<CellId, unsigned int>
+    heights_of_cells(const Triangulation<dim> &triangulation)
+    {
+      std::map<CellId, unsigned int> heights;
+      for (const auto &active : triangulation.active_cell_iterators())
+        if (active->is_locally_owned())
+          {
+            typename Triangulation<dim>::cell_iterator cell   = active;
+            unsigned int                               height = 0;
+            while (cell->level() > 0)
+              {
+                cell                  = cell->parent();
+                unsigned int &highest = heights[cell->id()];
+                if (highest > height)
+                  break; // and so are those above
+                highest = ++height;
+              }
+          }
+      using Cells          = std::vector<std::pair<CellId, unsigned int>>;
+      const MPI_Comm &comm = triangulation.get_communicator();
+      if (Utilities::MPI::n_mpi_processes(comm) > 1)
+        for (const Cells &cells :
+             Utilities::MPI::all_gather(comm,
+                                        Cells(heights.begin(), heights.end())))
+          for (const auto &[id, height] : cells)
+            heights[id] = std::max(heights[id], height);
+      return heights;
+    }
+
+
+
+    // A mesh without the last generations of the cells of another, but for
+    // those that no neighbour may lack.
     template <int dim>
     std::shared_ptr<const Triangulation<dim>>
-    coarsest_mesh(const Triangulation<dim> &triangulation)
+    mesh_without(const unsigned int                    n_generations,
+                 const std::map<CellId, unsigned int> &heights,
+                 const Triangulation<dim>             &finest)
     {
       const auto [vertices, cells, faces] =
-        GridTools::get_coarse_mesh_description(triangulation);
+        GridTools::get_coarse_mesh_description(finest);
       const auto mesh =
         std::make_shared<parallel::distributed::Triangulation<dim>>(
-          triangulation.get_communicator());
+          finest.get_communicator());
       mesh->create_triangulation(vertices, cells, faces);
+      for (unsigned int l = n_generations + 1; l < finest.n_global_levels();
+           ++l)
+        {
+          for (const auto &cell : mesh->active_cell_iterators())
+            if (cell->is_locally_owned())
+              if (const auto found = heights.find(cell->id());
+                  found != heights.end() && found->second > n_generations)
+                cell->set_refine_flag();
+          mesh->execute_coarsening_and_refinement();
+        }
       return mesh;
+    }
+
+
+
+    // The coarsest one first. The library makes them by coarsening copies, in a
+    // time that grows with the square of the number of cells, and they keep the
+    // memory of the finest one.
+    template <int dim>
+    std::vector<std::shared_ptr<const Triangulation<dim>>>
+    meshes_down_from(const Triangulation<dim> &finest)
+    {
+      const auto heights = heights_of_cells(finest);
+      std::vector<std::shared_ptr<const Triangulation<dim>>> meshes;
+      for (unsigned int n = finest.n_global_levels() - 1; n > 0; --n)
+        meshes.push_back(mesh_without(n, heights, finest));
+      // Without a share in its ownership.
+      meshes.emplace_back(&finest, [](const Triangulation<dim> *) {});
+      return meshes;
     }
   } // namespace
 
@@ -187,11 +252,7 @@ namespace SlipStep
     : parameters(parameters)
     , quadrature(parameters.degree + 1)
   {
-    auto meshes =
-      MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(
-        dof_handler.get_triangulation());
-    if (meshes.size() > 1)
-      meshes.front() = coarsest_mesh(dof_handler.get_triangulation());
+    const auto meshes = meshes_down_from(dof_handler.get_triangulation());
     if (parameters.degree > 1)
       add_level(meshes.front(), 1);
     for (unsigned int l = 0; l + 1 < meshes.size(); ++l)

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef slipstep_measured_data_column_words_h
+#define slipstep_measured_data_column_words_h
+
+#include <string>
+#include <vector>
+
+namespace SlipStep
+{
+  /// Words in the names of columns that speak for a key, and against it.
+  struct KeyWords
+  {
+    std::string              key;
+    std::vector<std::string> words;  ///< parts of a name
+    std::vector<std::string> labels; ///< whole names
+    std::vector<std::string> against;
+  };
+
+  /// Those of all keys that a map needs, in English and German.
+  const std::vector<KeyWords> &key_words();
+} // namespace SlipStep
+
+#endif
