@@ -74,7 +74,10 @@ namespace SlipStep
     {
       for (const double quarter : {0., 0.25})
         {
-          Hum wave   = hum;
+          // Of a phase that may be any the cosine and the sine have half of the
+          // variance each.
+          Hum wave = hum;
+          wave.amplitude *= std::sqrt(0.5);
           wave.phase = boost::math::constants::two_pi<double>() * quarter;
           std::vector<double> means(series.time.size());
           average(

@@ -132,12 +132,13 @@ namespace SlipStep
       }
     const HumOfTests hum = hum_of(workspace.comparison, workspace.tests);
     if (hum.n_told > 0)
-      diagnosis.noise.push_back({"hum of the mains",
-                                 hum.share,
-                                 "of friction, from test to test",
-                                 "spectra",
-                                 hum.least,
-                                 hum.most});
+      diagnosis.noise.push_back(
+        {hum.is_mains ? "hum of the mains" : "wave in time",
+         hum.share,
+         "of friction, the median of tests",
+         "spectra",
+         hum.share,
+         hum.share});
   }
 
 
@@ -241,7 +242,8 @@ namespace SlipStep
                                        after.values(),
                                        workspace.tests,
                                        after);
-              comparison.fit(model, 0.1);
+              if (!comparison.fit(model, 0.1))
+                return std::nullopt;
               return model;
             });
           if (so_far.has_value())

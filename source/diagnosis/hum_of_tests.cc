@@ -14,13 +14,16 @@ namespace SlipStep
   {
     double mean_speed(const MeasuredTest &rows)
     {
-      double way = 0.;
-      for (std::size_t i = 1; i < rows.time.size(); ++i)
-        way +=
-          std::hypot(rows.displacement[i] - rows.displacement[i - 1],
-                     rows.displacement_y.empty() ?
-                       0. :
-                       rows.displacement_y[i] - rows.displacement_y[i - 1]);
+      constexpr double trembles = 0.005; // of the range
+
+      const auto steady = [](const std::vector<double> &positions) {
+        return without_jitter(positions, trembles * range_of(positions));
+      };
+      const std::vector<double> x   = steady(rows.displacement);
+      const std::vector<double> y   = steady(rows.displacement_y);
+      double                    way = 0.;
+      for (std::size_t i = 1; i < x.size(); ++i)
+        way += std::hypot(x[i] - x[i - 1], y.empty() ? 0. : y[i] - y[i - 1]);
       return way / (rows.time.back() - rows.time.front());
     }
 
@@ -34,24 +37,38 @@ namespace SlipStep
       std::vector<HumSeries> result;
       const double          *row = weighted.data();
       for (const CampaignTest &test : tests)
-        for (std::size_t axis = 0; axis < (test.has_two_axes() ? 2 : 1); ++axis)
-          {
-            HumSeries series;
-            series.time  = test.rows.time;
-            series.level = typical_friction(test.rows);
-            series.speed = mean_speed(test.rows);
-            for (std::size_t i = 0; i < test.rows.time.size(); ++i)
-              series.left.push_back(-test.noise * *row++);
-            result.push_back(series);
-          }
+        for (const auto *measured :
+             {&test.rows.friction, &test.rows.friction_y})
+          if (!measured->empty())
+            {
+              HumSeries series;
+              series.time  = test.rows.time;
+              series.level = typical_friction(test.rows);
+              series.speed = mean_speed(test.rows);
+              for (const double friction : *measured)
+                {
+                  series.left.push_back(-test.noise * *row++);
+                  series.friction.push_back(friction - series.left.back());
+                }
+              result.push_back(series);
+            }
       return result;
     }
-  } // namespace
 
 
 
-  namespace
-  {
+    // One series less another, whose rows may be at other times.
+    HumSeries difference_of(const HumSeries &one, const HumSeries &other)
+    {
+      HumSeries                      result = one;
+      const std::vector<std::size_t> rows   = partners(one.time, other.time);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        result.left[i] -= other.left[rows[i]];
+      return result;
+    }
+
+
+
     // Of tests of the same condition and duration, two and two.
     std::vector<HumSeries>
     differences_of_replicates(const std::vector<CampaignTest> &tests,
@@ -59,8 +76,12 @@ namespace SlipStep
     {
       constexpr double alike = 0.02;
 
-      std::map<std::pair<std::string, std::size_t>, const HumSeries *> waiting;
-      std::vector<HumSeries>                                           result;
+      using Key = std::pair<std::string, bool>;
+      std::map<Key, std::vector<const HumSeries *>> waiting;
+      std::vector<HumSeries>                        result;
+      const auto duration = [](const HumSeries &series) {
+        return series.time.back() - series.time.front();
+      };
       auto own = left.begin();
       for (const CampaignTest &test : tests)
         for (std::size_t axis = 0; axis < (test.has_two_axes() ? 2 : 1);
@@ -68,24 +89,19 @@ namespace SlipStep
           {
             if (test.rows.condition.empty())
               continue;
-            const HumSeries *&other = waiting[{test.rows.condition, axis}];
-            if (other == nullptr)
+            auto      &others = waiting[{test.rows.condition, axis > 0}];
+            const auto twin   = std::find_if(
+              others.begin(), others.end(), [&](const HumSeries *other) {
+                return std::abs(duration(*own) - duration(*other)) <=
+                       alike * duration(*other);
+              });
+            if (twin == others.end())
+              others.push_back(&*own);
+            else
               {
-                other = &*own;
-                continue;
+                result.push_back(difference_of(**twin, *own));
+                others.erase(twin);
               }
-            HumSeries    difference = *other;
-            const double length =
-              difference.time.back() - difference.time.front();
-            if (std::abs(own->time.back() - own->time.front() - length) >
-                alike * length)
-              continue;
-            const std::vector<std::size_t> rows =
-              partners(difference.time, own->time);
-            for (std::size_t i = 0; i < rows.size(); ++i)
-              difference.left[i] -= own->left[rows[i]];
-            result.push_back(difference);
-            other = nullptr;
           }
       return result;
     }
@@ -107,6 +123,8 @@ namespace SlipStep
     auto                      hum    = hums.begin();
     for (CampaignTest &test : result)
       {
+        // What that made of it before counts as well for what is left.
+        const double before = noise_of_friction(test.rows);
         for (auto *friction : {&test.rows.friction, &test.rows.friction_y})
           if (!friction->empty())
             {
@@ -116,8 +134,9 @@ namespace SlipStep
                     hum->at(test.rows.time[i] - test.rows.time.front());
               test.hum.push_back(*hum++);
             }
-        if (!test.noise_is_stated)
-          test.noise = noise_of_friction(test.rows);
+        const double after = noise_of_friction(test.rows);
+        if (!test.noise_is_stated && after > 0. && after < before)
+          test.noise *= after / before;
       }
     return result;
   }
@@ -129,26 +148,25 @@ namespace SlipStep
   {
     HumOfTests          result;
     std::vector<double> frequencies, shares;
+    bool                is_mains = false;
     for (std::size_t t = 0; t < tests.size(); ++t)
       {
         bool is_told = false;
         for (const Hum &hum : tests[t].hum)
           if (hum.is_told)
             {
-              is_told = true;
-              frequencies.push_back(hum.frequency);
+              is_told  = true;
+              is_mains = hum.mains > 0.;
+              frequencies.push_back(is_mains ? hum.mains : hum.frequency);
               shares.push_back(hum.amplitude / comparison.tests[t].level);
             }
         result.n_told += is_told;
       }
     if (shares.empty())
       return result;
+    result.is_mains  = is_mains;
     result.frequency = median(std::move(frequencies));
-    const auto [least, most] =
-      std::minmax_element(shares.begin(), shares.end());
-    result.least = *least;
-    result.most  = *most;
-    result.share = median(std::move(shares));
+    result.share     = median(std::move(shares));
     return result;
   }
 } // namespace SlipStep

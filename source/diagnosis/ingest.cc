@@ -191,6 +191,8 @@ namespace SlipStep
       /// By which the noise of every number is multiplied for what rounded
       /// positions do to it.
       Eigen::VectorXd motion_factors;
+      /// Whether the base has time steps for its own parameters.
+      bool has_own_steps = true;
     };
 
 
@@ -318,7 +320,7 @@ namespace SlipStep
         {
           if (!comparison.fit(result.base, pass < 2 ? 1. : 0.01))
             throw RunError("the starting model cannot be simulated");
-          replan(result.base);
+          has_own_steps = replan(result.base);
           if (pass == 2)
             break;
           const Eigen::VectorXd difference = comparison.difference(result.base);
@@ -371,8 +373,13 @@ namespace SlipStep
       const std::optional<Model> plain = fit_plainly(workspace, base);
       if (!plain.has_value() || rms(base) < lost_fit * rms(*plain))
         return;
-      base.scaled = plain->scaled;
-      replan(base);
+      const std::vector<double> scaled = base.scaled;
+      base.scaled                      = plain->scaled;
+      if (!replan(base))
+        {
+          base.scaled = scaled;
+          return;
+        }
       workspace.comparison.fit(base,
                                0.01,
                                {},
@@ -535,6 +542,11 @@ namespace SlipStep
       tell("noise");
       judge_chance();
       warn_of_records(result);
+      if (!has_own_steps)
+        result.warnings.push_back(
+          "No time steps could be found for the calibrated parameters, as "
+          "where the contact sticks and slips: those of earlier ones are taken, "
+          "with an error that is not known.");
       return std::move(result);
     }
   } // namespace

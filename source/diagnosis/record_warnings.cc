@@ -3,6 +3,7 @@
 #include <slipstep/diagnosis/record_warnings.h>
 
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,26 +46,21 @@ namespace SlipStep
       if (hum.n_told == 0)
         return;
       std::ostringstream words;
-      const long         of_mains = std::lround(hum.frequency);
-      const bool         is_mains = of_mains >= 50;
-      words << std::setprecision(2)
-            << (is_mains ? "The mains hum" : "A wave in time hums")
-            << " in the friction of " << hum.n_told << " test(s): ";
-      if (is_mains)
-        words << of_mains;
-      else
-        words << hum.frequency;
-      words << " Hz, " << 100. * hum.share
+      words << (hum.is_mains ? "The mains hum" : "A wave in time hums")
+            << " in the friction of " << hum.n_told
+            << " test(s): " << rounded_text(hum.frequency, 3) << " Hz, "
+            << rounded_text(100. * hum.share, 2)
             << " % of friction. It is taken off, and what looks like it counts "
                "as noise. ";
-      if (is_mains)
-        words << "Rows that are further apart than " << 500. / of_mains
+      if (hum.is_mains)
+        words << "Rows that are further apart than "
+              << rounded_text(500. / hum.frequency, 2)
               << " ms see it as a slower wave: a low-pass filter before the "
                  "recorder helps.";
       else
-        words << "It begins elsewhere in every replicate, which nothing does "
-                 "that the contact makes: the mains look so where rows are "
-                 "nearly in step with them, or it is the recorder's.";
+        words << "Replicates differ by it, at several speeds: the mains look "
+                 "so where rows are nearly in step with them, or it is the "
+                 "recorder's.";
       result.warnings.push_back(words.str());
     }
 

@@ -153,10 +153,14 @@ namespace SlipStep
       constexpr unsigned int n_draws = 100;
       constexpr double       clearly = 3.; // standard deviations
 
-      const Comparison &comparison = workspace.comparison;
-      Eigen::VectorXd   after      = comparison.difference(model);
-      Eigen::VectorXd   change     = after - comparison.difference(base);
-      RowMatrix         noise      = draw_noise(comparison,
+      // A hum has been taken off.
+      Comparison comparison = workspace.comparison;
+      for (ComparedTest &test : comparison.tests)
+        for (Series &series : test.series)
+          series.hum.clear();
+      Eigen::VectorXd after  = comparison.difference(model);
+      Eigen::VectorXd change = after - comparison.difference(base);
+      RowMatrix       noise  = draw_noise(comparison,
                                    workspace.noise,
                                    n_draws,
                                    workspace.start.integer("Diagnosis/Seed"));

@@ -139,14 +139,16 @@ namespace SlipStep
     error.at_end =
       std::max({error.at_end,
                 error_of_traction(start, first, last) / end.strength,
-                error_of_memories(start, last),
+                error_of_memories(start, first, last),
                 error_of_core(start, last),
                 error_of_flow_rate(start, last),
                 error_of_normal_ratio(start, first, last)});
 
-    for (const StrengthEffect *effect : strength_effects)
-      error.of_line =
-        std::max(error.of_line, effect->hidden_change(start, end));
+    // Off the plane nothing is felt of what a point passes over.
+    if (start.normal_traction > 0.)
+      for (const StrengthEffect *effect : strength_effects)
+        error.of_line =
+          std::max(error.of_line, effect->hidden_change(start, end));
 
     // A parabola through three points is farthest from its chord in the middle;
     // a corner may be somewhat farther.
@@ -213,15 +215,22 @@ namespace SlipStep
 
   // The strength that the last rates alone, over the whole step, would make.
   double FrictionLaw::error_of_memories(const ContactState &start,
+                                        const StageRecord  &first,
                                         const StageRecord  &last) const
   {
     if (strength_effects.empty())
       return 0.;
     const ContactState &end       = last.end;
     const double        time_step = last.time_step / TwoStages::gamma;
-    const Contributions all       = contributions(
-      step_data(start, end, end.slip_rate * time_step, time_step));
-    const double strength =
+    SlipStepData        step =
+      step_data(start, end, end.slip_rate * time_step, time_step);
+    if (!(start.normal_traction > 0.))
+      step.carried = TwoStages::carry * first.slip_increment +
+                     last.slip_increment -
+                     true_slip(isotropic_traction(end.traction) / alpha_t) -
+                     step.path * step.direction;
+    const Contributions all = contributions(step);
+    const double        strength =
       end.normal_traction * end.coefficient * all.factor.value + all.sum.value;
     return 0.5 * std::abs(strength - end.strength) / end.strength;
   }

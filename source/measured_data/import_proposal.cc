@@ -111,6 +111,8 @@ namespace SlipStep
 
       void guess_column(const std::string &key, const std::size_t column);
 
+      std::size_t best_column(const std::string &key) const;
+
       std::size_t motion_of_friction(const KeyWords   &displacement,
                                      const std::size_t best) const;
 
@@ -158,9 +160,10 @@ namespace SlipStep
               layout.thousands_mark == '.' ? "point" :
               layout.thousands_mark == ',' ? "comma" :
                                              "apostrophe",
-              layout.decimal_mark == '\0' ?
+              layout.has_doubtful_marks ?
                 "three digits stand behind each, where there is one" :
-                "numbers have a second mark");
+                "numbers have a second mark",
+              layout.has_doubtful_marks);
       if (layout.header_line == 0 || layout.has_unclear_header)
         {
           guess("Raw file/Has header",
@@ -365,15 +368,8 @@ namespace SlipStep
     {
       for (const KeyWords &words : key_words())
         {
-          std::size_t best   = 0;
-          int         points = 0;
-          for (std::size_t i = 0; i < proposal.columns.size(); ++i)
-            if (const int found = score(words, i); found > points)
-              {
-                best   = i;
-                points = found;
-              }
-          if (points == 0 ||
+          std::size_t best = best_column(words.key);
+          if (best == values.size() ||
               (words.key == "Tangential load" && taken_as("Friction")))
             continue;
           if (words.key == "Displacement")
@@ -384,37 +380,54 @@ namespace SlipStep
 
 
 
-    // A way that only grows, or one that was ordered, may be called like a
-    // displacement as well: that which friction resists is taken.
+    // A way that only grows may be called like a displacement as well: beside
+    // friction of both signs that which it resists is taken.
     std::size_t Observer::motion_of_friction(const KeyWords   &displacement,
                                              const std::size_t best) const
     {
       constexpr double hardly = 0.5, clearly = 0.9;
 
-      const auto column_of = [&](const std::string &key) {
-        std::size_t column = values.size();
-        int         points = 0;
-        for (const KeyWords &words : key_words())
-          for (std::size_t i = 0; words.key == key && i < values.size(); ++i)
-            if (const int found = score(words, i); found > points)
-              {
-                column = i;
-                points = found;
-              }
-        return column;
-      };
-      std::size_t friction = column_of("Friction");
+      std::size_t friction = best_column("Friction");
       if (friction == values.size())
-        friction = column_of("Tangential load");
+        friction = best_column("Tangential load");
       if (friction == values.size())
         return best;
+      const auto has_sign = [&](const double sign) {
+        const auto &signal = finite[friction];
+        return 10 * std::count_if(signal.begin(),
+                                  signal.end(),
+                                  [&](const double value) {
+                                    return sign * value > 0.;
+                                  }) >
+               static_cast<std::ptrdiff_t>(signal.size());
+      };
       const auto share = [&](const std::size_t i) {
         return std::abs(share_of_resistance(values[i], values[friction]));
       };
-      if (share(best) < hardly)
-        for (std::size_t i = 0; i < values.size(); ++i)
-          if (score(displacement, i) > 0 && share(i) > clearly)
-            return i;
+      if (share(best) >= hardly || !has_sign(1.) || !has_sign(-1.))
+        return best;
+      std::size_t other = best;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (score(displacement, i) > 0 && share(i) > clearly &&
+            share(i) > share(other))
+          other = i;
+      return other;
+    }
+
+
+
+    // With the most points for a key; none: one beyond the last.
+    std::size_t Observer::best_column(const std::string &key) const
+    {
+      std::size_t best   = values.size();
+      int         points = 0;
+      for (const KeyWords &words : key_words())
+        for (std::size_t i = 0; words.key == key && i < values.size(); ++i)
+          if (const int found = score(words, i); found > points)
+            {
+              best   = i;
+              points = found;
+            }
       return best;
     }
 

@@ -355,10 +355,11 @@ namespace SlipStep
           const double value = take_off_zero(zero, time, motion, signal);
           if (zero.rfind("mean of the first", 0) == 0 && std::abs(value) > 0. &&
               moves_in_first(zero, time, motion))
-            doubts.push_back("Correction/Zero = " + zero +
-                             ": the record moves in that time. If it touches "
-                             "the plane then, friction is taken off with the "
-                             "zero");
+            doubts.push_back(
+              "Correction/Zero = " + zero +
+              ": the record moves in that time. If it touches the plane then, "
+              "friction is taken off the " +
+              what + " with the zero");
           if (sign.has_value() &&
               std::abs(sign->forth - sign->back) <= alike * sign->scatter)
             throw InputError("it takes off nearly all, " +

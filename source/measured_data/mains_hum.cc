@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace SlipStep
@@ -30,10 +32,12 @@ namespace SlipStep
     class Neighbourhood
     {
     public:
+      /// @param values of the series, what is left or another
       /// @param is_seen as it is, not as another one
-      Neighbourhood(const HumSeries &series,
-                    const double     frequency,
-                    const bool       is_seen = false);
+      Neighbourhood(const HumSeries           &series,
+                    const std::vector<double> &values,
+                    const double               frequency,
+                    const bool                 is_seen = false);
 
       /// Whether the rows see the frequency as one or two waves at most, or as
       /// a constant.
@@ -46,10 +50,6 @@ namespace SlipStep
       /// The highest one farther away [waves].
       double highest_beyond() const;
 
-    private:
-      Complex sum(const std::vector<Complex> &values,
-                  const double                distance) const;
-
       /// Of the noise of rows the power of steps grows with the square of the
       /// frequency, of a drift it does not: where that is known, it is held
       /// against its first power.
@@ -59,6 +59,10 @@ namespace SlipStep
         return std::norm(sum(steps, distance)) /
                (n_waves > 0. ? std::max(from_zero, 1.) : 1.);
       }
+
+    private:
+      Complex sum(const std::vector<Complex> &values,
+                  const double                distance) const;
 
       std::vector<double>  place;   ///< of the blocks, from 0 to 1
       std::vector<Complex> steps;   ///< times a window
@@ -89,9 +93,10 @@ namespace SlipStep
 
 
 
-    Neighbourhood::Neighbourhood(const HumSeries &series,
-                                 const double     frequency,
-                                 const bool       is_seen)
+    Neighbourhood::Neighbourhood(const HumSeries           &series,
+                                 const std::vector<double> &values,
+                                 const double               frequency,
+                                 const bool                 is_seen)
     {
       // The mains keep their frequency within this [Hz]. In a longer record
       // they wander, and are a wave of one frequency no more.
@@ -115,7 +120,7 @@ namespace SlipStep
             {
               const double  weight = window_at(series, i);
               const Complex turned = weight * turn(series, i, frequency);
-              step += turned * (series.left[i] - series.left[i - 1]);
+              step += turned * (values[i] - values[i - 1]);
               constant += turned;
               weights += weight;
               at += (series.time[i] - series.time.front()) / duration /
@@ -165,6 +170,25 @@ namespace SlipStep
             result  = at;
           }
       return result;
+    }
+
+
+
+    // Whether friction has a wave there of which a share is as strong as what
+    // is left: so have strokes forth and back at all multiples of their
+    // frequency.
+    bool is_of_friction(const HumSeries     &series,
+                        const Neighbourhood &left,
+                        const double         frequency)
+    {
+      constexpr double share = 0.2;
+
+      if (series.friction.empty())
+        return false;
+      const Neighbourhood near(series, series.friction, frequency);
+      const auto [chance, distance] = near.peak();
+      return chance < rare_in_one && share * share * near.power(distance) >
+                                       left.power(left.peak().second);
     }
 
 
@@ -299,21 +323,23 @@ namespace SlipStep
     double chance_of(const std::map<Motion, Group> &groups)
     {
       constexpr double      most_of_one = 1e-3;
-      constexpr std::size_t several     = 4;
+      constexpr std::size_t several     = 3; // speeds
 
       std::vector<double> chances;
-      std::size_t         n_found = 0;
-      bool                is_told = false;
+      std::set<long>      speeds;
+      bool                is_told = false, has_any = false;
       for (const auto &[motion, group] : groups)
         {
           const double chance = joint_chance(group.chances);
           chances.push_back(groups.size() > 1 ? std::max(chance, most_of_one) :
                                                 chance);
-          n_found += chance < rare_in_one;
+          if (chance < rare_in_one)
+            speeds.insert(motion.second);
           is_told = is_told || group.is_seen || group.phases.size() > 2;
+          has_any = has_any || !group.phases.empty();
         }
-      if (groups.empty() || (groups.size() == 1 && !is_told) ||
-          (n_found < several && is_led_by_motion(groups)))
+      if (!has_any || (groups.size() == 1 && !is_told) ||
+          (speeds.size() < several && is_led_by_motion(groups)))
         return 1.;
       return joint_chance(chances);
     }
@@ -338,9 +364,9 @@ namespace SlipStep
 
 
     // A hum that is as strong as in other series is told, too, however faint
-    // there; what is slow, or otherwise, is only believed to be as strong.
+    // there; where it is slow, or otherwise, it is only believed to be.
     void compare_with_others(const std::vector<HumSeries> &series,
-                             const std::vector<bool>      &are_slow,
+                             const std::vector<bool>      &are_mute,
                              std::vector<Hum>             &hums)
     {
       constexpr double factor = 2.;
@@ -354,7 +380,7 @@ namespace SlipStep
         if (!hums[i].is_told && hums[i].frequency > 0.)
           {
             const double usual = share * series[i].level;
-            if (!are_slow[i])
+            if (!are_mute[i])
               set_wave(hums[i], amplitude_of(series[i], hums[i].frequency));
             hums[i].is_told = hums[i].amplitude > usual / factor &&
                               hums[i].amplitude < usual * factor;
@@ -369,13 +395,13 @@ namespace SlipStep
     Hum look(const HumSeries         &series,
              const double             frequency,
              std::map<Motion, Group> &groups,
-             bool                    &is_slow)
+             bool                    &is_mute)
     {
-      const Neighbourhood near(series, frequency);
+      const Neighbourhood near(series, series.left, frequency);
       Hum                 hum;
       hum.frequency = frequency;
-      is_slow       = near.is_slow();
-      if (is_slow)
+      is_mute       = near.is_slow() || is_of_friction(series, near, frequency);
+      if (is_mute)
         return hum;
       const double duration         = series.time.back() - series.time.front();
       const auto [chance, distance] = near.peak();
@@ -408,17 +434,17 @@ namespace SlipStep
     {
       Tried                   result;
       std::map<Motion, Group> groups;
-      std::vector<bool>       are_slow;
+      std::vector<bool>       are_mute;
       for (const HumSeries &one : series)
         {
-          bool is_slow = true;
+          bool is_mute = true;
           result.hums.push_back(is_long_enough(one) ?
-                                  look(one, frequency, groups, is_slow) :
+                                  look(one, frequency, groups, is_mute) :
                                   Hum());
-          are_slow.push_back(is_slow);
+          are_mute.push_back(is_mute);
         }
       result.chance = chance_of(groups);
-      compare_with_others(series, are_slow, result.hums);
+      compare_with_others(series, are_mute, result.hums);
       return result;
     }
   } // namespace
@@ -434,7 +460,29 @@ namespace SlipStep
 
   namespace
   {
-    // Of a peak in one of the differences, and of what is there in all others.
+    // Less what a gain makes, by which replicates differ.
+    HumSeries without_gain(const HumSeries &series)
+    {
+      HumSeries    result = series;
+      const double n      = series.friction.size();
+      double       mean = 0., product = 0., square = 0.;
+      for (const double friction : series.friction)
+        mean += friction / n;
+      for (std::size_t i = 0; i < series.friction.size(); ++i)
+        {
+          product += (series.friction[i] - mean) * series.left[i];
+          square += std::pow(series.friction[i] - mean, 2);
+        }
+      if (square > 0.)
+        for (std::size_t i = 0; i < series.friction.size(); ++i)
+          result.left[i] -= product / square * (series.friction[i] - mean);
+      return result;
+    }
+
+
+
+    // Of a peak in one of the differences, and of what is there in all others;
+    // 1 where they do not have it at two speeds.
     struct Chances
     {
       double of_own = 1., of_others = 1.;
@@ -445,22 +493,33 @@ namespace SlipStep
                        const double                  frequency)
     {
       constexpr double most_of_one = 1e-3;
+      constexpr double apart       = 1.3; // speeds
 
       Chances             result;
       std::vector<double> others;
+      double slowest = std::numeric_limits<double>::infinity(), fastest = 0.;
       for (std::size_t i = 0; i < differences.size(); ++i)
         if (is_long_enough(differences[i]))
           {
-            const Neighbourhood near(differences[i], frequency, true);
-            if (near.is_slow())
+            const HumSeries    &one = differences[i];
+            const Neighbourhood near(one, one.left, frequency, true);
+            if (near.is_slow() ||
+                is_of_friction(one,
+                               Neighbourhood(one, one.left, frequency),
+                               frequency))
               continue;
             const double chance = near.peak().first;
+            if (chance < rare_in_one)
+              {
+                slowest = std::min(slowest, one.speed);
+                fastest = std::max(fastest, one.speed);
+              }
             if (i == own)
               result.of_own = chance;
             else
               others.push_back(std::max(chance, most_of_one));
           }
-      if (others.size() > 1)
+      if (others.size() > 1 && fastest > apart * slowest)
         result.of_others = joint_chance(others);
       return result;
     }
@@ -475,17 +534,17 @@ namespace SlipStep
     constexpr double      rare = 1e-3;
     constexpr std::size_t most = 10; // peaks that are tried
 
-    double      least = rare, best = 0.;
-    std::size_t n_tried = 0;
-    for (std::size_t i = 0; i < differences.size() && n_tried < most; ++i)
+    std::vector<HumSeries> plain;
+    for (const HumSeries &difference : differences)
+      if (is_long_enough(difference))
+        plain.push_back(without_gain(difference));
+    double least = rare, best = 0.;
+    for (std::size_t i = 0; i < std::min(plain.size(), most); ++i)
       {
-        if (!is_long_enough(differences[i]))
-          continue;
-        ++n_tried;
         const double frequency =
-          Neighbourhood(differences[i], 0.).highest_beyond() /
-          (differences[i].time.back() - differences[i].time.front());
-        const Chances chances = chances_of(differences, i, frequency);
+          Neighbourhood(plain[i], plain[i].left, 0.).highest_beyond() /
+          (plain[i].time.back() - plain[i].time.front());
+        const Chances chances = chances_of(plain, i, frequency);
         if (chances.of_own < rare && chances.of_others < least)
           {
             least = chances.of_others;
@@ -499,13 +558,22 @@ namespace SlipStep
 
   std::vector<Hum> find_mains_hum(const std::vector<HumSeries> &series)
   {
-    Tried best;
+    Tried  best;
+    double nominal = 0.;
     for (const double frequency : {50., 60., 100., 120.})
       {
         Tried tried = try_frequency(series, frequency);
         if (tried.chance < best.chance)
-          best = std::move(tried);
+          {
+            best    = std::move(tried);
+            nominal = frequency;
+          }
       }
-    return best.chance <= rare_in_all ? best.hums : std::vector<Hum>();
+    if (best.chance > rare_in_all)
+      return {};
+    for (Hum &hum : best.hums)
+      if (hum.frequency > 0.)
+        hum.mains = nominal;
+    return best.hums;
   }
 } // namespace SlipStep

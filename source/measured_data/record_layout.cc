@@ -305,13 +305,14 @@ namespace SlipStep
 
     // Digits behind a mark that are always three are no decimals where some
     // numbers of a column have none, or where a number has two such marks.
-    void find_thousands(const std::vector<std::size_t> &n_marked,
+    // Returns whether the former alone says so.
+    bool find_thousands(const std::vector<std::size_t> &n_marked,
                         const std::vector<std::size_t> &n_whole,
                         std::map<char, std::size_t>    &doubtful,
                         std::map<char, std::size_t>    &decimals,
                         std::map<char, std::size_t>    &thousands)
     {
-      bool are_mixed = false;
+      bool are_mixed = false, is_guess = false;
       for (std::size_t k = 0; k < n_marked.size(); ++k)
         are_mixed = are_mixed || (n_marked[k] >= 2 && n_whole[k] > 0);
       for (const char mark : {'.', ','})
@@ -319,9 +320,11 @@ namespace SlipStep
             (thousands[mark] > 0 ||
              (are_mixed && decimals[mark == '.' ? ',' : '.'] == 0)))
           {
+            is_guess = thousands[mark] == 0;
             thousands[mark] += decimals[mark];
             decimals[mark] = 0;
           }
+      return is_guess;
     }
 
     void find_numbers(const std::vector<std::string> &lines,
@@ -333,6 +336,7 @@ namespace SlipStep
       std::map<char, std::size_t> decimals, thousands, doubtful;
       std::vector<std::size_t>    n_whole(layout.n_cells, 0),
         n_marked(layout.n_cells, 0);
+      bool has_large = false;
       for (std::size_t i = table.first; i < lines.size(); ++i)
         {
           if (!table.is_row[i])
@@ -348,11 +352,19 @@ namespace SlipStep
               if (marks.is_doubtful)
                 ++doubtful[marks.decimal];
               n_marked[k] += marks.is_doubtful;
-              n_whole[k] += marks.is_number && marks.decimal == '\0' &&
-                            marks.thousands == '\0';
+              if (marks.is_number && marks.decimal == '\0' &&
+                  marks.thousands == '\0')
+                {
+                  const double value = std::abs(std::atof(cells[k].c_str()));
+                  n_whole[k] += value >= 1. && value < 1000.;
+                  has_large = has_large || value >= 1000.;
+                }
             }
         }
-      find_thousands(n_marked, n_whole, doubtful, decimals, thousands);
+      // Where thousands had a mark, these would.
+      const bool is_guess =
+        !has_large &&
+        find_thousands(n_marked, n_whole, doubtful, decimals, thousands);
       decimals.erase('\0');
       thousands.erase('\0');
       layout.decimal_mark = decimals[','] > decimals['.'] ? ',' :
@@ -368,7 +380,7 @@ namespace SlipStep
         layout.thousands_mark = ',';
       const char mark = layout.decimal_mark;
       layout.has_doubtful_marks =
-        mark != '\0' && doubtful[mark] == decimals[mark];
+        is_guess || (mark != '\0' && doubtful[mark] == decimals[mark]);
       for (std::size_t k = 0; k < layout.n_cells; ++k)
         if (n_numbers[k] >= 2 && 2 * n_numbers[k] > n_filled[k])
           layout.numbers.push_back(k);

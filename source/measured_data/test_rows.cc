@@ -65,6 +65,20 @@ namespace SlipStep
         }
     }
 
+    // As of sliding, but for its sign.
+    bool is_mostly_constant(const std::vector<double> &friction)
+    {
+      constexpr double alike = 0.3, most = 0.6;
+
+      std::vector<double> sizes;
+      for (const double value : friction)
+        sizes.push_back(std::abs(value));
+      const double usual = median(sizes);
+      return std::count_if(sizes.begin(), sizes.end(), [&](const double size) {
+               return std::abs(size - usual) <= alike * usual;
+             }) > most * sizes.size();
+    }
+
     /// The rows of a test, on their way to being in order.
     class RowsOfTest
     {
@@ -293,13 +307,14 @@ namespace SlipStep
       if (work.done >= -0.5 * work.possible)
         {
           check_friction_has_sign();
-          // And not in a jump of a counter only.
-          if (work.done < 0.5 * work.possible && 10 * work.n_driving > work.n)
+          // And not in a jump of a counter only, nor as a spring does.
+          if (work.done < 0.5 * work.possible && 10 * work.n_driving > work.n &&
+              is_mostly_constant(test.friction))
             warn("friction drives the motion in " +
                    rounded_text(50. * (1. - work.done / work.possible), 2) +
                    " % of its work: is the displacement a way that only "
                    "grows, or has the sensor of the force a zero?",
-                 row);
+                 kept[row]);
           return;
         }
 

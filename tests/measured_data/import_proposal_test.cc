@@ -252,7 +252,7 @@ namespace
      "Zeit [s];Weg [um];Reibkraft [mN];Normalkraft [mN]\n"
      "0;0;29.028;581.250\n1;500;58.314;579.770\n2;1.000;58.618;578.089\n"
      "3;1.500;57.766;579.196\n",
-     {"Raw file/Thousands mark = point"},
+     {"? Raw file/Thousands mark = point"},
      {"Raw file/Decimal mark"}},
     {"two_marks.csv",
      "Zeit [s];Weg [mm];Reibkraft [mN];Normalkraft [mN]\n"
@@ -272,6 +272,19 @@ namespace
      "4,4,0,-10,100\n5,5,1,10,100\n",
      {"Columns/Displacement = Position [mm] in mm"},
      {"Convention/Friction sign"}},
+    // Whole numbers without a mark where thousands would have one.
+    {"no_thousands.csv",
+     "t [s],d [um],Fx [N],Fz [N]\n"
+     "0,1500,10.125,100.250\n1,2.125,10.250,100.125\n"
+     "2,3.250,10.375,100.375\n",
+     {"Raw file/Decimal mark = point"},
+     {"Raw file/Thousands mark"}},
+    // Friction that has lost its sign says nothing of the motion.
+    {"magnitudes.csv",
+     "t [s],Position [mm],Distance [mm],COF,p [MPa]\n0,0,0,0.1,5\n"
+     "1,1,1,0.1,5\n2,2,2,0.1,5\n3,1,3,0.1,5\n4,0,4,0.1,5\n5,1,5,0.1,5\n",
+     {"Columns/Displacement = Position [mm] in mm"},
+     {}},
     {"set_and_actual.csv",
      "t [s],Position set [mm],Position act [mm],p [MPa],mu\n"
      "0,0,0,5,0\n1,1,0.9,5,0.1\n2,2,1.9,5,0.1\n",

@@ -149,6 +149,16 @@ TEST(TestRows, FrictionThatDrivesHalfTheTimeIsTold)
     rows += std::to_string(i) + ',' + std::to_string(0.1 * i) + ",5," +
             (i / 50 % 2 == 0 ? "0.1" : "-0.1") + '\n';
   expect_warning(read(rows), "drives the motion in 50 %");
+
+  // A spring gives its work back.
+  rows = "";
+  for (int i = 0; i < 200; ++i)
+    {
+      const double place = 1e-3 * std::sin(0.1 * i);
+      rows += std::to_string(i) + ',' + std::to_string(place) + ",5," +
+              std::to_string(100. * place + 1e-4 * std::cos(0.1 * i)) + '\n';
+    }
+  EXPECT_TRUE(read(rows).warnings.empty());
 }
 
 

@@ -16,16 +16,16 @@ namespace SlipStep
   std::vector<CampaignTest> without_hum(const std::vector<CampaignTest> &tests,
                                         const Model                     &model);
 
-  /// Frequency [Hz] of the hum of some tests, and how many tests it was told in
-  /// and as what share of their friction: least, median, most.
+  /// The hum of some tests.
   struct HumOfTests
   {
-    double      frequency = 0.;
-    std::size_t n_told    = 0;
-    double      least = 0., share = 0., most = 0.;
+    bool        is_mains  = false; ///< or of another frequency
+    double      frequency = 0.;    ///< [Hz], nominal for the mains
+    std::size_t n_told    = 0;     ///< tests in which it was told
+    double      share     = 0.;    ///< of friction, the median of these
   };
 
-  /// Frequency 0 without a hum.
+  /// Frequency 0 without any.
   HumOfTests hum_of(const Comparison                &comparison,
                     const std::vector<CampaignTest> &tests);
 } // namespace SlipStep

@@ -289,6 +289,7 @@ namespace SlipStep
                                 const StageStart   &second,
                                 const StageRecord  &last) const;
     double error_of_memories(const ContactState &start,
+                             const StageRecord  &first,
                              const StageRecord  &last) const;
     double error_of_flow_rate(const ContactState &start,
                               const StageRecord  &last) const;

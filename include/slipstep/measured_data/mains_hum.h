@@ -11,6 +11,7 @@ namespace SlipStep
   struct Hum
   {
     double frequency = 0.; ///< [Hz]; 0 without any
+    double mains     = 0.; ///< nominal [Hz]; 0 if it is none of the mains
     double amplitude = 0.; ///< of the friction coefficient
     double phase     = 0.; ///< [rad] of the cosine, at the first row
     /// Not so where the rows see it as slow as friction itself, or noise hides
@@ -27,6 +28,7 @@ namespace SlipStep
   {
     std::vector<double> time;       ///< [s], rising
     std::vector<double> left;       ///< measured less simulated
+    std::vector<double> friction;   ///< simulated; empty: constant
     double              level = 1.; ///< of friction, which a hum is a share of
     double              speed = 0.; ///< on average [mm/s]
   };
@@ -36,16 +38,17 @@ namespace SlipStep
   ///
   /// It is found by its frequency: in the spectrum of a series it stands above
   /// its neighbours, which a smooth remainder does not. It must do so in more
-  /// series than chance allows (1e-5), and unless there are such
-  /// of several motions, its phase must not be the same in those of one, as
-  /// that of a wave along the track is.
+  /// series than chance allows (1e-5). A series in which friction itself has a
+  /// wave of that frequency, as by strokes forth and back, says nothing; and
+  /// unless there are such of several speeds, its phase must not be the same in
+  /// those of one motion, as that of a wave along the track is.
   std::vector<Hum> find_mains_hum(const std::vector<HumSeries> &series);
 
   /// The same of any frequency that rows see as it is, as that of the mains is
   /// in step with rows but for a tenth of a hertz: it has to be in the
-  /// differences of replicates, which nothing is in that the contact does. A
-  /// peak of one of them, with a chance of less than 1e-3, is held against all
-  /// others (1e-3).
+  /// differences of replicates, beyond what a gain makes, and at two speeds, or
+  /// it could be of tracks that begin elsewhere. A peak of one of them, with a
+  /// chance of less than 1e-3, is held against all others (1e-3).
   std::vector<Hum>
   find_hum_of_replicates(const std::vector<HumSeries> &differences,
                          const std::vector<HumSeries> &series);

@@ -21,7 +21,8 @@ namespace SlipStep
     std::size_t              n_rows         = 0;
     std::size_t              n_cells        = 0;
     std::vector<std::string> comment_marks;
-    /// Whether the decimal mark may as well part thousands.
+    /// Whether the decimal mark may as well part thousands, or the mark of
+    /// thousands decimals.
     bool has_doubtful_marks = false;
     /// Whether names have blanks, so that there are more words than columns.
     bool has_unclear_header = false;

@@ -263,8 +263,8 @@ namespace SlipStep
       Strength position(const SlipStepData &step) const
       {
         Strength x;
-        x.value  = step.start[position_memory] + step.path * step.direction[0];
-        x.d_path = step.direction[0];
+        x.value          = step.start[position_memory] + step.way()[0];
+        x.d_path         = step.direction[0];
         x.d_direction[0] = step.path;
         return x;
       }

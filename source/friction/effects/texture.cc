@@ -59,10 +59,10 @@ namespace SlipStep
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
         const double along = across * step.direction;
-        const double theta =
-          wave_number * (across[0] * step.start[track_1] +
-                         across[1] * step.start[track_2] + along * step.path) +
-          phase;
+        const double theta = wave_number * (across[0] * step.start[track_1] +
+                                            across[1] * step.start[track_2] +
+                                            across * step.way()) +
+                             phase;
         double shape = std::sin(theta), d_shape = std::cos(theta);
         for (const unsigned int i : {0, 1})
           {

@@ -13,8 +13,6 @@
 #include <deal.II/grid/cell_id.h>
 #include <deal.II/grid/grid_tools.h>
 
-#include <deal.II/multigrid/mg_transfer_global_coarsening.h>
-
 #include <algorithm>
 #include <map>
 

@@ -112,8 +112,7 @@ namespace SlipStep
     }
 
     /// Forget constraints, unknowns and mesh of a level, except what the
-    /// block or the coarsest level needs: the library keeps the memory of the
-    /// finest mesh in all of them.
+    /// block or the coarsest level needs.
     void release_setup_data(const unsigned int level);
 
     /// Take over the tangent of the contact face and average it down.
