@@ -491,3 +491,37 @@ TEST(Failure, slides_away_where_friction_does_not_hold_its_loads)
       EXPECT_EQ(sliding("displacement x 20 mm", degree).failure, "");
     }
 }
+
+
+
+// Forth and back over a plane whose friction depends on the place: a part of
+// the face that lifts at the reversal comes down where it is.
+TEST(Block, keeps_its_place_where_it_lifts)
+{
+  const Parameters parameters =
+    make_parameters({{"Friction/Effects", "expression"},
+                     {"Friction/expression/Covariate", "position"},
+                     {"Friction/expression/Formula", "1 + 0.05*x"},
+                     {"Friction/expression/From", "-10"},
+                     {"Friction/expression/To", "10"},
+                     {"Friction/Static coefficient", "0.3"},
+                     {"Friction/Normal stiffness", "1e4 MPa/mm"},
+                     {"Friction/Tangential stiffness", "1e4 MPa/mm"},
+                     {"Block/Dimension", "2"},
+                     {"Block/Size", "10 mm, 10 mm"},
+                     {"Block/Subdivisions", "4, 4"},
+                     {"Loading/Programme",
+                      "press 5 MPa in 1 s; slide 10 mm/min for 1 mm; slide "
+                      "-10 mm/min for 1 mm"}});
+  bool              has_lifted = false;
+  const BlockResult result =
+    run_block_case<2>(parameters, MPI_COMM_SELF, [&](const Block<2> &block) {
+      Summary summary;
+      block.fill(summary);
+      has_lifted = summary.opening.has_happened();
+    });
+  ASSERT_EQ(result.failure, "");
+  EXPECT_TRUE(has_lifted);
+  // But for the shear of the block, some micrometres.
+  EXPECT_NEAR(result.history.back().friction, -0.3, 3e-4);
+}

@@ -116,6 +116,23 @@ INSTANTIATE_TEST_SUITE_P(
              Verdict::no_gap,
              {},
              Planting::NoiseKind::rounded_motion},
+    // Rows some tenths of a second apart see 50 Hz as a slow wave of each test.
+    Expected{CampaignClass::none,
+             48,
+             Verdict::no_gap,
+             {},
+             Planting::NoiseKind::hum},
+    Expected{CampaignClass::one,
+             200,
+             Verdict::named,
+             {"anisotropy"},
+             Planting::NoiseKind::hum},
+    // The plain differences grow by less than noise may make them.
+    Expected{CampaignClass::joint,
+             8,
+             Verdict::named,
+             {"adhesion", "pressure"},
+             Planting::NoiseKind::hum},
     // Heat takes away what the drag adds, a second later.
     Expected{CampaignClass::joint, 5, Verdict::named, {"heating", "viscous"}},
     // Squeezed oil, which leaves little trace.
