@@ -203,7 +203,9 @@ namespace SlipStep
              " → " + percent_text(shrink.systematic_after) :
            "") +
         ".");
-      return card(is_after ? "How far the gap shrank" : "How large the gap is",
+      return card(!is_after      ? "How large the gap is" :
+                  shrink.grows() ? "How the plain gap changed" :
+                                   "How far the gap shrank",
                   html);
     }
 

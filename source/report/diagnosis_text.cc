@@ -80,9 +80,13 @@ namespace SlipStep
       const std::string before = percent_text(shrink.fitted_before);
       const std::string after  = percent_text(shrink.fitted_after);
       std::string       text =
-        "the gap to the measurements " +
-        (before == after ? "stays " + before :
-                           "falls from " + before + " to " + after) +
+        (shrink.grows() ?
+           "the tests are met better by the weights of the noise, though the "
+           "plain gap grows from " +
+             before + " to " + after :
+         before == after ? "the gap to the measurements stays " + before :
+                           "the gap to the measurements falls from " + before +
+                             " to " + after) +
         " of friction (noise alone: " +
         (shrink.is_noise_overrated() ? "less than the " : "") +
         percent_text(shrink.noise_floor) +
@@ -93,7 +97,8 @@ namespace SlipStep
            ", so that its pattern tells of it, not its size") +
         ")";
       if (shrink.left_out_before > 0.)
-        text += std::string(shrink.left_out_after > shrink.left_out_before ?
+        text += std::string(!shrink.grows() &&
+                                shrink.left_out_after > shrink.left_out_before ?
                               ", but rises under conditions left out of the "
                               "fit from " :
                               ", under conditions left out of the fit from ") +
@@ -208,6 +213,9 @@ namespace SlipStep
         return "";
       const Shrink     &shrink = diagnosis.shrink;
       const std::string little =
+        diagnosis.shrink.grows() ?
+          "; what whole tests differ by, a gain or a zero, hides it: "
+          "repetitions would make it surer" :
         is_worth_little(diagnosis) ?
           "; hardly any of what is beyond the noise is explained, so that the "
           "verdict is worth little" :

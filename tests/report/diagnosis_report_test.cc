@@ -104,6 +104,22 @@ TEST(DiagnosisHeadline, ANameThatExplainsLittleIsWorthLittle)
 
 
 
+// By what whole tests differ by, which weighs little.
+TEST(DiagnosisHeadline, APlainGapThatGrowsDoesNotFall)
+{
+  Diagnosis diagnosis            = SyntheticDiagnosis::named();
+  diagnosis.shrink.fitted_before = 0.0118;
+  diagnosis.shrink.fitted_after  = 0.0125;
+  const std::string text         = headline(diagnosis);
+  EXPECT_TRUE(contains(text, "the plain gap grows from 1.18 % to 1.25 %"))
+    << text;
+  EXPECT_TRUE(contains(text, "a gain or a zero, hides it")) << text;
+  EXPECT_FALSE(contains(text, "falls")) << text;
+  EXPECT_TRUE(contains(page_of(diagnosis), "How the plain gap changed"));
+}
+
+
+
 TEST(DiagnosisHeadline, WhatOnlyLooksLikeAnEffectComesFirst)
 {
   Diagnosis diagnosis  = SyntheticDiagnosis::named();

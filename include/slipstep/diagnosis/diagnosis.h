@@ -147,6 +147,13 @@ namespace SlipStep
     /// above the floor.
     double systematic_before = 0., systematic_after = 0.;
 
+    /// In what whole tests differ by, which weighs little in a fit, a model
+    /// that is met better may be farther off.
+    bool grows() const
+    {
+      return fitted_after > 1.005 * fitted_before;
+    }
+
     /// Whether less is left than what was taken for noise: waves that rows
     /// share look like that until they have a name.
     bool is_noise_overrated() const
