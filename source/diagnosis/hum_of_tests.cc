@@ -2,6 +2,7 @@
 #include <slipstep/diagnosis/hum_of_tests.h>
 
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -110,13 +111,24 @@ namespace SlipStep
 
 
   std::vector<CampaignTest> without_hum(const std::vector<CampaignTest> &tests,
-                                        const Model                     &model)
+                                        const Model                     &model,
+                                        std::string                     &doubt)
   {
-    const std::vector<HumSeries> left = what_is_left(tests, model);
-    std::vector<Hum>             hums = find_mains_hum(left);
+    const std::vector<HumSeries> left         = what_is_left(tests, model);
+    std::vector<Hum>             hums         = find_mains_hum(left);
+    double                       at_one_speed = 0.;
     if (hums.empty())
-      hums =
-        find_hum_of_replicates(differences_of_replicates(tests, left), left);
+      hums = find_hum_of_replicates(differences_of_replicates(tests, left),
+                                    left,
+                                    at_one_speed);
+    if (hums.empty() && at_one_speed > 0.)
+      doubt = "Replicates differ by a wave of " +
+              rounded_text(at_one_speed, 2) +
+              " Hz, at one speed only: the hum of a recorder, or of the mains "
+              "on rows nearly in step with them, or a track that begins "
+              "elsewhere in each of them. It is not taken off: what is said of "
+              "waves along the track may be of that, and tests at another "
+              "speed would tell.";
     if (hums.empty())
       return {};
     std::vector<CampaignTest> result = tests;

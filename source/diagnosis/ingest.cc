@@ -343,8 +343,11 @@ namespace SlipStep
 
     void Preparer::take_off_hum()
     {
+      std::string                     doubt;
       const std::vector<CampaignTest> tests =
-        without_hum(result.workspace->tests, result.base);
+        without_hum(result.workspace->tests, result.base, doubt);
+      if (!doubt.empty())
+        result.warnings.push_back(doubt);
       if (tests.empty())
         return;
       std::vector<double> scaled = result.base.scaled;

@@ -481,11 +481,11 @@ namespace SlipStep
 
 
 
-    // Of a peak in one of the differences, and of what is there in all others;
-    // 1 where they do not have it at two speeds.
+    // Of a peak in one of the differences, and of what is there in all others.
     struct Chances
     {
       double of_own = 1., of_others = 1.;
+      bool   is_at_two_speeds = false;
     };
 
     Chances chances_of(const std::vector<HumSeries> &differences,
@@ -519,8 +519,9 @@ namespace SlipStep
             else
               others.push_back(std::max(chance, most_of_one));
           }
-      if (others.size() > 1 && fastest > apart * slowest)
+      if (others.size() > 1)
         result.of_others = joint_chance(others);
+      result.is_at_two_speeds = fastest > apart * slowest;
       return result;
     }
   } // namespace
@@ -529,7 +530,8 @@ namespace SlipStep
 
   std::vector<Hum>
   find_hum_of_replicates(const std::vector<HumSeries> &differences,
-                         const std::vector<HumSeries> &series)
+                         const std::vector<HumSeries> &series,
+                         double                       &at_one_speed)
   {
     constexpr double      rare = 1e-3;
     constexpr std::size_t most = 10; // peaks that are tried
@@ -538,17 +540,21 @@ namespace SlipStep
     for (const HumSeries &difference : differences)
       if (is_long_enough(difference))
         plain.push_back(without_gain(difference));
-    double least = rare, best = 0.;
+    double least = rare, best = 0., least_of_one = rare;
+    at_one_speed = 0.;
     for (std::size_t i = 0; i < std::min(plain.size(), most); ++i)
       {
         const double frequency =
           Neighbourhood(plain[i], plain[i].left, 0.).highest_beyond() /
           (plain[i].time.back() - plain[i].time.front());
         const Chances chances = chances_of(plain, i, frequency);
-        if (chances.of_own < rare && chances.of_others < least)
+        if (!(chances.of_own < rare))
+          continue;
+        double &smallest = chances.is_at_two_speeds ? least : least_of_one;
+        if (chances.of_others < smallest)
           {
-            least = chances.of_others;
-            best  = frequency;
+            smallest = chances.of_others;
+            (chances.is_at_two_speeds ? best : at_one_speed) = frequency;
           }
       }
     return best > 0. ? try_frequency(series, best).hums : std::vector<Hum>();

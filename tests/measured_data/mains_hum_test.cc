@@ -83,6 +83,9 @@ namespace
     return {one};
   }
 
+  // Frequency of what is at one speed alone.
+  double at_one_speed = 0.;
+
   std::vector<HumSeries> differences_of(const std::vector<HumSeries> &series)
   {
     std::vector<HumSeries> differences;
@@ -243,7 +246,7 @@ TEST(MainsHum, IsFoundInDifferencesOfReplicates)
         add_hum(random, series, 0.02, 1.);
       add_track_waves(random, series, 1.);
       const std::vector<Hum> found =
-        find_hum_of_replicates(differences_of(series), series);
+        find_hum_of_replicates(differences_of(series), series, at_one_speed);
       (hums ? n_found : n_false) += !found.empty();
       if (hums && !found.empty())
         EXPECT_NEAR(found[0].frequency, 0.02, 0.01) << campaign;
@@ -275,7 +278,8 @@ TEST(MainsHum, IsNoErrorOfStrokes)
       for (std::size_t r = 0; r < series.size(); ++r)
         series[r].speed = 1. + r;
       EXPECT_TRUE(
-        find_hum_of_replicates(differences_of(series), series).empty())
+        find_hum_of_replicates(differences_of(series), series, at_one_speed)
+          .empty())
         << frequency;
       // But there may be one beside it.
       if (rate < 1000.)
@@ -300,8 +304,13 @@ TEST(MainsHum, IsNotFoundAtOneSpeedAlone)
   add_hum(random, series, 0.02, 3.);
   for (std::size_t r = 0; r < series.size(); ++r)
     series[r].speed = 1.;
-  EXPECT_TRUE(find_hum_of_replicates(differences_of(series), series).empty());
+  EXPECT_TRUE(
+    find_hum_of_replicates(differences_of(series), series, at_one_speed)
+      .empty());
+  EXPECT_NEAR(at_one_speed, 0.02, 0.004);
   for (std::size_t r = 0; r < series.size(); ++r)
     series[r].speed = 1. + r / 2;
-  EXPECT_FALSE(find_hum_of_replicates(differences_of(series), series).empty());
+  EXPECT_FALSE(
+    find_hum_of_replicates(differences_of(series), series, at_one_speed)
+      .empty());
 }

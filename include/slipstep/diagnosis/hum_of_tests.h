@@ -13,8 +13,10 @@ namespace SlipStep
   /// noise of what is left; empty if there is no hum in them. See
   /// find_mains_hum().
   /// @param model fitted to the tests
+  /// @param doubt what may be hum and is not taken off, in words; "" without
   std::vector<CampaignTest> without_hum(const std::vector<CampaignTest> &tests,
-                                        const Model                     &model);
+                                        const Model                     &model,
+                                        std::string                     &doubt);
 
   /// The hum of some tests.
   struct HumOfTests

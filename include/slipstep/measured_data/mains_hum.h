@@ -49,9 +49,12 @@ namespace SlipStep
   /// differences of replicates, beyond what a gain makes, and at two speeds, or
   /// it could be of tracks that begin elsewhere. A peak of one of them, with a
   /// chance of less than 1e-3, is held against all others (1e-3).
+  ///
+  /// @param at_one_speed frequency [Hz] of what is at one speed alone; 0 without
   std::vector<Hum>
   find_hum_of_replicates(const std::vector<HumSeries> &differences,
-                         const std::vector<HumSeries> &series);
+                         const std::vector<HumSeries> &series,
+                         double                       &at_one_speed);
 } // namespace SlipStep
 
 #endif
