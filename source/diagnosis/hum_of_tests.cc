@@ -2,6 +2,7 @@
 #include <slipstep/diagnosis/hum_of_tests.h>
 
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -13,23 +14,6 @@ namespace SlipStep
 {
   namespace
   {
-    double mean_speed(const MeasuredTest &rows)
-    {
-      constexpr double trembles = 0.005; // of the range
-
-      const auto steady = [](const std::vector<double> &positions) {
-        return without_jitter(positions, trembles * range_of(positions));
-      };
-      const std::vector<double> x   = steady(rows.displacement);
-      const std::vector<double> y   = steady(rows.displacement_y);
-      double                    way = 0.;
-      for (std::size_t i = 1; i < x.size(); ++i)
-        way += std::hypot(x[i] - x[i - 1], y.empty() ? 0. : y[i] - y[i - 1]);
-      return way / (rows.time.back() - rows.time.front());
-    }
-
-
-
     std::vector<HumSeries> what_is_left(const std::vector<CampaignTest> &tests,
                                         const Model                     &model)
     {

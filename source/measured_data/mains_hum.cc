@@ -25,6 +25,9 @@ namespace SlipStep
     /// By chance as high in one series of those with a hum, or in all of them.
     constexpr double rare_in_one = 0.01, rare_in_all = 1e-5;
 
+    /// Of many none tells for all: no chance counts as less.
+    constexpr double most_of_one = 1e-3;
+
     /// Steps of a series from row to row, seen from a frequency: what is near
     /// to it turns slowly, and is added up in a few hundred blocks. Steps,
     /// since what is smooth or jumps has no slope in their spectrum. Distances
@@ -177,9 +180,9 @@ namespace SlipStep
     // Whether friction has a wave there of which a share is as strong as what
     // is left: so have strokes forth and back at all multiples of their
     // frequency.
-    bool is_of_friction(const HumSeries     &series,
-                        const Neighbourhood &left,
-                        const double         frequency)
+    bool is_of_friction(const HumSeries &series,
+                        const double     frequency,
+                        const double     power_left)
     {
       constexpr double share = 0.2;
 
@@ -187,8 +190,8 @@ namespace SlipStep
         return false;
       const Neighbourhood near(series, series.friction, frequency);
       const auto [chance, distance] = near.peak();
-      return chance < rare_in_one && share * share * near.power(distance) >
-                                       left.power(left.peak().second);
+      return chance < rare_in_one &&
+             share * share * near.power(distance) > power_left;
     }
 
 
@@ -322,8 +325,7 @@ namespace SlipStep
     // as fast as it is, or begin anywhere; and of many none tells for all.
     double chance_of(const std::map<Motion, Group> &groups)
     {
-      constexpr double      most_of_one = 1e-3;
-      constexpr std::size_t several     = 3; // speeds
+      constexpr std::size_t several = 3; // speeds
 
       std::vector<double> chances;
       std::set<long>      speeds;
@@ -399,13 +401,14 @@ namespace SlipStep
     {
       const Neighbourhood near(series, series.left, frequency);
       Hum                 hum;
-      hum.frequency = frequency;
-      is_mute       = near.is_slow() || is_of_friction(series, near, frequency);
+      hum.frequency                 = frequency;
+      const auto [chance, distance] = near.peak();
+      is_mute                       = near.is_slow() ||
+                is_of_friction(series, frequency, near.power(distance));
       if (is_mute)
         return hum;
-      const double duration         = series.time.back() - series.time.front();
-      const auto [chance, distance] = near.peak();
-      Group &group                  = groups[motion_of(series)];
+      const double duration = series.time.back() - series.time.front();
+      Group       &group    = groups[motion_of(series)];
       group.chances.push_back(chance);
       group.is_seen = 2. * frequency * duration < series.time.size() - 1;
       if (chance < rare_in_one)
@@ -492,33 +495,30 @@ namespace SlipStep
                        const std::size_t             own,
                        const double                  frequency)
     {
-      constexpr double most_of_one = 1e-3;
-      constexpr double apart       = 1.3; // speeds
+      constexpr double apart = 1.3; // speeds
 
       Chances             result;
       std::vector<double> others;
       double slowest = std::numeric_limits<double>::infinity(), fastest = 0.;
       for (std::size_t i = 0; i < differences.size(); ++i)
-        if (is_long_enough(differences[i]))
-          {
-            const HumSeries    &one = differences[i];
-            const Neighbourhood near(one, one.left, frequency, true);
-            if (near.is_slow() ||
-                is_of_friction(one,
-                               Neighbourhood(one, one.left, frequency),
-                               frequency))
-              continue;
-            const double chance = near.peak().first;
-            if (chance < rare_in_one)
-              {
-                slowest = std::min(slowest, one.speed);
-                fastest = std::max(fastest, one.speed);
-              }
-            if (i == own)
-              result.of_own = chance;
-            else
-              others.push_back(std::max(chance, most_of_one));
-          }
+        {
+          const HumSeries    &one = differences[i];
+          const Neighbourhood near(one, one.left, frequency, true);
+          const Neighbourhood plain(one, one.left, frequency);
+          if (near.is_slow() ||
+              is_of_friction(one, frequency, plain.power(plain.peak().second)))
+            continue;
+          const double chance = near.peak().first;
+          if (chance < rare_in_one)
+            {
+              slowest = std::min(slowest, one.speed);
+              fastest = std::max(fastest, one.speed);
+            }
+          if (i == own)
+            result.of_own = chance;
+          else
+            others.push_back(std::max(chance, most_of_one));
+        }
       if (others.size() > 1)
         result.of_others = joint_chance(others);
       result.is_at_two_speeds = fastest > apart * slowest;
