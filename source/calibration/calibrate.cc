@@ -2,6 +2,7 @@
 #include <slipstep/calibration/advice.h>
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/calibration/fit.h>
+#include <slipstep/calibration/profile_side.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
@@ -19,6 +20,9 @@ namespace SlipStep
   namespace
   {
     using Report = std::function<void(const std::string &, const double)>;
+
+    // Why a start has no end.
+    const std::string no_time = "Calibration/Most time was over";
 
     /// The work of a calibration, step by step.
     class Calibrator
@@ -47,6 +51,8 @@ namespace SlipStep
 
       void warn();
 
+      void warn_of_time();
+
       void warn_of_misfit();
 
       bool noise_is_stated() const;
@@ -57,13 +63,17 @@ namespace SlipStep
 
       void tell(const std::string &text, const double share);
 
-      const Campaign campaign;
-      const Report   progress;
-      std::mutex     mutex;
+      bool is_late() const;
+
+      const Campaign                              campaign;
+      const Report                                progress;
+      const std::chrono::steady_clock::time_point deadline;
+      std::mutex                                  mutex;
 
       std::vector<double>        best;
       std::unique_ptr<Simulator> planned; ///< at the optimum
       Linearisation              optimum;
+      std::vector<char>          is_symmetric; ///< for want of time
       Calibration                result;
     };
 
@@ -83,7 +93,15 @@ namespace SlipStep
     Calibrator::Calibrator(const Parameters &parameters, const Report &progress)
       : campaign(parameters)
       , progress(progress)
+      , deadline(deadline_after(parameters.number("Calibration/Most time")))
     {}
+
+
+
+    bool Calibrator::is_late() const
+    {
+      return std::chrono::steady_clock::now() > deadline;
+    }
 
 
 
@@ -104,6 +122,11 @@ namespace SlipStep
       std::vector<FitResult>    found(starts.size());
       std::atomic<unsigned int> n_done{0}, n_simulations{0};
       side_by_side(starts.size(), [&](const std::size_t i) {
+        if (i > 0 && is_late())
+          {
+            found[i].message = no_time;
+            return;
+          }
         Simulator simulator(campaign);
         try
           {
@@ -224,10 +247,19 @@ namespace SlipStep
     {
       const double confidence =
         campaign.parameters.number("Calibration/Confidence");
-      std::vector<Profile>      profiles(best.size());
+      std::vector<Profile> profiles(best.size());
+      is_symmetric.assign(best.size(), 0);
       std::atomic<unsigned int> n_done{0};
       side_by_side(best.size(), [&](const std::size_t i) {
-        profiles[i] = profile(*planned, optimum, i, confidence);
+        try
+          {
+            profiles[i] = profile(*planned, optimum, i, confidence, deadline);
+          }
+        catch (const OutOfTime &)
+          {
+            profiles[i]     = symmetric_profile(optimum, i, confidence);
+            is_symmetric[i] = 1;
+          }
         ++n_done;
         tell("interval " + std::to_string(n_done) + " of " +
                std::to_string(best.size()),
@@ -370,7 +402,36 @@ namespace SlipStep
           " starts ended in a worse optimum: the problem is not convex, take "
           "more Calibration/Starts to be sure.");
 
+      warn_of_time();
       warn_of_misfit();
+    }
+
+
+
+    void Calibrator::warn_of_time()
+    {
+      const std::string over =
+        "Calibration/Most time = " +
+        campaign.parameters.text("Calibration/Most time") + " was over before ";
+      const std::size_t n_left_out =
+        std::count_if(result.starts.begin(),
+                      result.starts.end(),
+                      [](const StartResult &start) {
+                        return start.message == no_time;
+                      });
+      if (n_left_out > 0)
+        result.warnings.push_back(over + std::to_string(n_left_out) + " of " +
+                                  counted(result.starts.size(), "start") +
+                                  " began: there may be a better optimum.");
+      std::vector<std::string> names;
+      for (std::size_t i = 0; i < is_symmetric.size(); ++i)
+        if (is_symmetric[i] != 0)
+          names.push_back(campaign.fitted[i].path);
+      if (!names.empty())
+        result.warnings.push_back(
+          over + "the " + (names.size() > 1 ? "intervals" : "interval") +
+          " of " + list_text(names) +
+          " could be followed: from the curvature at the optimum alone.");
     }
 
 

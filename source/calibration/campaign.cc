@@ -92,6 +92,14 @@ namespace SlipStep
       "0.95",
       Quantity(Dimension::number, 0.5, 0.999),
       "Confidence of the intervals. Between 0.5 and 0.999, no unit.");
+    parameters.declare(
+      "Calibration/Most time",
+      "1 h",
+      Quantity(Dimension::time, 0., 1e9, true, true),
+      "Of the search, and of the intervals. Then starts that have not begun are "
+      "left out, and intervals that have not been followed to their ends are "
+      "symmetric ones, from the curvature at the optimum, with a warning that "
+      "says so. More than 0, with its unit.");
   }
 
 
@@ -281,7 +289,9 @@ namespace SlipStep
                             *of_same_motion :
                             Replay(resample(test, options).test,
                                    parameters.number("Calibration/Lead-in"),
-                                   row_distance)};
+                                   row_distance),
+                          0.,
+                          {}};
       result.replay.order = test.order();
       keep_rows(result.rows, rows);
       result.motion_step = step;

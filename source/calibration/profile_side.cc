@@ -81,12 +81,14 @@ namespace SlipStep
                            const Eigen::VectorXd &slopes,
                            const std::size_t      parameter,
                            const double           threshold,
-                           const int              sign)
+                           const int              sign,
+                           const std::chrono::steady_clock::time_point deadline)
     : refit(refit)
     , optimum(optimum)
     , parameter(parameter)
     , sign(sign)
     , threshold(threshold)
+    , deadline(deadline)
     , start(optimum.scaled[parameter])
     , room(sign > 0 ? 1. - start : start)
     , slopes(slopes)
@@ -100,6 +102,8 @@ namespace SlipStep
   // contradicts the distance, from where they are at the nearest one.
   ProfileSide::Fitted ProfileSide::fit_at(const double distance)
   {
+    if (std::chrono::steady_clock::now() > deadline)
+      throw OutOfTime();
     std::vector<double> from = optimum.scaled;
     for (std::size_t i = 0; i < from.size(); ++i)
       from[i] = std::clamp(from[i] + sign * distance * slopes(i), 0., 1.);

@@ -373,10 +373,43 @@ namespace SlipStep
 
 
 
-  Profile profile(const Simulator     &planned,
-                  const Linearisation &optimum,
-                  const unsigned int   parameter,
-                  const double         confidence)
+  namespace
+  {
+    // Where an interval ends to first order [scaled].
+    double first_order_reach(const Linearisation &optimum,
+                             const unsigned int   parameter,
+                             const double         confidence)
+    {
+      return optimum.deviations(parameter) / optimum.size[parameter] *
+             std::sqrt(optimum.threshold(confidence, parameter) /
+                       optimum.inflation);
+    }
+  } // namespace
+
+
+
+  Profile symmetric_profile(const Linearisation &optimum,
+                            const unsigned int   parameter,
+                            const double         confidence)
+  {
+    const double at    = optimum.scaled[parameter];
+    const double reach = first_order_reach(optimum, parameter, confidence);
+    Profile      result;
+    result.lower         = std::max(0., at - reach);
+    result.upper         = std::min(1., at + reach);
+    result.is_lower_open = at - reach < 0.;
+    result.is_upper_open = at + reach > 1.;
+    result.points        = {{at, 0.}};
+    return result;
+  }
+
+
+
+  Profile profile(const Simulator                            &planned,
+                  const Linearisation                        &optimum,
+                  const unsigned int                          parameter,
+                  const double                                confidence,
+                  const std::chrono::steady_clock::time_point deadline)
   {
     std::vector<unsigned int> others;
     for (unsigned int i = 0; i < optimum.scaled.size(); ++i)
@@ -395,10 +428,9 @@ namespace SlipStep
         for (std::size_t i = 0; i < others.size(); ++i)
           slopes(others[i]) = found(i);
       }
-    const double threshold      = optimum.threshold(confidence, parameter);
-    const double first_distance = optimum.deviations(parameter) /
-                                  optimum.size[parameter] *
-                                  std::sqrt(threshold / optimum.inflation);
+    const double threshold = optimum.threshold(confidence, parameter);
+    const double first_distance =
+      first_order_reach(optimum, parameter, confidence);
 
     Profile result;
     result.points.emplace_back(optimum.scaled[parameter], 0.);
@@ -414,7 +446,8 @@ namespace SlipStep
           slopes,
           parameter,
           threshold,
-          sign);
+          sign,
+          deadline);
         side.follow(first_distance);
         (sign < 0 ? result.lower : result.upper)                 = side.end;
         (sign < 0 ? result.is_lower_open : result.is_upper_open) = side.is_open;

@@ -126,10 +126,6 @@ namespace SlipStep
   std::chrono::steady_clock::time_point
   deadline_of(const Parameters &parameters, const double share)
   {
-    using Clock = std::chrono::steady_clock;
-    return Clock::now() +
-           std::chrono::duration_cast<Clock::duration>(
-             std::chrono::duration<double>(
-               share * parameters.number(section + "Most time")));
+    return deadline_after(share * parameters.number(section + "Most time"));
   }
 } // namespace SlipStep

@@ -70,12 +70,6 @@ namespace SlipStep
 
 
 
-    // Thrown where a profile takes too long.
-    struct OutOfTime
-    {};
-
-
-
     void follow_both_ways(const Workspace                            &workspace,
                           const Model                                &optimum,
                           const std::size_t                           i,
@@ -96,8 +90,6 @@ namespace SlipStep
           Model       model = optimum.copy();
           ProfileSide side(
             [&](const std::vector<double> &from) {
-              if (std::chrono::steady_clock::now() > deadline)
-                throw OutOfTime();
               model.scaled = from;
               const bool is_fitted =
                 workspace.comparison.fit(model, 0.005, {}, held);
@@ -110,7 +102,8 @@ namespace SlipStep
             slopes_of(optimum, i),
             i,
             threshold,
-            sign);
+            sign,
+            deadline);
           side.follow(std::max(1e-4, deviation * std::sqrt(threshold)));
           side.look_at({0.3, 0.6, 0.85});
           (sign < 0 ? result.lower : result.upper) = value(side.end);

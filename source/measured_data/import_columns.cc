@@ -4,6 +4,8 @@
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/measured_test.h>
 
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -135,7 +137,7 @@ namespace SlipStep
     for (const std::string &heading : table.header())
       if (heading == text) // "Stroke in mm" is its name
         name = text;
-    Source source{"", find_column(path, name), {}};
+    Source source{"", find_column(path, name), {}, {}};
     if (is_bare)
       return source;
     if (dimension == Dimension::number)
@@ -155,6 +157,7 @@ namespace SlipStep
       map.reject(path, "the unit is missing: write " + remedy);
     const std::optional<Dimension> wanted =
       dimension.has_value() ? dimension : dimension_of_unit(unit);
+    source.dimension = wanted;
     if (!wanted.has_value())
       map.reject(path,
                  "\"" + unit + "\" is no unit that this program knows; {" +
@@ -307,7 +310,99 @@ namespace SlipStep
                      "; columns stand in braces, {NAME in UNIT}, and count in "
                      "mm, s, N, MPa, degC");
       }
+    check_units(recipe, map.text(path), key);
     return recipe;
+  }
+
+
+
+  namespace
+  {
+    // Powers of length, time and force in a quantity.
+    std::array<double, 3> powers_of(const Dimension dimension)
+    {
+      switch (dimension)
+        {
+          case Dimension::length:
+            return {{1., 0., 0.}};
+          case Dimension::time:
+            return {{0., 1., 0.}};
+          case Dimension::speed:
+            return {{1., -1., 0.}};
+          case Dimension::stress:
+            return {{-2., 0., 1.}};
+          case Dimension::force:
+            return {{0., 0., 1.}};
+          case Dimension::area:
+            return {{2., 0., 0.}};
+          default:
+            return {{0., 0., 0.}};
+        }
+    }
+  } // namespace
+
+
+
+  // A formula without a number of its own, and with all columns in units, can
+  // only be right if other units of length, time and force change its value as
+  // they change the quantity.
+  bool ImportColumns::fits_units(const Recipe             &recipe,
+                                 const std::vector<double> arguments,
+                                 const Dimension           dimension)
+  {
+    constexpr double other = 1.37, alike = 1e-9;
+
+    const double value = (*recipe.formula)(arguments);
+    for (unsigned int unit = 0; unit < 3; ++unit)
+      {
+        std::vector<double> changed = arguments;
+        for (std::size_t i = 0; i < changed.size(); ++i)
+          changed[i] *=
+            std::pow(other, powers_of(*recipe.sources[i].dimension)[unit]);
+        const double expected =
+          value * std::pow(other, powers_of(dimension)[unit]);
+        if (std::abs((*recipe.formula)(changed)-expected) >
+            alike * std::abs(expected))
+          return false;
+      }
+    return true;
+  }
+
+
+
+  void ImportColumns::check_units(const Recipe      &recipe,
+                                  const std::string &text,
+                                  const ColumnKey   &key) const
+  {
+    const std::string path = "Columns/" + key.name;
+    for (const Source &source : recipe.sources)
+      if (!source.dimension.has_value() ||
+          *source.dimension == Dimension::temperature)
+        return;
+    if (recipe.conversion(1.) != 1.)
+      map.reject(path,
+                 "columns with units count in mm, s, N, MPa already, whatever "
+                 "theirs are: leave out '" +
+                   text.substr(text.rfind(" in ") + 1) +
+                   "', or take the columns as recorded");
+    bool is_inside = false;
+    for (const char c : text)
+      {
+        is_inside = c == '{' || (is_inside && c != '}');
+        if (!is_inside && std::isdigit(static_cast<unsigned char>(c)) != 0)
+          return; // it may have any unit
+      }
+    std::vector<double> arguments;
+    for (std::size_t i = 0; i < recipe.sources.size(); ++i)
+      arguments.push_back(1. + 0.1 * std::sqrt(i + 2.));
+    if (!fits_units(recipe, arguments, key.dimension))
+      map.reject(path,
+                 "the units do not make " +
+                   (key.dimension == Dimension::number ?
+                      "a plain number" :
+                      base_unit(key.dimension)) +
+                   ": a factor that has a unit stands as a number, as 12*{p in "
+                   "MPa} for an area of 12 mm^2");
   }
 
 

@@ -13,6 +13,7 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <sstream>
 
 namespace SlipStep
@@ -35,6 +36,31 @@ namespace SlipStep
         return name.find(word) != std::string::npos;
       });
     }
+
+    // "fz act" is "fz": which of several it is does not make it another
+    // quantity.
+    std::string without_qualifier(const std::string &name)
+    {
+      static const std::set<std::string> qualifiers = {"set",
+                                                       "soll",
+                                                       "target",
+                                                       "nominal",
+                                                       "act",
+                                                       "actual",
+                                                       "ist",
+                                                       "meas",
+                                                       "measured",
+                                                       "gemessen",
+                                                       "avg",
+                                                       "mean"};
+      const std::size_t                  at         = name.find_last_of(" _.");
+      return at != std::string::npos && at > 0 &&
+                 qualifiers.count(name.substr(at + 1)) > 0 ?
+               name.substr(0, at) :
+               name;
+    }
+
+
 
     // "Displ [mm]", "displacement_mm", "Time, s", "Weg in mm", "F / N".
     void
@@ -261,7 +287,7 @@ namespace SlipStep
       for (const std::string &word : words.words)
         points += seen.name.find(word) != std::string::npos ? 4 : 0;
       for (const std::string &label : words.labels)
-        points += seen.name == label ? 4 : 0;
+        points += without_qualifier(seen.name) == label ? 4 : 0;
       const bool varies = seen.most > seen.least;
       if (known.has_value() && dimension != Dimension::force)
         points += 3;

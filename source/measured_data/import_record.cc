@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/import_record.h>
+#include <slipstep/measured_data/odd_rows.h>
 #include <slipstep/measured_data/record_parts.h>
 #include <slipstep/measured_data/resample.h>
 #include <slipstep/measured_data/sensor_zero.h>
@@ -297,6 +298,13 @@ namespace SlipStep
       if (key == tangential)
         {
           std::vector<double> load = normal_load();
+          // Where the normal load varies, the quotient does not repeat itself.
+          if (const auto found = repeated_value(result);
+              found.has_value() && range_of(load) > 0.)
+            doubts.push_back(
+              "the tangential load" + axis + " [N] " + found->words +
+              " (first: line " +
+              std::to_string(table.line(selected[found->first])) + ")");
           const auto area = constant("Constants/Area", Dimension::area, true);
           if (load.empty() && !area.has_value())
             map.reject("Columns/" + tangential,

@@ -25,6 +25,98 @@ namespace SlipStep
 
   namespace
   {
+    // Noise turns at two of three rows; rows of a value that is in question say
+    // nothing.
+    bool scatters_elsewhere(const std::vector<double> &values,
+                            const double               repeated)
+    {
+      constexpr std::size_t least_rows = 20;
+      constexpr double      share      = 0.3;
+
+      std::size_t n = 0, n_turns = 0;
+      for (std::size_t i = 1; i + 1 < values.size(); ++i)
+        {
+          if (values[i - 1] == repeated || values[i] == repeated ||
+              values[i + 1] == repeated)
+            continue;
+          ++n;
+          n_turns +=
+            (values[i] - values[i - 1]) * (values[i + 1] - values[i]) < 0.;
+        }
+      return n >= least_rows && n_turns > share * n;
+    }
+
+
+
+    // The largest size that is there, of a series that stays on it far more
+    // often than on the one before: 0 if it does not.
+    double limit_of(const std::vector<double> &values, const std::size_t least)
+    {
+      constexpr double more_often = 5.;
+
+      std::map<double, std::size_t> n_of_size;
+      for (const double value : values)
+        ++n_of_size[std::abs(value)];
+      if (n_of_size.size() < 3)
+        return 0.;
+      const auto        largest = std::prev(n_of_size.end());
+      const std::size_t n       = largest->second;
+      return n >= least && n >= more_often * std::prev(largest)->second ?
+               largest->first :
+               0.;
+    }
+  } // namespace
+
+
+
+  std::optional<RepeatedValue> repeated_value(const std::vector<double> &values)
+  {
+    constexpr double      share = 0.02;
+    constexpr std::size_t few   = 10;
+    const std::size_t     least =
+      std::max<std::size_t>(few, std::ceil(share * values.size()));
+
+    const double limit = limit_of(values, least);
+    if (limit > 0. && scatters_elsewhere(values, limit) &&
+        scatters_elsewhere(values, -limit))
+      {
+        const auto is_at_limit = [&](const double value) {
+          return std::abs(value) == limit;
+        };
+        return RepeatedValue{
+          "is exactly " + rounded_text(limit, 6) + " in " +
+            std::to_string(
+              std::count_if(values.begin(), values.end(), is_at_limit)) +
+            " rows and never more, while other rows scatter: was the sensor at "
+            "its limit?",
+          static_cast<std::size_t>(
+            std::find_if(values.begin(), values.end(), is_at_limit) -
+            values.begin())};
+      }
+    std::size_t first = 0, longest = 0;
+    for (std::size_t begin = 0, end = 0; begin < values.size(); begin = end)
+      {
+        while (end < values.size() && values[end] == values[begin])
+          ++end;
+        if (end - begin > longest)
+          {
+            first   = begin;
+            longest = end - begin;
+          }
+      }
+    if (longest < least || !scatters_elsewhere(values, values[first]))
+      return {};
+    return RepeatedValue{"is exactly " + rounded_text(values[first], 6) +
+                           " in " + std::to_string(longest) +
+                           " rows one after the other, while other rows "
+                           "scatter: was the sensor dead?",
+                         first};
+  }
+
+
+
+  namespace
+  {
     class OddRows
     {
     public:
@@ -41,7 +133,7 @@ namespace SlipStep
 
       void warn_of_jumps() const;
 
-      void warn_of_limits() const;
+      void warn_of_sensors() const;
 
     private:
       void warn_of_strays(const std::string         &name,
@@ -201,45 +293,16 @@ namespace SlipStep
 
 
 
-    // A sensor at its limit: the largest value again and again, far more often
-    // than the one before it, in a record that scatters elsewhere.
-    void OddRows::warn_of_limits() const
+    // Without pressure there is no friction, and no noise of it.
+    void OddRows::warn_of_sensors() const
     {
-      constexpr std::size_t least_rows = 10;
-      constexpr double      share = 0.02, more_often = 5., scatters = 0.3;
-
-      const std::vector<double>    &values = test.friction;
-      std::map<double, std::size_t> n_of_size;
-      for (const double value : values)
-        ++n_of_size[std::abs(value)];
-      if (n_of_size.size() < 3)
-        return;
-      const auto        largest = std::prev(n_of_size.end());
-      const std::size_t n       = largest->second;
-      if (n < least_rows || n < share * values.size() ||
-          n < more_often * std::prev(largest)->second)
-        return;
-      // Noise turns at two of three rows.
-      std::size_t n_triples = 0, n_turns = 0, first = 0;
-      for (std::size_t i = 1; i + 1 < values.size(); ++i)
-        {
-          const bool is_free =
-            std::max({std::abs(values[i - 1]),
-                      std::abs(values[i]),
-                      std::abs(values[i + 1])}) < largest->first;
-          n_triples += is_free;
-          n_turns +=
-            is_free &&
-            (values[i] - values[i - 1]) * (values[i + 1] - values[i]) < 0.;
-        }
-      while (std::abs(values[first]) < largest->first)
-        ++first;
-      if (n_triples >= 2 * least_rows && n_turns > scatters * n_triples)
-        warn("friction is exactly " + rounded_text(largest->first, 6) + " in " +
-               std::to_string(n) +
-               " rows and never more, while other rows scatter: was the sensor "
-               "at its limit?",
-             first);
+      for (const auto &[name, values] :
+           {std::pair{"friction", &test.friction},
+            std::pair{"friction_y", &test.friction_y},
+            std::pair{"pressure", &test.pressure}})
+        if (const auto found = repeated_value(*values);
+            found.has_value() && test.pressure[found->first] > 0.)
+          warn(std::string(name) + " " + found->words, found->first);
     }
   } // namespace
 
@@ -251,7 +314,7 @@ namespace SlipStep
   {
     const OddRows rows(test, warn);
     rows.warn_of_scales();
-    rows.warn_of_limits();
+    rows.warn_of_sensors();
     rows.warn_of_pauses();
     rows.warn_of_jumps();
   }

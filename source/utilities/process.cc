@@ -259,6 +259,15 @@ namespace SlipStep
 
 
 
+  std::chrono::steady_clock::time_point deadline_after(const double seconds)
+  {
+    using Clock = std::chrono::steady_clock;
+    return Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                            std::chrono::duration<double>(seconds));
+  }
+
+
+
   ResourceUsage ResourceUsage::now()
   {
     ResourceUsage usage;

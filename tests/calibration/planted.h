@@ -6,6 +6,8 @@
 #include <slipstep/calibration/simulator.h>
 #include <slipstep/measured_data/measured_test.h>
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <filesystem>
 #include <random>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "../experiment/point_run.h"
+#include "tests/temporary_folder.h"
 
 namespace SlipStep
 {
@@ -101,6 +104,42 @@ namespace SlipStep
                                          random,
                                          power,
                                          kept));
+    }
+
+
+
+    /// The constants of the source paper, its coefficients as read at 1 mm/min.
+    inline const Settings paper = {{"Friction/Static coefficient", "0.0899"},
+                                   {"Friction/softening/Kinetic coefficient",
+                                    "0.0766"}};
+
+    inline const char *const four =
+      "Friction/Static coefficient from 0.05 to 0.2 start 0.1; "
+      "Friction/softening/Kinetic coefficient from 0.03 to 0.2 start 0.08; "
+      "Friction/softening/Rate from 0.005 to 1 start 0.1; "
+      "Friction/overstress/Exponent from 5 to 50 start 15";
+
+
+
+    class Planted : public testing::Test
+    {
+    protected:
+      Parameters fitting(const Settings &more) const
+      {
+        Settings settings = paper;
+        settings.emplace_back("Calibration/Tests", folder.path().string());
+        settings.insert(settings.end(), more.begin(), more.end());
+        return calibration_case(settings);
+      }
+
+      TemporaryFolder folder;
+    };
+
+
+
+    inline double truth_of(const std::string &path)
+    {
+      return calibration_case(paper).number(path);
     }
   } // namespace Testing
 } // namespace SlipStep

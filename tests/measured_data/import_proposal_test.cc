@@ -290,6 +290,12 @@ namespace
      "0,0,0,5,0\n1,1,0.9,5,0.1\n2,2,1.9,5,0.1\n",
      {"Columns/Displacement = Position act [mm] in mm"},
      {}},
+    {"forces_set_and_actual.csv",
+     "t [s],x [mm],Fx_meas [N],Fz set [kN],Fz act [kN]\n"
+     "0,0,0,1,1.01\n1,1,100,1,0.99\n2,2,101,1,1.01\n",
+     {"Columns/Tangential load = Fx_meas [N] in N",
+      "Columns/Normal load = Fz act [kN] in kN"},
+     {}},
     {"nameless.csv",
      "t [s],d [mm],p [MPa],signal\n0,0,10,0\n1,1,10,20\n2,2,10,20\n",
      {"? Columns/Friction = column 4"},

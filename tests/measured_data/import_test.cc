@@ -17,72 +17,12 @@
 
 #include "tests/file_text.h"
 #include "tests/temporary_folder.h"
+#include "imported.h"
 
 using namespace SlipStep;
+using namespace SlipStep::Testing;
 
-namespace
-{
-  namespace fs = std::filesystem;
-
-  fs::path write(const std::string &name, const std::string &text)
-  {
-    std::ofstream(test_folder() / name, std::ios::binary) << text;
-    return test_folder() / name;
-  }
-
-  // "Columns/Time = t" lines become a map.
-  Parameters
-  map_of(const std::vector<std::pair<std::string, std::string>> &settings)
-  {
-    Parameters map;
-    declare_import_parameters(map);
-    for (const auto &[path, value] : settings)
-      map.set(path, value, "--set");
-    return map;
-  }
-
-  MeasuredTest import_test(const Parameters &map, const fs::path &raw)
-  {
-    const auto tests = import_record(map, {raw, {}}, raw.stem().string());
-    EXPECT_EQ(tests.size(), 1u);
-    return tests.front();
-  }
-
-  std::string message(const Parameters &map, const fs::path &raw)
-  {
-    try
-      {
-        import_test(map, raw);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
-  }
-
-  const std::vector<std::pair<std::string, std::string>> simple = {
-    {"Columns/Time", "t in s"},
-    {"Columns/Displacement", "x in mm"},
-    {"Columns/Friction", "mu"},
-    {"Constants/Pressure", "5 MPa"}};
-
-  std::vector<std::pair<std::string, std::string>>
-  simple_with(const std::string &path, const std::string &value)
-  {
-    auto settings = simple;
-    for (auto &setting : settings)
-      if (setting.first == path)
-        {
-          setting.second = value;
-          return settings;
-        }
-    settings.emplace_back(path, value);
-    return settings;
-  }
-} // namespace
-
-
+namespace fs = std::filesystem;
 
 TEST(Import, LoadsUnitsSignsAndConstants)
 {
@@ -247,20 +187,10 @@ TEST(Import, ResampledRecordsKeepTheirNoise)
 
 namespace
 {
-  std::vector<MeasuredTest>
-  parts(const std::vector<std::pair<std::string, std::string>> &settings,
-        const fs::path                                         &raw)
+  std::vector<MeasuredTest> parts(const ImportSettings &settings,
+                                  const fs::path       &raw)
   {
     return import_record(map_of(settings), {raw, {}}, raw.stem().string());
-  }
-
-  void expect_refused(const std::vector<std::pair<std::string, std::string>> &s,
-                      const fs::path    &raw,
-                      const std::string &words)
-  {
-    const std::string text = message(map_of(s), raw);
-    EXPECT_NE(text.find(words), std::string::npos) << text;
-    EXPECT_EQ(text.find("column1"), std::string::npos) << text;
   }
 
   // Triangular strokes of 1 mm in 10 s with a rest of 2 s at every end; a force
@@ -285,16 +215,13 @@ namespace
     return write(name, text);
   }
 
-  const std::vector<std::pair<std::string, std::string>> of_strokes = {
-    {"Columns/Time", "t [s]"},
-    {"Columns/Displacement", "x [mm]"},
-    {"Columns/Tangential load", "F [N]"},
-    {"Constants/Normal load", "10 N"},
-    {"Constants/Area", "4 mm^2"}};
+  const ImportSettings of_strokes = {{"Columns/Time", "t [s]"},
+                                     {"Columns/Displacement", "x [mm]"},
+                                     {"Columns/Tangential load", "F [N]"},
+                                     {"Constants/Normal load", "10 N"},
+                                     {"Constants/Area", "4 mm^2"}};
 
-  std::vector<std::pair<std::string, std::string>>
-  and_also(std::vector<std::pair<std::string, std::string>>        settings,
-           const std::vector<std::pair<std::string, std::string>> &more)
+  ImportSettings and_also(ImportSettings settings, const ImportSettings &more)
   {
     settings.insert(settings.end(), more.begin(), more.end());
     return settings;
@@ -303,71 +230,49 @@ namespace
 
 
 
-// A seal takes its part of the force: F - 20 mm^2 p, with 10 bar = 1 MPa.
-TEST(Import, ColumnsCanBeFormulas)
+// Full scale of the tangential load, 16 N, does not show in its quotient with a
+// normal load that scatters.
+TEST(Import, ALoadCellAtItsLimitIsTold)
 {
-  const auto raw = write("raw.csv",
-                         "t,x (um),F [kN],p,N,U\n"
-                         "0,0,0.02,10,100,1\n1,500,0.03,10,100,2\n"
-                         "2,1000,0.04,20,,3\n3,1500,0.04,20,100,3\n");
-  const auto test =
-    import_test(map_of(
-                  {{"Columns/Time", "60*{t in min} in s"},
-                   {"Columns/Displacement", "{x (um)}"},
-                   {"Columns/Friction", "({F [kN]} - 20*{p in bar})/{N in N}"},
-                   {"Columns/Pressure", "{p in bar} + 0.5 in MPa"},
-                   {"Columns/Temperature", "20 + 10*{U as recorded} in degC"}}),
-                raw);
-  EXPECT_EQ(test.time, std::vector<double>({0., 3600., 10800.}));
-  EXPECT_EQ(test.displacement, std::vector<double>({0., 0.5, 1.5}));
-  EXPECT_EQ(test.pressure, std::vector<double>({1.5, 1.5, 2.5}));
-  ASSERT_EQ(test.friction.size(), 3u);
-  EXPECT_NEAR(test.friction[0], 0., 1e-15);
-  EXPECT_NEAR(test.friction[1], 0.1, 1e-15);
-  EXPECT_NEAR(test.friction[2], 0., 1e-15);
-  EXPECT_EQ(test.temperature, std::vector<double>({30., 40., 50.}));
-}
-
-
-
-TEST(Import, MistakesInFormulasAreNamed)
-{
-  const auto raw  = write("raw.csv", "t,x,F,N\n0,0,0,1\n1,1,0.1,1\n");
-  const auto with = [](const std::string &formula) {
-    return simple_with("Columns/Friction", formula);
-  };
-  EXPECT_EQ(message(map_of(with("{F in N}/{N in N}")), raw), "");
-  expect_refused(with("{F}/{N in N}"), raw, "the unit is missing");
-  expect_refused(with("{F in V}/{N in N}"), raw, "as recorded");
-  expect_refused(with("{G in N}/{N in N}"), raw, "has no column 'G'");
-  expect_refused(with("{F in N}/{N in N"), raw, "a } is missing");
-  expect_refused(with("{F in N}/N"), raw, "columns stand in braces");
-  expect_refused(with("0,5*{F in N}"), raw, "separates nothing");
-  expect_refused(with("{F in N}*({N in N}"), raw, "columns stand in braces");
-  expect_refused(with("{F in N} in N"), raw, "a plain number has no unit");
-  expect_refused(with("{F in N}/0"), raw, "not finite");
+  std::mt19937                     random(3);
+  std::normal_distribution<double> noise;
+  std::string                      text = "t,x,F,N\n";
+  for (int i = 0; i < 200; ++i)
+    text += std::to_string(0.1 * i) + "," + std::to_string(0.01 * i) + "," +
+            std::to_string(std::min(16., 15. + noise(random))) + "," +
+            std::to_string(100. + noise(random)) + "\n";
+  const auto raw  = write("limited.csv", text);
+  const auto test = import_test(map_of({{"Columns/Time", "t in s"},
+                                        {"Columns/Displacement", "x in mm"},
+                                        {"Columns/Tangential load", "F in N"},
+                                        {"Columns/Normal load", "N in N"},
+                                        {"Constants/Area", "50 mm^2"}}),
+                                raw);
+  ASSERT_EQ(test.warnings.size(), 1u);
+  EXPECT_NE(test.warnings[0].find("tangential load [N] is exactly 16 in "),
+            std::string::npos)
+    << test.warnings[0];
 }
 
 
 
 TEST(Import, UnitsHaveALineAndThousandsAMark)
 {
-  const auto raw = write("raw.txt",
+  const auto raw  = write("raw.txt",
                          "Messung 7\n"
-                         "Zeit;Weg;Kraft;Last\n"
-                         "[s];[\xC2\xB5m];N;kN\n"
-                         "0,0;0;0;1,5\n"
-                         "0,5;1.000,5;150;1,5\n"
-                         "1,0;2.001,0;1.500,00;1,5\n");
-  auto       map = std::vector<std::pair<std::string, std::string>>{
-          {"Raw file/Header line", "2"},
-          {"Raw file/Units line", "3"},
-          {"Raw file/Thousands mark", "point"},
-          {"Columns/Time", "Zeit"},
-          {"Columns/Displacement", "Weg"},
-          {"Columns/Tangential load", "Kraft"},
-          {"Columns/Normal load", "Last"},
-          {"Constants/Area", "1 cm^2"}};
+                          "Zeit;Weg;Kraft;Last\n"
+                          "[s];[\xC2\xB5m];N;kN\n"
+                          "0,0;0;0;1,5\n"
+                          "0,5;1.000,5;150;1,5\n"
+                          "1,0;2.001,0;1.500,00;1,5\n");
+  auto       map  = ImportSettings{{"Raw file/Header line", "2"},
+                            {"Raw file/Units line", "3"},
+                            {"Raw file/Thousands mark", "point"},
+                            {"Columns/Time", "Zeit"},
+                            {"Columns/Displacement", "Weg"},
+                            {"Columns/Tangential load", "Kraft"},
+                            {"Columns/Normal load", "Last"},
+                            {"Constants/Area", "1 cm^2"}};
   const auto test = import_test(map_of(map), raw);
   EXPECT_EQ(test.displacement, std::vector<double>({0., 1.0005, 2.001}));
   EXPECT_EQ(test.friction, std::vector<double>({0., 0.1, 1.}));

@@ -464,3 +464,28 @@ TEST(TestRows, ASensorAtItsLimitIsTold)
                   row[3] = 0.005 * std::round(30. + noise(random) / 0.005);
               }).warnings.empty());
 }
+
+
+
+// A channel that stays on its last value; before it is pressed it may.
+TEST(TestRows, ADeadSensorIsTold)
+{
+  std::mt19937                     random(9);
+  std::normal_distribution<double> noise(0., 0.005);
+  const auto stuck = [&](const int column, const int begin, const int end) {
+    double last = 0.;
+    return slide_with([&](const int i, double(&row)[4]) {
+      row[3] = 0.15 + noise(random);
+      row[2] *= 1. + noise(random);
+      if (i < begin || i >= end)
+        last = row[column];
+      row[column] = i < begin || i >= end ? row[column] : last;
+      if (column == 3 && begin == 0 && i < end)
+        row[2] = row[3] = 0.;
+    });
+  };
+  expect_warning(stuck(3, 40, 70), "friction is exactly ");
+  expect_warning(stuck(2, 60, 200), "pressure is exactly ");
+  EXPECT_TRUE(stuck(3, 60, 66).warnings.empty());
+  EXPECT_TRUE(stuck(3, 0, 30).warnings.empty());
+}

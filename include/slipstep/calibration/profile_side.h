@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <utility>
@@ -27,6 +28,10 @@ namespace SlipStep
                       const double                               first_distance,
                       const double                               room);
 
+  /// Thrown where a profile takes too long.
+  struct OutOfTime
+  {};
+
   /// One side of a profile likelihood: a parameter is moved away from the
   /// optimum while all others are fitted again, until the misfit has risen by
   /// the threshold.
@@ -45,17 +50,21 @@ namespace SlipStep
     /// @param slopes of all scaled parameters, per distance, to first order
     /// @param threshold of the misfit above that of the optimum
     /// @param sign 1 upwards, -1 downwards
-    ProfileSide(const Refit           &refit,
-                const Fitted          &optimum,
-                const Eigen::VectorXd &slopes,
-                const std::size_t      parameter,
-                const double           threshold,
-                const int              sign);
+    /// @param deadline beyond which nothing is fitted
+    ProfileSide(const Refit                                &refit,
+                const Fitted                               &optimum,
+                const Eigen::VectorXd                      &slopes,
+                const std::size_t                           parameter,
+                const double                                threshold,
+                const int                                   sign,
+                const std::chrono::steady_clock::time_point deadline);
 
     /// @param first_distance a guess [scaled]
+    /// @throws OutOfTime
     void follow(const double first_distance);
 
     /// More places, shares of the distance to the end, for a picture.
+    /// @throws OutOfTime
     void look_at(const std::vector<double> &shares);
 
     /// (scaled, rise over threshold)
@@ -75,15 +84,16 @@ namespace SlipStep
 
     std::map<double, Fitted>::const_iterator first_beyond() const;
 
-    const Refit       refit;
-    const Fitted      optimum;
-    const std::size_t parameter;
-    const int         sign;
-    const double      threshold;
-    const double      start;
-    const double      room;
-    Eigen::VectorXd   slopes;
-    double            least_rise = 0.;
+    const Refit                                 refit;
+    const Fitted                                optimum;
+    const std::size_t                           parameter;
+    const int                                   sign;
+    const double                                threshold;
+    const std::chrono::steady_clock::time_point deadline;
+    const double                                start;
+    const double                                room;
+    Eigen::VectorXd                             slopes;
+    double                                      least_rise = 0.;
     /// By distance; their misfit is the rise over the threshold.
     std::map<double, Fitted> fitted;
   };

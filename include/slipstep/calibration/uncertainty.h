@@ -97,10 +97,18 @@ namespace SlipStep
 
   /// Move one parameter away from the optimum while all others are fitted
   /// again, until the misfit has risen by the threshold, on both sides.
-  Profile profile(const Simulator     &planned,
-                  const Linearisation &optimum,
-                  const unsigned int   parameter,
-                  const double         confidence);
+  /// @throws OutOfTime behind the deadline
+  Profile profile(const Simulator                            &planned,
+                  const Linearisation                        &optimum,
+                  const unsigned int                          parameter,
+                  const double                                confidence,
+                  const std::chrono::steady_clock::time_point deadline =
+                    std::chrono::steady_clock::time_point::max());
+
+  /// The interval that the curvature at the optimum alone gives.
+  Profile symmetric_profile(const Linearisation &optimum,
+                            const unsigned int   parameter,
+                            const double         confidence);
 } // namespace SlipStep
 
 #endif

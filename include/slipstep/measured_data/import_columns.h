@@ -63,9 +63,10 @@ namespace SlipStep
     /// A column of the file that a key uses.
     struct Source
     {
-      std::string    label; ///< its name in the table
-      std::size_t    position;
-      UnitConversion conversion;
+      std::string              label; ///< its name in the table
+      std::size_t              position;
+      UnitConversion           conversion;
+      std::optional<Dimension> dimension; ///< none: the bare number
     };
 
     /// What the values of a key are made of.
@@ -100,6 +101,15 @@ namespace SlipStep
                        const Dimension    dimension);
 
     Recipe read_formula(const ColumnKey &key);
+
+    static bool fits_units(const Recipe             &recipe,
+                           const std::vector<double> arguments,
+                           const Dimension           dimension);
+
+    /// @throws InputError if the result of a formula has units of another kind
+    void check_units(const Recipe      &recipe,
+                     const std::string &text,
+                     const ColumnKey   &key) const;
 
     const Parameters             &map;
     CsvTable                     &table;

@@ -5,14 +5,29 @@
 #include <slipstep/measured_data/measured_test.h>
 
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace SlipStep
 {
   /// What nearly all values (95 %) are below, in size.
   double usual_size(std::vector<double> values);
 
+  /// What a sensor repeats as no noise would.
+  struct RepeatedValue
+  {
+    std::string words; ///< "is exactly 5 in 80 rows ..."
+    std::size_t first; ///< row
+  };
+
+  /// A value at the limit of a series, again and again, or one that lasts, in a
+  /// series that scatters elsewhere; nothing in most.
+  std::optional<RepeatedValue>
+  repeated_value(const std::vector<double> &values);
+
   /// Tell of what no laboratory measures: scales, stray rows, jumps of position
-  /// and clock, sensors at their limit.
+  /// and clock, sensors at their limit or dead.
   /// @param warn told what, and the first row of it
   void warn_of_odd_rows(
     const MeasuredTest                                                &test,

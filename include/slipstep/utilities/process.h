@@ -86,6 +86,9 @@ namespace SlipStep
     struct sigaction old_interrupt, old_terminate, old_user;
   };
 
+  /// The point of time that many seconds from now.
+  std::chrono::steady_clock::time_point deadline_after(const double seconds);
+
   /// Wall and processor time and memory of this process so far.
   struct ResourceUsage
   {

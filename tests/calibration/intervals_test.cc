@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Intervals of fitted parameters end where they say, and hold the truth.
+
+#include <slipstep/calibration/fit.h>
+#include <slipstep/calibration/profile_side.h>
+#include <slipstep/calibration/uncertainty.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include "planted.h"
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+
+
+// Without noise the optimum is the truth.
+// Without time for profiles: one start, and the intervals of the curvature,
+// which are nearly those of the profiles where the tests tell so much.
+TEST_F(Planted, IntervalsAreSymmetricWhereNoTimeIsLeft)
+{
+  plant(
+    folder.path(), calibration_case(paper), {1., 10., 50., 200.}, 300, 5e-4, 1);
+  const Calibration whole =
+    calibrate(fitting({{"Calibration/Parameters", four}}));
+  const Calibration late  = calibrate(fitting(
+    {{"Calibration/Parameters", four}, {"Calibration/Most time", "1 us"}}));
+  const auto        words = [](const Calibration &found) {
+    std::string all;
+    for (const std::string &warning : found.warnings)
+      all += warning + '\n';
+    return all;
+  };
+  EXPECT_EQ(words(whole).find("Most time"), std::string::npos);
+  EXPECT_NE(words(late).find("3 of 4 starts began"), std::string::npos)
+    << words(late);
+  EXPECT_NE(words(late).find("the intervals of"), std::string::npos);
+  for (std::size_t i = 0; i < whole.parameters.size(); ++i)
+    {
+      const FittedParameter &followed = whole.parameters[i];
+      const FittedParameter &guessed  = late.parameters[i];
+      const double           width    = followed.upper - followed.lower;
+      EXPECT_NEAR(guessed.value, followed.value, 0.02 * width);
+      EXPECT_NEAR(guessed.lower, followed.lower, 0.1 * width);
+      EXPECT_NEAR(guessed.upper, followed.upper, 0.1 * width);
+      EXPECT_NE(words(late).find(guessed.parameter.path), std::string::npos);
+    }
+}
+
+
+
+// Of few and noisy rows the fits of a profile fall from one optimum of the
+// other parameters to another one: that is no end of an interval.
+TEST_F(Planted, IntervalsDoNotEndAtAJump)
+{
+  const Settings law = {{"Friction/Static coefficient", "0.3"},
+                        {"Friction/softening/Kinetic coefficient", "0.22"},
+                        {"Friction/softening/Rate", "0.5"},
+                        {"Friction/overstress/Viscosity", "500"},
+                        {"Friction/overstress/Exponent", "12"},
+                        {"Friction/subloading/Rate", "50"},
+                        {"Friction/Tangential stiffness", "500"},
+                        {"Calibration/Tests", folder.path().string()},
+                        {"Calibration/Starts", "1"},
+                        {"Calibration/Parameters",
+                         "Friction/Static coefficient from 0.02 to 3; "
+                         "Friction/softening/Rate from 0.005 to 50; "
+                         "Friction/overstress/Viscosity from 1 to 1e6; "
+                         "Friction/subloading/Rate from 1 to 1e4"}};
+  for (unsigned int seed = 1; seed <= 3; ++seed)
+    {
+      plant(folder.path(),
+            calibration_case(law),
+            {0.6, 6., 60.},
+            5,
+            4e-3,
+            seed,
+            2.);
+      const Calibration found = calibrate(calibration_case(law));
+      for (const FittedParameter &fitted : found.parameters)
+        for (std::size_t i = 1; i < fitted.profile.size(); ++i)
+          {
+            const auto [x0, rise0] = fitted.profile[i - 1];
+            const auto [x1, rise1] = fitted.profile[i];
+            const bool is_open =
+              rise0 < 1. ? fitted.is_upper_open : fitted.is_lower_open;
+            const bool is_end = (rise0 < 1.) != (rise1 < 1.) && !is_open;
+            EXPECT_FALSE(is_end && std::abs(x1 / x0 - 1.) < 1e-3 &&
+                         std::abs(rise1 - rise0) > 0.3)
+              << fitted.parameter.path << ", seed " << seed << ": " << x0 << " "
+              << rise0 << ", " << x1 << " " << rise1;
+          }
+    }
+}
+
+
+
+// 100 repetitions with other noise, white and such that 0.8 of a row is what
+// the row before it had.
+class IntervalsCover : public Planted
+{};
+
+TEST_F(IntervalsCover, TheTruthAsOftenAsTheySay)
+{
+  const Parameters truth = calibration_case(paper);
+  const auto       fitted =
+    fitting({{"Calibration/Parameters", four}, {"Calibration/Starts", "1"}});
+  for (const double kept : {0., 0.8})
+    {
+      std::vector<unsigned> n_covered(4, 0);
+      for (unsigned int repetition = 0; repetition < 100; ++repetition)
+        {
+          plant(folder.path(),
+                truth,
+                {1., 20., 200.},
+                120,
+                1e-3,
+                1 + repetition,
+                100.,
+                1.,
+                kept);
+          const Calibration found = calibrate(fitted);
+          for (std::size_t i = 0; i < 4; ++i)
+            {
+              const FittedParameter &parameter = found.parameters[i];
+              const double           value = truth_of(parameter.parameter.path);
+              n_covered[i] +=
+                parameter.lower <= value && value <= parameter.upper;
+            }
+        }
+      for (std::size_t i = 0; i < 4; ++i)
+        {
+          EXPECT_GE(n_covered[i], kept == 0. ? 93u : 92u) << i << ", " << kept;
+          RecordProperty("covered_" + std::to_string(i), n_covered[i]);
+          std::cout << "covered " << n_covered[i] << " of 100\n";
+        }
+    }
+}
+
+
+
+// Load cells and specimens differ from test to test by more than rows scatter.
+TEST_F(IntervalsCover, TheTruthWhereGainsDiffer)
+{
+  const Parameters truth = calibration_case(paper);
+  const auto       fitted =
+    fitting({{"Calibration/Parameters", four}, {"Calibration/Starts", "1"}});
+  for (const unsigned int n_replicates : {1u, 2u})
+    {
+      constexpr unsigned int           n_repetitions = 20;
+      unsigned int                     n_covered = 0, n_warned = 0;
+      std::mt19937                     random(11);
+      std::normal_distribution<double> gain(1., 0.005);
+      for (unsigned int repetition = 0; repetition < n_repetitions;
+           ++repetition)
+        {
+          unsigned int n = 0;
+          for (unsigned int replicate = 0; replicate < n_replicates;
+               ++replicate)
+            for (const double speed : {1., 20., 200.})
+              {
+                MeasuredTest test =
+                  planted_test(truth, speed / 60., 100., 120, 1e-3, random);
+                const double factor = gain(random);
+                for (double &friction : test.friction)
+                  friction *= factor;
+                write_measured_test(folder.path() /
+                                      ("test_" + std::to_string(n++) + ".csv"),
+                                    test);
+              }
+          const Calibration found = calibrate(fitted);
+          for (const FittedParameter &parameter : found.parameters)
+            {
+              const double value = truth_of(parameter.parameter.path);
+              n_covered += parameter.lower <= value && value <= parameter.upper;
+            }
+          for (const std::string &warning : found.warnings)
+            n_warned +=
+              warning.find("differ from one another") != std::string::npos;
+        }
+      RecordProperty("covered_" + std::to_string(n_replicates), n_covered);
+      std::cout << "covered " << n_covered << " of " << 4 * n_repetitions
+                << ", warned " << n_warned << " of " << n_repetitions << "\n";
+      // A third of them by the rows alone.
+      EXPECT_GE(n_covered, 62u) << n_replicates;
+      EXPECT_GE(n_warned, 18u) << n_replicates;
+    }
+}
+
+
+
+// What the law refuses nothing contradicts: the interval is open there, and one
+// parameter alone is no exception.
+TEST_F(Planted, AnIntervalIsOpenWhereTheLawRefusesMore)
+{
+  plant(folder.path(), calibration_case(paper), {1.}, 12, 2e-2, 5, 5.);
+  for (const std::string more :
+       {"", "; Friction/softening/Rate from 0.04 to 0.05"})
+    {
+      const Calibration      found   = calibrate(fitting(
+        {{"Calibration/Parameters",
+                 "Friction/softening/Kinetic coefficient from 0.05 to 0.3" + more}}));
+      const FittedParameter &kinetic = found.parameters.front();
+      EXPECT_TRUE(kinetic.is_upper_open);
+      EXPECT_LE(kinetic.upper, 0.0899 * (1. + 1e-9));
+      EXPECT_GE(kinetic.upper, kinetic.value);
+    }
+}
+
+
+
+// Of a profile: where it ends the misfit has risen by the threshold, with all
+// others fitted again; asserted by an independent search.
+TEST_F(Planted, IntervalsEndWhereTheMisfitHasRisen)
+{
+  plant(folder.path(), calibration_case(paper), {1., 20., 200.}, 200, 1e-3, 7);
+  const Campaign  campaign(fitting({{"Calibration/Parameters", four}}));
+  Simulator       simulator(campaign);
+  const FitResult best =
+    fit(simulator, campaign.scaled_start(), all_parameters(campaign));
+  simulator.plan(best.scaled);
+  std::vector<TestMisfit> tests;
+  const Linearisation     optimum = linearise(simulator, best.scaled, tests);
+  EXPECT_NEAR(optimum.threshold(0.95, 0) / optimum.inflation, 3.86, 0.02);
+  for (unsigned int i = 0; i < 4; ++i)
+    {
+      const Profile followed = profile(simulator, optimum, i, 0.95);
+      for (const double end : {followed.lower, followed.upper})
+        {
+          std::vector<double> scaled = optimum.scaled;
+          scaled[i]                  = end;
+          std::vector<unsigned int> others;
+          for (unsigned int j = 0; j < 4; ++j)
+            if (j != i)
+              others.push_back(j);
+          const FitResult there = fit(simulator, scaled, others, 0);
+          EXPECT_NEAR((there.misfit - optimum.misfit) /
+                        optimum.threshold(0.95, i),
+                      1.,
+                      0.05);
+        }
+    }
+}
+
+
+
+// The rate of subloading in records without a row in the rise: any that is
+// large enough fits as well, and from one value on the misfit rises steeply.
+TEST_F(Planted, AnIntervalEndsWhereTheInfluenceBegins)
+{
+  plant(folder.path(), calibration_case(paper), {1., 20., 200.}, 500, 1e-4, 7);
+  const Campaign campaign(
+    fitting({{"Calibration/Parameters",
+              "Friction/Static coefficient from 0.05 to 0.2; "
+              "Friction/subloading/Rate from 1 to 5000 start 200"}}));
+  Simulator       simulator(campaign);
+  const FitResult best =
+    fit(simulator, campaign.scaled_start(), all_parameters(campaign));
+  simulator.plan(best.scaled);
+  std::vector<TestMisfit> tests;
+  const Linearisation     optimum  = linearise(simulator, best.scaled, tests);
+  const Profile           followed = profile(simulator, optimum, 1, 0.95);
+  EXPECT_TRUE(followed.is_upper_open);
+  ASSERT_FALSE(followed.is_lower_open);
+  const double threshold = optimum.threshold(0.95, 1);
+  const double end =
+    fit(simulator, {best.scaled[0], followed.lower}, {0}, 0).misfit;
+  EXPECT_NEAR((end - optimum.misfit) / threshold, 1., 0.1);
+}
+
+
+
+// Of a process of first order with parameter a: (1 + a) / (1 - a).
+TEST(CorrelationLength, OfNoiseAndOfAProcessOfFirstOrder)
+{
+  std::mt19937                     random(1);
+  std::normal_distribution<double> normal;
+  std::vector<double>              white(20000), red(20000);
+  double                           state = 0.;
+  for (std::size_t i = 0; i < white.size(); ++i)
+    {
+      white[i] = normal(random);
+      state    = 0.8 * state + normal(random);
+      red[i]   = state;
+    }
+  EXPECT_NEAR(correlation_length(white.data(), white.size()), 1., 0.1);
+  EXPECT_NEAR(correlation_length(red.data(), red.size()), 9., 1.);
+  // An offset is off together all along.
+  const std::vector<double> offset(1000, 0.3);
+  EXPECT_GT(correlation_length(offset.data(), offset.size()), 300.);
+}
