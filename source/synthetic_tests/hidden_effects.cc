@@ -33,11 +33,11 @@ namespace SlipStep
     const std::vector<HiddenEffectKind> &hidden_effects(const Formula formula)
     {
       static const std::map<Formula, std::vector<HiddenEffectKind>> effects = {
-        {Formula::catalogue, catalogue_effects()},
-        {Formula::alternative, other_formulas()},
-        {Formula::outside, outside_effects()},
-        {Formula::third, third_formulas()},
-        {Formula::joint, joint_effects()}};
+        {Formula::catalogue, catalogue_effects},
+        {Formula::alternative, other_formulas},
+        {Formula::outside, outside_effects},
+        {Formula::third, third_formulas},
+        {Formula::joint, joint_effects}};
       return effects.at(formula);
     }
 

@@ -101,6 +101,46 @@ namespace SlipStep
 
 
 
+    void TrueContact::multiply(const OfInstant &factor)
+    {
+      influences.push_back(
+        {[=](const Instant &now, double) { return factor(now); }, {}, {}, {}});
+    }
+
+
+
+    void TrueContact::add(const OfInstant &addition)
+    {
+      influences.push_back({{}, addition, {}, {}});
+    }
+
+
+
+    void TrueContact::multiply_at_speed(const OfNumber &factor)
+    {
+      multiply([=](const Instant &now) { return factor(now.slip_rate); });
+      influences.back().depends_on_slip_rate = true;
+    }
+
+
+
+    void TrueContact::add_at_speed(const OfNumber &addition)
+    {
+      add([=](const Instant &now) { return addition(now.slip_rate); });
+      influences.back().depends_on_slip_rate = true;
+    }
+
+
+
+    void TrueContact::remember(const OfMemory &rate,
+                               const OfMemory &factor,
+                               const OfNumber &first)
+    {
+      influences.push_back({factor, {}, rate, first});
+    }
+
+
+
     namespace
     {
       /// Places in the vector of unknowns. Behind them stands what the
@@ -231,7 +271,7 @@ namespace SlipStep
             if (influence.factor)
               factor *= influence.factor(now, memory);
             if (influence.addition)
-              sum += influence.addition(now, memory);
+              sum += influence.addition(now);
           }
         return now.pressure * now.coefficient * factor + sum;
       }

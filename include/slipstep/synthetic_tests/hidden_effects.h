@@ -10,13 +10,10 @@ namespace SlipStep
 {
   namespace Planting
   {
-    /// @name The effects, file by file.
+    /// @name The effects. What a seed draws depends on their order.
     ///@{
-    std::vector<HiddenEffectKind> catalogue_effects();
-    std::vector<HiddenEffectKind> other_formulas();
-    std::vector<HiddenEffectKind> outside_effects();
-    std::vector<HiddenEffectKind> third_formulas();
-    std::vector<HiddenEffectKind> joint_effects();
+    extern const std::vector<HiddenEffectKind> catalogue_effects, joint_effects,
+      other_formulas, third_formulas, outside_effects;
     ///@}
 
     /// What a usual campaign reaches: an amplitude is the change of friction
@@ -45,6 +42,14 @@ namespace SlipStep
     inline double either_sign(Random &random)
     {
       return uniform(random, -1., 1.) < 0. ? -1. : 1.;
+    }
+
+    /// A share of the usual friction [MPa].
+    inline double usual_friction(const TrueContact &contact,
+                                 const double       share = 1.)
+    {
+      return share * Reach::reference_pressure *
+             contact.coefficient.kinetic_coefficient;
     }
 
     /// The share of G by which strength may fall per factor e of slip rate:

@@ -34,20 +34,22 @@ namespace SlipStep
       double                progress;      ///< of the campaign, 0 to 1
     };
 
+    /// @name Functions.
+    ///@{
+    using OfNumber  = std::function<double(double)>;
+    using OfInstant = std::function<double(const Instant &)>;
+    using OfMemory  = std::function<double(const Instant &, double memory)>;
+    ///@}
+
     /// Something that changes the strength, and may remember one number:
     /// \f[ \tau_y = p \mu\,G_1 G_2 \cdots + c_1 + c_2 + \cdots. \f]
-    /// Each function gets that number, if there is one.
     struct Influence
     {
-      /// The factor G.
-      std::function<double(const Instant &, double memory)> factor;
-      /// The addition c [MPa].
-      std::function<double(const Instant &, double memory)> addition;
-      /// Rate of what is remembered [1/s].
-      std::function<double(const Instant &, double memory)> memory_rate;
-      /// What is remembered at the start, under a pressure [MPa].
-      std::function<double(double pressure)> first_memory;
-      bool                                   depends_on_slip_rate = false;
+      OfMemory  factor;       ///< G
+      OfInstant addition;     ///< c [MPa]
+      OfMemory  memory_rate;  ///< of what is remembered [1/s]
+      OfNumber  first_memory; ///< under the first pressure [MPa]
+      bool      depends_on_slip_rate = false;
     };
 
     /// Which mathematics an effect is planted with.
@@ -71,6 +73,8 @@ namespace SlipStep
       std::string unit;
     };
 
+    using Truth = std::vector<TruthParameter>;
+
     struct TrueContact;
 
     /// An effect that can be hidden in a contact.
@@ -81,9 +85,8 @@ namespace SlipStep
       /// Change a contact.
       /// @param amplitude largest relative change of friction within a usual
       ///   campaign, about; 0: none
-      std::function<std::vector<TruthParameter>(TrueContact &contact,
-                                                const double amplitude,
-                                                Random      &random)>
+      std::function<
+        Truth(TrueContact &contact, const double amplitude, Random &random)>
         add;
       /// Of the campaigns that draw it: what a seed hides stays the same when
       /// an effect is added, with the next number.

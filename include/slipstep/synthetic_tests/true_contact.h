@@ -71,6 +71,21 @@ namespace SlipStep
 
       std::vector<Influence> influences;
 
+      /// @name Give the strength a factor G or an addition c [MPa].
+      ///@{
+      void multiply(const OfInstant &factor);
+      void add(const OfInstant &addition);
+      /// Of the slip rate [mm/s], which follows from the strength in turn.
+      void multiply_at_speed(const OfNumber &factor);
+      void add_at_speed(const OfNumber &addition);
+      /// A factor that gets a number which the contact remembers.
+      /// @param rate of that number [1/s]
+      /// @param first its value under the first pressure [MPa]; 0 if empty
+      void remember(const OfMemory &rate,
+                    const OfMemory &factor,
+                    const OfNumber &first = {});
+      ///@}
+
       /// @name Elliptic cone: ratio of the axes, angle of the first [rad].
       ///@{
       double anisotropy_ratio = 1.;
