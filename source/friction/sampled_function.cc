@@ -2,6 +2,8 @@
 #include <deal.II/base/numbers.h>
 
 #include <slipstep/friction/sampled_function.h>
+#include <slipstep/utilities/formula.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,5 +162,77 @@ namespace SlipStep
     if (!sampler.sample())
       return {};
     return SampledFunction(std::move(sampler.x), std::move(sampler.values));
+  }
+
+
+
+  namespace
+  {
+    ParsedFormula read_formula(const Parameters  &parameters,
+                               const std::string &key)
+    {
+      try
+        {
+          return ParsedFormula(parameters.text(key), "x");
+        }
+      catch (const InputError &error)
+        {
+          parameters.reject(key, error.what());
+        }
+    }
+
+
+
+    // The value at x, if it is allowed.
+    std::function<double(double)> checked_formula(const Parameters  &parameters,
+                                                  const std::string &key)
+    {
+      const ParsedFormula formula = read_formula(parameters, key);
+      return [&parameters, key, formula](const double x) {
+        const double result = formula(x);
+        if (!(result >= 1e-6 && result <= 1e6))
+          parameters.reject(key,
+                            "its value " + rounded_text(result, 6) +
+                              " at x = " + rounded_text(x, 6) +
+                              " is not between 1e-6 and 1e6");
+        return result;
+      };
+    }
+  } // namespace
+
+
+
+  SampledFunction SampledFunction::of_section(const Parameters  &parameters,
+                                              const std::string &section)
+  {
+    const double from = parameters.number(section + "From");
+    const double to   = parameters.number(section + "To");
+    if (!(from < to))
+      parameters.reject(section + "To", "must be greater than From");
+    const auto sampled =
+      of(checked_formula(parameters, section + "Formula"), from, to);
+    if (!sampled.has_value())
+      parameters.reject(section + "Formula",
+                        "it varies too quickly between From and To: more than "
+                        "64000 samples would be needed; state the range that "
+                        "the tests or the programme reach");
+    return *sampled;
+  }
+
+
+
+  void SampledFunction::check_section(const Parameters  &parameters,
+                                      const std::string &section)
+  {
+    const std::string key = section + "Formula";
+    const auto        missed =
+      of_section(parameters, section).missed(checked_formula(parameters, key));
+    if (missed.has_value())
+      parameters.reject(key,
+                        "it changes within much less than From to To, near x "
+                        "= " +
+                          rounded_text(*missed, 6) +
+                          "; state the range that the tests or the programme "
+                          "reach");
   }
 } // namespace SlipStep

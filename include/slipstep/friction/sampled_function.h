@@ -3,6 +3,7 @@
 #define slipstep_friction_sampled_function_h
 
 #include <slipstep/friction/effect.h>
+#include <slipstep/utilities/parameters.h>
 
 #include <math.h> // for the next, which forgets it
 
@@ -10,6 +11,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace SlipStep
@@ -45,6 +47,18 @@ namespace SlipStep
     /// By how much the function, which is positive, leaves between two places
     /// what it is at both, as a share of that.
     double excursion(const double a, const double b) const;
+
+    /// The key Formula of a section, of x between its keys From and To, with
+    /// values between 1e-6 and 1e6.
+    /// @param section "Friction/expression/"
+    /// @throws InputError
+    static SampledFunction of_section(const Parameters  &parameters,
+                                      const std::string &section);
+
+    /// Whether the samples of that have missed something narrow.
+    /// @throws InputError
+    static void check_section(const Parameters  &parameters,
+                              const std::string &section);
 
   private:
     SampledFunction(std::vector<double> x, std::vector<double> samples);
