@@ -98,6 +98,8 @@ C     The stress of the start comes in the axes of today.
      1 D_SLIP,D_PRESSURE,MESSAGE,INT(512,C_SIZE_T))
       IF (FAILED.NE.0) THEN
 C       A shorter increment may have a solution.
+        WRITE(7,'(A)') 'slipstep: '//
+     1   MESSAGE(1:INDEX(MESSAGE//C_NULL_CHAR,C_NULL_CHAR)-1)
         PNEWDT=0.25D0
         RETURN
       END IF

@@ -6,6 +6,7 @@
 #include <slipstep/law_library/slipstep_friction.h>
 #include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/message_lines.h>
+#include <slipstep/utilities/text.h>
 
 #include <unistd.h>
 
@@ -46,39 +47,136 @@ namespace SlipStep
       message[size - 1] = '\0';
     }
 
-    /// Both stages of a step.
-    ContactState step(const FrictionLaw          &law,
-                      const ContactState         &start,
-                      const dealii::Tensor<1, 2> &slip,
-                      const double                pressure,
-                      const double                time_step)
+    /// A step from one state to another, in parts within which slip and
+    /// pressure change evenly.
+    class PartedStep
     {
-      constexpr double share = TwoStages::gamma;
-      ContactPoint     point(start);
+    public:
+      PartedStep(const FrictionLaw  &law,
+                 const ContactState &start,
+                 const double        time_step)
+        : law(law)
+        , start(start)
+        , time_step(time_step)
+      {}
+
+      /// Find parts so short that the estimated error of each is small: an
+      /// increment of a host program may be as long as a contact needs to
+      /// relax, or to unload.
+      ContactState find_parts(const dealii::Tensor<1, 2> &slip,
+                              const double                pressure)
+      {
+        return find_parts(start, 0., 1., slip, pressure);
+      }
+
+      /// The same parts for other increments.
+      ContactState repeat(const dealii::Tensor<1, 2> &slip,
+                          const double                pressure) const;
+
+    private:
+      ContactState find_parts(const ContactState         &from,
+                              const double                begin,
+                              const double                end,
+                              const dealii::Tensor<1, 2> &slip,
+                              const double                pressure);
+
+      // Both stages of a part.
+      ContactPoint part(const ContactState         &from,
+                        const double                begin,
+                        const double                end,
+                        const dealii::Tensor<1, 2> &slip,
+                        const double                pressure) const;
+
+      const FrictionLaw  &law;
+      const ContactState  start;
+      const double        time_step;
+      std::vector<double> ends; ///< of the parts, as shares of the step
+    };
+
+
+
+    ContactPoint PartedStep::part(const ContactState         &from,
+                                  const double                begin,
+                                  const double                end,
+                                  const dealii::Tensor<1, 2> &slip,
+                                  const double                pressure) const
+    {
+      const auto pressure_at = [&](const double share) {
+        return (1. - share) * start.normal_traction + share * pressure;
+      };
+      const double stage = TwoStages::gamma * (end - begin);
+      ContactPoint point(from);
       point.update(law,
-                   share * slip,
-                   (1. - share) * start.normal_traction + share * pressure,
-                   share * time_step);
+                   stage * slip,
+                   pressure_at(begin + stage),
+                   stage * time_step);
       point.begin_second_stage(law);
-      point.update(law, share * slip, pressure, share * time_step);
-      return point.trial();
+      point.update(law, stage * slip, pressure_at(end), stage * time_step);
+      return point;
     }
+
+
+
+    // By halves: where a host's iteration varies an increment a little, the
+    // parts stay, and the tangent is that of what is computed.
+    ContactState PartedStep::find_parts(const ContactState         &from,
+                                        const double                begin,
+                                        const double                end,
+                                        const dealii::Tensor<1, 2> &slip,
+                                        const double                pressure)
+    {
+      // A little more than what slipstep itself allows, so that its own steps
+      // stay whole; where friction jumps no part is short enough.
+      constexpr double      allowed = 1e-3, shortest = 1e-9;
+      constexpr std::size_t most_parts = 100000;
+
+      const ContactPoint tried = part(from, begin, end, slip, pressure);
+      if (tried.error(law).at_end <= allowed || end - begin < shortest)
+        {
+          if (ends.size() == most_parts)
+            throw RunError("the step is too long: more than 100000 parts");
+          ends.push_back(end);
+          return tried.trial();
+        }
+      const double middle = 0.5 * (begin + end);
+      return find_parts(find_parts(from, begin, middle, slip, pressure),
+                        middle,
+                        end,
+                        slip,
+                        pressure);
+    }
+
+
+
+    ContactState PartedStep::repeat(const dealii::Tensor<1, 2> &slip,
+                                    const double                pressure) const
+    {
+      ContactState state = start;
+      double       begin = 0.;
+      for (const double end : ends)
+        {
+          state = part(state, begin, end, slip, pressure).trial();
+          begin = end;
+        }
+      return state;
+    }
+
+
 
     /// Distances for differences: a millionth of what makes a difference.
     constexpr double difference = 1e-6;
 
     void differentiate(const slipstep_law         &law,
-                       const ContactState         &start,
+                       const PartedStep           &step,
                        const dealii::Tensor<1, 2> &slip,
                        const double                pressure,
-                       const double                time_step,
                        const ContactState         &end,
                        double                     *d_slip,
                        double                     *d_pressure)
     {
       const auto traction = [&](const dealii::Tensor<1, 2> &at_slip,
                                 const double                at_pressure) {
-        return step(law.law, start, at_slip, at_pressure, time_step).traction;
+        return step.repeat(at_slip, at_pressure).traction;
       };
       if (d_slip != nullptr)
         {
@@ -106,6 +204,30 @@ namespace SlipStep
             d_pressure[i] = slope[i];
         }
     }
+
+    bool is_finite(const double *const numbers, const std::size_t n)
+    {
+      return std::all_of(numbers, numbers + n, [](const double x) {
+        return std::isfinite(x);
+      });
+    }
+
+
+
+    // What no step leaves behind.
+    void check_state(const ContactState &state)
+    {
+      if (!(state.coefficient > 0.))
+        throw InputError("the state has a coefficient of friction of " +
+                         rounded_text(state.coefficient, 4) +
+                         ": the first one is slipstep_initial_state()'s");
+      if (state.normal_traction < 0. || state.strength < 0.)
+        throw InputError("the state has a negative pressure or strength");
+      if (state.normal_traction == 0. && state.traction.norm() > 0.)
+        throw InputError("the state has a traction without pressure");
+    }
+
+
 
     slipstep_law *read(const std::filesystem::path &file,
                        char                        *message,
@@ -243,9 +365,7 @@ int slipstep_step(const slipstep_law *const law,
   try
     {
       const ContactState first = law->numbers.read(start);
-      if (!std::all_of(start,
-                       start + slipstep_state_size(law),
-                       [](const double x) { return std::isfinite(x); }))
+      if (!is_finite(start, law->numbers.size()))
         throw InputError("the state has a number that is not finite");
       if (!std::isfinite(slip[0]) || !std::isfinite(slip[1]) ||
           !std::isfinite(pressure))
@@ -253,19 +373,23 @@ int slipstep_step(const slipstep_law *const law,
       if (!(time_step > 0.) || !std::isfinite(time_step))
         throw InputError("the time step has to be positive");
       const dealii::Tensor<1, 2> increment({slip[0], slip[1]});
-      const ContactState         last =
-        step(law->law, first, increment, pressure, time_step);
-      double slopes[6] = {0., 0., 0., 0., 0., 0.};
+      check_state(first);
+      PartedStep         step(law->law, first, time_step);
+      const ContactState last      = step.find_parts(increment, pressure);
+      double             slopes[6] = {0., 0., 0., 0., 0., 0.};
       if (pressure > 0. && (d_slip != nullptr || d_pressure != nullptr))
         differentiate(*law,
-                      first,
+                      step,
                       increment,
                       pressure,
-                      time_step,
                       last,
                       d_slip == nullptr ? nullptr : slopes,
                       d_pressure == nullptr ? nullptr : slopes + 4);
-      law->numbers.write(last, end);
+      std::vector<double> numbers(law->numbers.size());
+      law->numbers.write(last, numbers.data());
+      if (!is_finite(numbers.data(), numbers.size()) || !is_finite(slopes, 6))
+        throw RunError("slip or pressure are too large for this program");
+      std::copy(numbers.begin(), numbers.end(), end);
       for (unsigned int i = 0; i < 2; ++i)
         traction[i] = last.traction[i];
       if (d_slip != nullptr)

@@ -334,6 +334,131 @@ TEST(LawLibraryStep, TangentsPredictNearbySteps)
 
 
 
+namespace
+{
+  /// A point of the law of `flat_surface_test` that has slid 0.5 mm at 1 mm/min
+  /// under 5.8 MPa.
+  class SlidingPoint : public testing::Test
+  {
+  protected:
+    void SetUp() override
+    {
+      law = slipstep_law_read(
+        exported("flat_surface_test", "--variant \"1 mm/min\"", "law").c_str(),
+        nullptr,
+        0);
+      ASSERT_NE(law, nullptr);
+      state.resize(slipstep_state_size(law));
+      slipstep_initial_state(law, state.data());
+      for (unsigned int i = 0; i < 500; ++i)
+        friction = step(state, 1e-3, 5.8, 0.06);
+    }
+
+    void TearDown() override
+    {
+      slipstep_law_free(law);
+    }
+
+    /// The coefficient at the end; minus what the step returns if it fails.
+    double step(std::vector<double> &from,
+                const double         slip,
+                const double         pressure,
+                const double         time_step)
+    {
+      const double slips[2] = {slip, 0.};
+      double       traction[2];
+      const int    failed = slipstep_step(law,
+                                       from.data(),
+                                       slips,
+                                       pressure,
+                                       time_step,
+                                       from.data(),
+                                       traction,
+                                       nullptr,
+                                       nullptr,
+                                       message,
+                                       300);
+      return failed != 0 ? -failed : traction[0] / pressure;
+    }
+
+    /// At the end of a way that is made in n steps.
+    double in_steps(const unsigned int n,
+                    const double       slip,
+                    const double       pressure,
+                    const double       time)
+    {
+      std::vector<double> from = state;
+      double              last = 0.;
+      for (unsigned int i = 1; i <= n; ++i)
+        last = step(from, slip / n, 5.8 + (pressure - 5.8) * i / n, time / n);
+      return last;
+    }
+
+    slipstep_law       *law = nullptr;
+    std::vector<double> state;
+    double              friction     = 0.;
+    char                message[300] = "";
+  };
+} // namespace
+
+
+
+// Rest, unloading, reversal and slower sliding, in one step of a host program
+// or in many: friction relaxes to the strength and not below, and does not turn
+// round.
+TEST_F(SlidingPoint, AStepMayBeOfAnyLength)
+{
+  for (const auto &[slip, pressure, time] :
+       std::vector<std::array<double, 3>>{{{0., 5.8, 10.}},
+                                          {{0., 5.8, 1e6}},
+                                          {{0., 0.05, 1.}},
+                                          {{0., 1e-6, 1.}},
+                                          {{-0.01, 5.8, 1.}},
+                                          {{-1e-6, 5.8, 100.}},
+                                          {{1e-3, 5.8, 600.}},
+                                          {{5., 40., 1e-3}}})
+    {
+      const double exact = in_steps(20000, slip, pressure, time);
+      for (const unsigned int n : {1u, 7u, 100u})
+        EXPECT_NEAR(in_steps(n, slip, pressure, time), exact, 3e-3 * friction)
+          << n << " steps of " << slip << " mm, " << pressure << " MPa, "
+          << time << " s";
+    }
+  EXPECT_GT(in_steps(1, 0., 0.05, 1.), 0.);
+}
+
+
+
+TEST_F(SlidingPoint, WhatNoStepLeavesBehindIsRefused)
+{
+  const auto before = state;
+  EXPECT_EQ(step(state, 1e200, 5.8, 1.), -1.);
+  EXPECT_EQ(state, before);
+
+  std::vector<double> none(state.size(), 0.);
+  EXPECT_EQ(step(none, 0.1, 5.8, 1.), -1.);
+  EXPECT_TRUE(contains(message, "slipstep_initial_state"));
+  for (int i = 0; i < slipstep_state_size(law); ++i)
+    {
+      const std::string name = slipstep_state_name(law, i);
+      auto              bad  = state;
+      if (name == "mu" || name == "normal_traction_MPa" ||
+          name == "strength_MPa")
+        {
+          bad[i] = -1.;
+          EXPECT_EQ(step(bad, 0.1, 5.8, 1.), -1.) << name;
+        }
+      if (name == "normal_traction_MPa")
+        {
+          bad[i] = 0.;
+          EXPECT_EQ(step(bad, 0.1, 5.8, 1.), -1.);
+          EXPECT_TRUE(contains(message, "without pressure"));
+        }
+    }
+}
+
+
+
 TEST(LawLibraryStep, WhatIsWrongIsToldAndChangesNothing)
 {
   char message[300] = "";

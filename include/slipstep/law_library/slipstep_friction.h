@@ -57,7 +57,9 @@ double slipstep_tangential_stiffness(const slipstep_law *law);
 double slipstep_normal_stiffness(const slipstep_law *law);
 
 /** A step in which slip and pressure change evenly, by the two implicit stages
- * that slipstep makes.
+ * that slipstep makes: in parts, if need be, so short that the error estimated
+ * of each is at most a thousandth of the strength. So steps may be of any
+ * length.
  * @param law the law
  * @param start state before the step
  * @param slip increment of the relative displacement in the plane [mm]
@@ -69,8 +71,8 @@ double slipstep_normal_stiffness(const slipstep_law *law);
  *   differences; NULL if not needed
  * @param d_pressure d traction[i] / d pressure; NULL if not needed
  * @param message,size see above
- * @return 0, or 1 for arguments that have no meaning and for steps that have
- *   no solution; nothing is written then */
+ * @return 0, or 1 for arguments that have no meaning, states that no step
+ *   leaves behind and steps that have no solution; nothing is written then */
 int slipstep_step(const slipstep_law *law,
                   const double       *start,
                   const double        slip[2],
