@@ -3,7 +3,9 @@
 #include <slipstep/calibration/calibrate.h>
 #include <slipstep/calibration/fit.h>
 #include <slipstep/calibration/profile_side.h>
+#include <slipstep/experiment/stability.h>
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>
@@ -31,6 +33,8 @@ namespace SlipStep
       Calibrator(const Parameters &parameters, const Report &progress);
 
       Calibration run();
+
+      std::string reason_of_jumps() const;
 
     private:
       void search();
@@ -110,6 +114,22 @@ namespace SlipStep
       const std::lock_guard<std::mutex> lock(mutex);
       if (progress)
         progress(text, share);
+    }
+
+
+
+    // "; sliding at 1 mm/s has no stable branch", with the values of the case.
+    std::string Calibrator::reason_of_jumps() const
+    {
+      std::vector<double> speeds;
+      for (const CampaignTest &test : campaign.tests)
+        if (const double speed = mean_speed(test.rows); speed > 0.)
+          speeds.push_back(speed);
+      const std::string why =
+        why_no_branch(FrictionLaw(campaign.parameters),
+                      speeds,
+                      typical_pressure(campaign.tests.front().rows));
+      return (why.empty() ? "" : "; ") + why;
     }
 
 
@@ -616,7 +636,16 @@ namespace SlipStep
 
   Calibration calibrate(const Parameters &parameters, const Report &progress)
   {
-    return Calibrator(parameters, progress).run();
+    Calibrator calibrator(parameters, progress);
+    try
+      {
+        return calibrator.run();
+      }
+    catch (const RunError &error)
+      {
+        throw_if_stopped();
+        throw RunError(error.what() + calibrator.reason_of_jumps());
+      }
   }
 
 

@@ -14,8 +14,6 @@ namespace SlipStep
   {
     std::string why_not_testable(const CandidateView &seen)
     {
-      if (!seen.failure.empty())
-        return "it could not be simulated: " + seen.failure;
       if (seen.ways.empty())
         return "nothing changes in these tests";
       if (seen.score.free_length <= 0.)
@@ -44,6 +42,18 @@ namespace SlipStep
           result.standing = seen.candidate.is_in_model ?
                               Standing::in_the_model :
                               Standing::not_testable;
+        }
+      else if (!seen.failure.empty())
+        {
+          result.why      = seen.failure;
+          result.standing = Standing::not_simulated;
+        }
+      else if (std::count(judgement.found.lost.begin(),
+                          judgement.found.lost.end(),
+                          result.name) > 0)
+        {
+          result.why      = "no fit with it could be simulated";
+          result.standing = Standing::not_simulated;
         }
       else if (!result.is_testable)
         {
@@ -112,7 +122,8 @@ namespace SlipStep
       const CandidateView &seen = judgement.view.candidates[c];
       results[c]                = seen_result(seen, judgement, workspace.level);
       add_found(judgement.found, parameters, workspace.level, results[c]);
-      if (results[c].standing == Standing::not_testable &&
+      if (rank(results[c]) == Standing::not_testable &&
+          results[c].standing != Standing::in_the_model &&
           !seen.candidate.formulas.empty())
         {
           Model own = base.copy();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/candidate_scores.h>
+#include <slipstep/experiment/stability.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +37,18 @@ namespace SlipStep
 
 
 
+    // "" if sliding at the speeds of the tests is stable.
+    std::string why_unstable(const Model &model, const TestedRange &range)
+    {
+      return why_no_branch(FrictionLaw(model.simulator->with(model.scaled)),
+                           {range.slowest,
+                            std::sqrt(range.slowest * range.fastest),
+                            range.fastest},
+                           range.highest);
+    }
+
+
+
     // Changes of friction by one formula of a candidate at unit strength.
     // Returns why there are none, if it cannot be simulated.
     std::string add_directions(const Workspace        &workspace,
@@ -56,6 +70,11 @@ namespace SlipStep
                               unity,
                               workspace.tests,
                               &model);
+          const std::string why = formula.along == "log10 speed" ?
+                                    why_unstable(trial, workspace.range) :
+                                    "";
+          if (!why.empty() && why_unstable(model, workspace.range).empty())
+            return why;
           trial.simulator->subtract(model.simulator->with(model.scaled));
           for (std::size_t s = 0; s < formula.shapes.size(); ++s)
             {
@@ -142,8 +161,11 @@ namespace SlipStep
               view.set.directions.push_back(direction);
           view.candidates[c].candidate = candidates[c];
           view.candidates[c].number    = c;
-          if (found[c].empty())
-            view.candidates[c].failure = failures[c];
+          if (!found[c].empty())
+            continue;
+          view.candidates[c].failure = failures[c];
+          view.candidates[c].is_unstable =
+            failures[c].find(no_branch) != std::string::npos;
         }
       return view;
     }

@@ -37,6 +37,8 @@ namespace SlipStep
           return "not enough";
         case Standing::rejected:
           return "rejected";
+        case Standing::not_simulated:
+          return "not simulated";
         case Standing::not_testable:
           return "not testable";
         case Standing::in_the_model:

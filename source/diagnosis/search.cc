@@ -125,6 +125,8 @@ namespace SlipStep
           ++n_tried;
           const std::optional<Model> tried =
             refit_with(workspace, result.model, seen);
+          if (!tried.has_value() && result.model.parts.empty())
+            result.lost.push_back(seen.candidate.name);
           // Worse than without it: the fit was lost on its way.
           if (!tried.has_value() || tried->objective > result.model.objective)
             continue;
@@ -441,6 +443,7 @@ namespace SlipStep
           return result;
         }
       proven.gains = result.gains;
+      proven.lost  = result.lost;
       return proven;
     }
   } // namespace

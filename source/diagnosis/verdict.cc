@@ -179,6 +179,20 @@ namespace SlipStep
 
 
 
+    // Whether an effect that would make sliding jump was left out: what others
+    // take up of it is no evidence for them.
+    bool has_untried(const Workspace &workspace, const Model &model)
+    {
+      const View view = score_candidates(workspace, model);
+      return std::any_of(view.candidates.begin(),
+                         view.candidates.end(),
+                         [](const CandidateView &seen) {
+                           return seen.is_unstable;
+                         });
+    }
+
+
+
     // Whether names explain enough to be told.
     bool are_sufficient(Workspace &workspace, Judgement &judgement)
     {
@@ -189,7 +203,9 @@ namespace SlipStep
           !explains_by_itself(workspace, judgement))
         return false;
       judgement.is_incomplete = judgement.remainder.p <= workspace.level;
-      const bool is_enough    = !(judgement.is_incomplete &&
+      if (judgement.is_incomplete && has_untried(workspace, model))
+        return false;
+      const bool is_enough = !(judgement.is_incomplete &&
                                judgement.explained_share < sufficient_share) &&
                              !is_too_much(judgement.remainder, judgement.gap);
       return is_enough || remains_in_few_rows(workspace, judgement);
@@ -278,7 +294,10 @@ namespace SlipStep
         {
           look_for_names(weakened, again, first);
           if (again.found.gains.empty())
-            again.found.gains = judgement.found.gains;
+            {
+              again.found.gains = judgement.found.gains;
+              again.found.lost  = judgement.found.lost;
+            }
         }
       else
         {

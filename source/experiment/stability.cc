@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/stability.h>
+#include <slipstep/utilities/text.h>
 
 #include <boost/math/tools/roots.hpp>
 
@@ -329,6 +330,27 @@ namespace SlipStep
 
 
 
+  const char *const no_branch = " has no stable branch";
+
+
+
+  std::string why_no_branch(const FrictionLaw         &law,
+                            const std::vector<double> &speeds,
+                            const double               pressure)
+  {
+    for (const double speed : speeds)
+      {
+        const SteadySliding sliding(law, Tensor<1, 2>({speed, 0.}), pressure);
+        if (sliding.exists() && sliding.grows_at_once())
+          return "sliding at " + rounded_text(speed, 3) + " mm/s" + no_branch +
+                 ": friction falls with speed, and nothing in the model lets "
+                 "it rise at once, as effect overstress does";
+      }
+    return "";
+  }
+
+
+
   std::vector<std::string> instability_warnings(const FrictionLaw &law,
                                                 const Programme   &programme,
                                                 const Machine     &machine)
@@ -349,7 +371,7 @@ namespace SlipStep
 
         std::ostringstream text;
         text << std::setprecision(3) << "sliding at " << slide.velocity.norm()
-             << " mm/s under " << slide.pressure << " MPa has no stable branch";
+             << " mm/s under " << slide.pressure << " MPa" << no_branch;
         std::string effects;
         for (const std::string &name : law.weakening_effects(sliding.state()))
           effects += (effects.empty() ? "" : ", ") + name;

@@ -95,7 +95,15 @@ namespace SlipStep
                          fixed_text(candidate.left_out_gain, 1),
                          percent_text(candidate.minimum_detectable),
                          name_of(candidate.standing)});
-      return lines.size() > 1 ? "\n" + text_table(lines, terminal_width) : "";
+      if (lines.size() == 1)
+        return "";
+      std::string text = "\n" + text_table(lines, terminal_width);
+      for (const CandidateResult &candidate : diagnosis.candidates)
+        if (candidate.standing == Standing::not_simulated)
+          text += wrapped_text(candidate.name + ": " + candidate.why,
+                               2,
+                               terminal_width);
+      return text;
     }
 
     std::string parameters(const Diagnosis &diagnosis)

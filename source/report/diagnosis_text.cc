@@ -237,6 +237,22 @@ namespace SlipStep
       return text;
     }
 
+    /// "; stribeck could not be simulated with this model, and may be it"
+    std::string untried_words(const Diagnosis &diagnosis)
+    {
+      if (!diagnosis.has_gap ||
+          (diagnosis.verdict != Verdict::unnamed && !diagnosis.is_incomplete))
+        return "";
+      std::vector<std::string> names;
+      for (const CandidateResult &candidate : diagnosis.candidates)
+        if (candidate.standing == Standing::not_simulated)
+          names.push_back(candidate.name);
+      return names.empty() ? "" :
+                             "; " + list_text(names) +
+                               " could not be simulated with this model, and "
+                               "may be what is missing";
+    }
+
     // Each once, in quotes, the first three or so.
     std::vector<std::string> outlier_names(const std::vector<Outlier> &outliers,
                                            const bool                  are_rows)
@@ -342,7 +358,7 @@ namespace SlipStep
               " the stated noise is right (there are no replicates), ";
     return text + (is_doubted || is_stated ? words : capitalised(words)) +
            completed_words(diagnosis) + remainder_words(diagnosis) +
-           outlier_words(diagnosis.outliers) + ".";
+           untried_words(diagnosis) + outlier_words(diagnosis.outliers) + ".";
   }
 
 
@@ -424,12 +440,17 @@ namespace SlipStep
 
   std::string nothing_explains(const Diagnosis &diagnosis)
   {
-    if (!diagnosis.is_restricted)
-      return "no effect of the catalogue explains";
+    bool                     is_lost = false;
     std::vector<std::string> tried;
     for (const CandidateResult &candidate : diagnosis.candidates)
-      if (candidate.standing != Standing::in_the_model)
-        tried.push_back(candidate.name);
+      {
+        is_lost = is_lost || candidate.standing == Standing::not_simulated;
+        if (candidate.standing != Standing::in_the_model)
+          tried.push_back(candidate.name);
+      }
+    if (!diagnosis.is_restricted)
+      return std::string("no effect of the catalogue ") +
+             (is_lost ? "that could be simulated " : "") + "explains";
     return "none of the effects asked for (" + list_text(tried) + ") explains";
   }
 

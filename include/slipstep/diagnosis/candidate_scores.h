@@ -28,6 +28,8 @@ namespace SlipStep
     std::vector<Way> ways;
     Score            score;   ///< of the best
     std::string      failure; ///< why it could not be simulated
+    /// That is since friction would fall with speed, and sliding jump.
+    bool is_unstable = false;
     /// Chance of such a score among all candidates.
     double p = 1.;
     /// Smallest greatest change of friction that would have been seen at five

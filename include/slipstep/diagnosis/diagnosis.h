@@ -80,6 +80,7 @@ namespace SlipStep
     not_needed, ///< significant by itself, but with the names no more
     not_enough, ///< significant, but too much remains for a name
     rejected,
+    not_simulated,
     not_testable,
     in_the_model
   };

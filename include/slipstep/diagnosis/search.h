@@ -45,6 +45,8 @@ namespace SlipStep
     /// The objective of single additions to the starting model, for those that
     /// were fitted.
     std::vector<std::pair<std::string, double>> gains;
+    /// Those that were tried first, and that no fit could simulate.
+    std::vector<std::string> lost;
   };
 
   /// Add effects as long as they are needed, take away those that are not, and

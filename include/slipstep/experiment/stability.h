@@ -121,6 +121,16 @@ namespace SlipStep
   std::vector<std::string> instability_warnings(const FrictionLaw &law,
                                                 const Programme   &programme,
                                                 const Machine     &machine);
+
+  /// What words of sliding that nothing holds have in common.
+  extern const char *const no_branch;
+
+  /// The first of some speeds [mm/s] at which friction falls with speed and
+  /// nothing lets it rise at once, so that sliding jumps, in words; "" if there
+  /// is none.
+  std::string why_no_branch(const FrictionLaw         &law,
+                            const std::vector<double> &speeds,
+                            const double               pressure);
 } // namespace SlipStep
 
 #endif
