@@ -25,12 +25,12 @@ namespace SlipStep
 
     bool holds_results(const fs::path &folder)
     {
+      // Names that nobody else uses, where the marker got lost on the way.
       for (const char *name : {marker,
                                "summary.json",
-                               "history.csv",
-                               "used_parameters.prm",
                                "calibration.json",
-                               "report.html"})
+                               "diagnosis.json",
+                               "refinement.json"})
         if (fs::exists(folder / name))
           return true;
       return false;
@@ -160,7 +160,7 @@ namespace SlipStep
         ::close(descriptor);
         descriptor = -1;
         throw InputError(" is in use by slipstep " + owner + ", process " +
-                         process + ": wait for its end, or");
+                         process + ": wait for its end");
       }
     if (!owner.empty() && owner != command && !is_alone(folder))
       throw InputError(" holds results of slipstep " + owner +

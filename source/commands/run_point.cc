@@ -86,11 +86,10 @@ namespace SlipStep
       recorder.announce(reading.in_words());
     try
       {
-        const StepControl control(parameters, programme, law);
-        recorder.summary.rejected_steps = drive_point(
+        const StepControl control = drive_point(
           law,
           programme,
-          control,
+          StepControl(parameters, programme, law),
           [&](const HistoryRow &row) {
             recorder.record(row);
             if (SignalGuard::caught() != 0)
@@ -98,6 +97,9 @@ namespace SlipStep
             ++recorder.summary.newton_iterations;
           },
           machine);
+        recorder.summary.rejected_steps = control.n_rejected();
+        if (const std::string warning = control.warning(); !warning.empty())
+          recorder.summary.warnings.push_back(warning);
         recorder.finish();
       }
     catch (const RunError &error)

@@ -32,7 +32,7 @@ namespace SlipStep
       "Stiffness k of the machine between the load point, which the programme "
       "moves, and the contact point, or the driven faces of the block: "
       "tangential traction (of the block, load over nominal area of contact) "
-      "per displacement. 'rigid', or more than 0, in MPa/mm.");
+      "per displacement. 'rigid', or more than 0 and at most 1e15, in MPa/mm.");
     parameters.declare(
       mass_key,
       "0",
@@ -59,11 +59,12 @@ namespace SlipStep
                               std::string(stiffness_key) + ", too");
         return;
       }
-    const Quantity stiffness(Dimension::stiffness, 0., 1e30, true);
+    // Where round-off leaves nothing of a spring, rigid is meant.
+    const Quantity stiffness(Dimension::stiffness, 0., 1e15, true);
     if (!stiffness.match(text))
       parameters.reject(stiffness_key,
                         "must be 'rigid' or a stiffness greater than 0, such "
-                        "as 50 MPa/mm");
+                        "as 50 MPa/mm, and at most 1e15 MPa/mm");
     compliance = 1. / stiffness.value(text);
   }
 

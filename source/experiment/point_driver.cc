@@ -128,7 +128,7 @@ namespace SlipStep
 
 
 
-  unsigned int
+  StepControl
   drive_point(const FrictionLaw                             &law,
               const Programme                               &programme,
               StepControl                                    control,
@@ -200,6 +200,6 @@ namespace SlipStep
           row.probes = Machine::probes(slider, to.pressure);
         observe(row);
       }
-    return control.n_rejected();
+    return control;
   }
 } // namespace SlipStep

@@ -2,6 +2,7 @@
 #include <slipstep/experiment/step_control.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -277,6 +278,11 @@ namespace SlipStep
     ++accepted;
     tries = 0;
     count_step();
+    if (error > largest_error)
+      {
+        largest_error   = error;
+        time_of_largest = end;
+      }
     begin = end;
     if (begin >= programme.segments()[segment].end_time)
       {
@@ -290,6 +296,24 @@ namespace SlipStep
                                std::max(step, full_step) * std::min(ideal, 2.));
       }
     return true;
+  }
+
+
+
+  std::string StepControl::warning() const
+  {
+    constexpr double much = 0.2;
+
+    if (!(largest_error > much))
+      return "";
+    return "the steps are too long (" +
+           (equal_steps > 0 ?
+              equal_steps_key + (" = " + std::to_string(equal_steps)) :
+              "Time stepping/Tolerance = " + rounded_text(tolerance, 3)) +
+           "): friction is off by an estimated " + percent_text(largest_error) +
+           " of itself in the step that ends at t = " +
+           rounded_text(time_of_largest, 6) +
+           " s, and may be wrong from there on";
   }
 
 

@@ -591,10 +591,19 @@ namespace SlipStep
     const HistoryRow &last = history.back();
     summary.final_friction =
       along(last_direction, last.friction, last.friction_y);
-    summary.work       = last.external_work;
-    summary.stored     = last.stored_energy;
-    summary.kinetic    = last.kinetic_energy;
-    summary.dissipated = last.dissipated_energy;
+    summarise_energies(history, summary);
+  }
+
+
+
+  void summarise_energies(const std::vector<HistoryRow> &history,
+                          Summary                       &summary)
+  {
+    const HistoryRow &last = history.back();
+    summary.work           = last.external_work;
+    summary.stored         = last.stored_energy;
+    summary.kinetic        = last.kinetic_energy;
+    summary.dissipated     = last.dissipated_energy;
 
     // Of a closed elastic cycle only round-off is left at the end.
     double scale = 0.;

@@ -37,6 +37,23 @@ namespace SlipStep
 
 
 
+    // What was killed has not written its end.
+    void end_here(RunResults &run)
+    {
+      run.summary.status = "failed";
+      run.summary.steps  = run.history.size();
+      run.summary.reason = "it was killed, or still runs; so far it has no "
+                           "steps";
+      if (run.history.empty())
+        return;
+      run.summary.reason =
+        "it was killed, or still runs, and has come to t = " +
+        short_text(run.history.back().time, 6) + " s";
+      summarise_energies(run.history, run.summary);
+    }
+
+
+
     void shorten_labels(std::vector<RunResults> &runs)
     {
       std::map<std::string, std::size_t>    n_runs_with;
@@ -80,6 +97,8 @@ namespace SlipStep
           result.folder  = run.folder;
           result.summary = read_summary(run.folder / "summary.json");
           result.history = read_history(run.folder / "history.csv");
+          if (result.summary.status == "running")
+            end_here(result);
           if (result.history.size() < result.summary.steps)
             warnings.push_back(
               "run '" + run.label + "': history.csv has " +

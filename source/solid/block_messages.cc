@@ -266,7 +266,11 @@ namespace SlipStep
       message << "waves lift a block with density, or friction turns it; "
                  "slower statements or a 'Damping time' calm waves";
     else
-      message << "friction turns a block that is high for its length, or what "
+      message << (parameters.subdivisions[0] < 3 ?
+                    "a block of so few cells along its length turns early, "
+                    "take more Block/Subdivisions; else " :
+                    "")
+              << "friction turns a block that is high for its length, or what "
                  "holds and pulls its faces lifts it";
     message << ')';
     return message.str();
@@ -327,10 +331,12 @@ namespace SlipStep
       parameters.solver_for(dof_handler.n_dofs()) == SolverType::multigrid;
     std::vector<std::string> texts = {warning_of_loads(),
                                       warning_of_pressure(),
+                                      warning_of_penetration(),
                                       warning_of_map(strength_error),
                                       warning_of_opening(),
                                       warning_of_wear(),
                                       warning_of_solver(),
+                                      control.warning(),
                                       is_multigrid ?
                                         warning_of_subdivisions(parameters) :
                                         ""};
@@ -345,6 +351,31 @@ namespace SlipStep
     texts.push_back(warning_of_jump(largest_jump));
     texts.erase(std::remove(texts.begin(), texts.end(), ""), texts.end());
     return texts;
+  }
+
+
+
+  // The contact's own spring is to be short beside the block: a bed that gives
+  // lets a block tilt, and sink.
+  template <int dim>
+  std::string Block<dim>::warning_of_penetration() const
+  {
+    constexpr double small = 0.01;
+
+    double pressure = 0.;
+    for (const Segment &now : programme.segments())
+      pressure = std::max(pressure, now.end.pressure);
+    const double depth = pressure / contact.friction_law().normal_stiffness();
+    const double size =
+      *std::min_element(parameters.size.begin(), parameters.size.begin() + dim);
+    if (depth <= small * size)
+      return "";
+    return "under " + rounded_text(pressure, 3) + " MPa the block sinks " +
+           rounded_text(depth, 3) +
+           " mm into the plane, whose contact has a Friction/Normal stiffness "
+           "of " +
+           rounded_text(contact.friction_law().normal_stiffness(), 3) +
+           " MPa/mm only: it may tilt, and friction be another";
   }
 
 

@@ -249,8 +249,14 @@ TEST(OutputFolder, WithOtherFilesIsLeftAlone)
   EXPECT_FALSE(
     std::filesystem::exists(process.folder() / "thesis/history.csv"));
 
+  // A name that results have, too, is no reason to lose it.
+  process.write("thesis/history.csv", "precious\n");
+  expect_refusal(process.run({"point", "case.prm", "--output", "thesis"}),
+                 {"thesis", "no slipstep results"});
+  EXPECT_EQ(process.read("thesis/history.csv"), "precious\n");
+
   // The same folder with a result in it may be written again.
-  process.write("thesis/history.csv", "");
+  process.write("thesis/summary.json", "");
   EXPECT_EQ(process.run({"point", "case.prm", "--output", "thesis"}).exit_code,
             0);
 }

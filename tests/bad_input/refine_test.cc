@@ -190,7 +190,7 @@ TEST(Refine, reports_a_run_that_fails)
   const SlipstepProcess process;
   process.write("strip.prm", strip);
   std::filesystem::create_directories(process.folder() / "output/strip/refine");
-  process.write("output/strip/refine/used_parameters.prm", "");
+  process.write("output/strip/refine/.slipstep", "refine 1\n");
   process.write("output/strip/refine/uniform_1", "in the way");
   const auto result = process.run({"refine", "strip.prm"});
   EXPECT_NE(result.exit_code, 0);

@@ -265,6 +265,14 @@ TEST_F(Grid, IsComparedWithOtherResults)
                 history.substr(0, history.find('\n', history.size() / 2) + 1));
   EXPECT_TRUE(contains(process.run({"compare", "one", "--output", "cut"}).err,
                        "'one': history.csv has "));
+  // One that was killed has no end.
+  std::string summary = process.read("one/summary.json");
+  summary.replace(summary.find("finished"), 8, "running");
+  process.write("one/summary.json", summary);
+  EXPECT_TRUE(
+    contains(run({"compare", "one", "--output", "killed"}).out,
+             "one: failed: it was killed, or still runs, and has come "
+             "to t = "));
   fs::create_directory(process.folder() / "empty");
   refused({"empty"}, {"empty: it holds no results"});
   refused({"one", "./one/"}, {"named twice"});

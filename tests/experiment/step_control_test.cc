@@ -59,6 +59,43 @@ TEST(StepControl, EndsARunThatWouldHaveNone)
 
 
 
+// A rest that relaxes in one of few equal steps ends far below the strength.
+TEST(StepControl, WarnsOfStepsThatAreFarTooLong)
+{
+  const auto after = [](const Settings &more) {
+    const Parameters parameters = point_parameters(
+      Settings{{"Loading/Programme",
+                "press 5 MPa in 1 s; slide 1 mm/min for 0.5 mm; hold 10 s"},
+               {"Friction/Effects", "subloading, overstress, softening"}} +
+      more);
+    const FrictionLaw law(parameters);
+    const Programme   programme = parse_programme(parameters);
+    HistoryRow        last;
+    const StepControl control =
+      drive_point(law,
+                  programme,
+                  StepControl(parameters, programme, law),
+                  [&](const HistoryRow &row) { last = row; });
+    return std::pair(last.friction, control.warning());
+  };
+  const auto [friction, none] = after({});
+  EXPECT_EQ(none, "");
+  for (const Settings &coarse :
+       {Settings{{"Time stepping/Equal steps per statement", "10"}},
+        Settings{{"Time stepping/Tolerance", "1"},
+                 {"Time stepping/Least steps per statement", "1"}}})
+    {
+      const auto [wrong, warning] = after(coarse);
+      EXPECT_LT(wrong, 0.9 * friction);
+      EXPECT_TRUE(contains(warning, "the steps are too long (Time stepping/"))
+        << warning;
+    }
+  EXPECT_EQ(after({{"Time stepping/Equal steps per statement", "2000"}}).second,
+            "");
+}
+
+
+
 TEST(StepControl, WarnsBeforeSlidingThatNothingHolds)
 {
   const auto text = warnings(point_parameters(falling));

@@ -204,6 +204,19 @@ TEST(BlockProbes, displacements_are_in_space)
 
 
 
+// A soft contact is a bed that the block sinks into.
+TEST(BlockProbes, a_bed_that_gives_is_told)
+{
+  const auto soft = run_block_case<2>(make_parameters(
+    stuck(2) + Settings{{"Friction/Normal stiffness", "10 MPa/mm"}}));
+  ASSERT_FALSE(soft.summary.warnings.empty());
+  EXPECT_NE(soft.summary.warnings[0].find("sinks 0.5 mm into the plane"),
+            std::string::npos)
+    << soft.summary.warnings[0];
+}
+
+
+
 // A block as high as long, with much friction, lifts at its rear edge.
 TEST(BlockProbes, opening_of_the_contact_is_told)
 {

@@ -28,8 +28,8 @@ namespace SlipStep
   /// the displacement of the load point are those of the programme, and with a
   /// rigid machine the load point is the contact.
   /// @param observe called with the row of every step made
-  /// @return number of steps that were repeated smaller
-  unsigned int
+  /// @return the control, which has counted the steps
+  StepControl
   drive_point(const FrictionLaw                             &law,
               const Programme                               &programme,
               StepControl                                    control,

@@ -92,6 +92,9 @@ namespace SlipStep
     /// @throws RunError with @p reason if it is too small already
     void cut(const std::string &reason);
 
+    /// What to warn of: equal steps with errors that may be seen; else "".
+    std::string warning() const;
+
     unsigned int n_accepted() const
     {
       return accepted;
@@ -114,8 +117,8 @@ namespace SlipStep
     void serialize(Archive &archive, const unsigned int)
     {
       archive &segment &begin &end &largest_step &first_step &full_step
-        &first_of_segment &accepted &rejected &tries &smallest_step
-          &steps_of_statement &rows_of_statement;
+        &first_of_segment &accepted &rejected &tries &smallest_step &
+          steps_of_statement &rows_of_statement &largest_error &time_of_largest;
     }
 
   private:
@@ -145,8 +148,10 @@ namespace SlipStep
     unsigned int rejected         = 0;
     unsigned int tries            = 0; ///< of the step, that were rejected
     double       smallest_step    = 0.;
-    unsigned int steps_of_statement = 0; ///< tried
-    unsigned int rows_of_statement  = 0; ///< of a test that is followed
+    unsigned int steps_of_statement = 0;  ///< tried
+    unsigned int rows_of_statement  = 0;  ///< of a test that is followed
+    double       largest_error      = 0.; ///< of an accepted step
+    double       time_of_largest    = 0.; ///< its end [s]
   };
 } // namespace SlipStep
 

@@ -172,6 +172,10 @@ namespace SlipStep
   void summarise_history(const std::vector<HistoryRow> &history,
                          const Programme               &programme,
                          Summary                       &summary);
+
+  /// Its energies alone, of a history that is not empty.
+  void summarise_energies(const std::vector<HistoryRow> &history,
+                          Summary                       &summary);
 } // namespace SlipStep
 
 #endif

@@ -230,6 +230,7 @@ namespace SlipStep
     std::string              remedy_of_proportional_loads() const;
     std::string              warning_of_loads() const;
     std::string              warning_of_pressure() const;
+    std::string              warning_of_penetration() const;
     std::string              warning_of_opening() const;
     std::string              warning_of_wear() const;
     std::string              warning_of_solver() const;
