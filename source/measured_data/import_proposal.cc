@@ -146,6 +146,8 @@ namespace SlipStep
 
       std::size_t first_column_left() const;
 
+      void guess_time();
+
       void guess_loads();
 
       void guess_signs();
@@ -375,8 +377,11 @@ namespace SlipStep
       const bool is_negative = (key == "Normal load" || key == "Pressure") &&
                                !finite[column].empty() &&
                                median(finite[column]) < 0.;
-      const std::string in =
-        name + " in " + (is_known ? unit : base_unit(dimension));
+      // Nothing that would be taken where nobody looks.
+      const std::string in = name + " in " +
+                             (is_known          ? unit :
+                              seen.unit.empty() ? base_unit(dimension) :
+                                                  "?");
       guess("Columns/" + key,
             is_negative ? "-1*{" + in + "}" : in,
             range +
@@ -516,16 +521,40 @@ namespace SlipStep
 
 
 
+    // Where nothing that is called so grows from row to row.
+    void Observer::guess_time()
+    {
+      for (std::size_t i = 0; i < values.size(); ++i)
+        {
+          const SeenColumn          &seen = proposal.columns[i];
+          const std::vector<double> &time = finite[i];
+          const auto back = std::is_sorted_until(time.begin(), time.end());
+          if (back == time.end() ||
+              dimension_of_unit(seen.unit) != Dimension::time)
+            continue;
+          guess("Columns/Time",
+                reference(i) + " in " + seen.unit,
+                "it goes back from " + rounded_text(*std::prev(back), 6) +
+                  " to " + rounded_text(*back, 6) +
+                  ": a clock that begins anew has to be made to go on, or the "
+                  "file to be parted, before",
+                true);
+          return;
+        }
+      guess("Columns/Time",
+            "column 1 in s",
+            "no column of increasing numbers is called like a time (clock "
+            "times have to be made seconds before)",
+            true);
+    }
+
+
+
     // What only a notebook knows.
     void Observer::guess_loads()
     {
       if (!taken_as("Time"))
-        guess(
-          "Columns/Time",
-          "column 1 in s",
-          "no column of increasing numbers is called like a time (clock times "
-          "have to be made seconds before)",
-          true);
+        guess_time();
       if (!taken_as("Displacement"))
         guess("Constants/Speed",
               "1 mm/s",

@@ -94,8 +94,9 @@ namespace SlipStep
             values.begin())};
       }
     std::size_t first = 0, longest = 0;
-    for (std::size_t begin = 0, end = 0; begin < values.size(); begin = end)
+    for (std::size_t begin = 0, end; begin < values.size(); begin = end)
       {
+        end = begin + 1; // a gap is not equal to itself
         while (end < values.size() && values[end] == values[begin])
           ++end;
         if (end - begin > longest)
@@ -110,13 +111,19 @@ namespace SlipStep
                            " in " + std::to_string(longest) +
                            " rows one after the other, while other rows "
                            "scatter: was the sensor dead?",
-                         first};
+                         first,
+                         longest};
   }
 
 
 
   namespace
   {
+    // Of sliding solids.
+    constexpr double largest_friction = 2.;
+
+
+
     class OddRows
     {
     public:
@@ -135,6 +142,8 @@ namespace SlipStep
 
       void warn_of_sensors() const;
 
+      void warn_of_excursions() const;
+
     private:
       void warn_of_strays(const std::string         &name,
                           const std::vector<double> &values,
@@ -150,7 +159,6 @@ namespace SlipStep
     // wrong. A few rows do not count: loads that open have any friction.
     void OddRows::warn_of_scales() const
     {
-      constexpr double largest_friction = 2.;
       constexpr double largest_pressure =
         3e3;                           // MPa, as the hardest metals bear
       constexpr double fastest = 1e6;  // mm/s
@@ -171,7 +179,6 @@ namespace SlipStep
         warn_of_strays("friction",
                        friction,
                        std::max(largest_friction, 5. * usual));
-      warn_of_strays("pressure", test.pressure, 100. * median(test.pressure));
       if (median(test.pressure) > largest_pressure)
         warn("the pressure is " + rounded_text(median(test.pressure), 3) +
                " MPa: is its unit right?",
@@ -253,6 +260,91 @@ namespace SlipStep
 
 
 
+    // Rows, some one after the other at most, to which a series goes in a step
+    // far longer than usual and from which it comes back at once.
+    std::vector<std::size_t> excursions(const std::vector<double> &x,
+                                        const double               least)
+    {
+      constexpr std::size_t most_rows = 5;
+      constexpr double      far = 10., back = 0.2, pattern = 0.05;
+
+      std::vector<double> steps;
+      for (std::size_t i = 1; i < x.size(); ++i)
+        if (x[i] != x[i - 1])
+          steps.push_back(x[i] - x[i - 1]);
+      // What hardly ever changes has no usual step.
+      const double usual =
+        steps.size() > 4 * most_rows ? usual_size(steps) : 0.;
+      const double limit = std::max(least, far * usual);
+      if (!(limit > 0.))
+        return {};
+      std::vector<std::size_t> rows;
+      for (std::size_t i = 1; i < x.size(); ++i)
+        {
+          const double gone = std::abs(x[i] - x[i - 1]);
+          if (!(gone > limit))
+            continue;
+          for (std::size_t j = i + 1; j < std::min(x.size(), i + most_rows + 1);
+               ++j)
+            if (std::abs(x[j] - x[i - 1]) < back * gone)
+              {
+                for (; i < j; ++i)
+                  rows.push_back(i);
+                break;
+              }
+        }
+      return rows.size() <= std::max<double>(most_rows, pattern * x.size()) ?
+               rows :
+               std::vector<std::size_t>();
+    }
+
+
+
+    // Codes of errors and spikes in what leads the contact.
+    void OddRows::warn_of_excursions() const
+    {
+      constexpr double times = 3.; // of a pressure
+
+      const auto tell = [&](const std::string              &words,
+                            const std::string              &unit,
+                            const std::vector<double>      &values,
+                            const std::vector<std::size_t> &rows) {
+        if (!rows.empty())
+          warn(words + rounded_text(values[rows[0]], 4) + unit +
+                 " there and back at once: an error code, or a spike? Leave "
+                 "out rows that measure nothing. Such rows: " +
+                 std::to_string(rows.size()),
+               rows[0]);
+      };
+      std::vector<std::size_t> rows = excursions(test.friction, 0.);
+      rows.erase(std::remove_if(rows.begin(),
+                                rows.end(),
+                                [&](const std::size_t row) {
+                                  return test.pressure[row] <= 0. ||
+                                         std::abs(test.friction[row]) >
+                                           largest_friction;
+                                }),
+                 rows.end());
+      tell("friction goes to ", "", test.friction, rows);
+      tell("the displacement goes to ",
+           " mm",
+           test.displacement,
+           excursions(test.displacement, 0.));
+      tell("the second displacement goes to ",
+           " mm",
+           test.displacement_y,
+           excursions(test.displacement_y, 0.));
+      std::vector<double> decades;
+      for (const double pressure : test.pressure)
+        decades.push_back(std::log10(std::max(pressure, 1e-12)));
+      tell("the pressure goes to ",
+           " MPa",
+           test.pressure,
+           excursions(decades, std::log10(times)));
+    }
+
+
+
     // From one row to the next against the motion of the rows on both sides, by
     // far more than these move, and a good part of the way: no machine does
     // that.
@@ -315,6 +407,7 @@ namespace SlipStep
     const OddRows rows(test, warn);
     rows.warn_of_scales();
     rows.warn_of_sensors();
+    rows.warn_of_excursions();
     rows.warn_of_pauses();
     rows.warn_of_jumps();
   }

@@ -65,6 +65,17 @@ namespace SlipStep
         }
     }
 
+    // A single row, of an error code or a spike, has no say.
+    std::vector<double> bounded(std::vector<double> friction)
+    {
+      if (friction.empty())
+        return friction;
+      const double limit = 3. * usual_size(friction);
+      for (double &value : friction)
+        value = std::clamp(value, -limit, limit);
+      return friction;
+    }
+
     // As of sliding, but for its sign.
     bool is_mostly_constant(const std::vector<double> &friction)
     {
@@ -287,17 +298,8 @@ namespace SlipStep
 
 
 
-    // A single row, of an error code or a spike, has no say.
     void RowsOfTest::check_sign_of_friction()
     {
-      const auto bounded = [](std::vector<double> friction) {
-        if (friction.empty())
-          return friction;
-        const double limit = 3. * usual_size(friction);
-        for (double &value : friction)
-          value = std::clamp(value, -limit, limit);
-        return friction;
-      };
       Work work;
       add_work(test.displacement, bounded(test.friction), work);
       add_work(test.displacement_y, bounded(test.friction_y), work);
@@ -393,7 +395,7 @@ namespace SlipStep
           known_friction.push_back(friction[i]);
         }
     Work work;
-    add_work(known_displacement, known_friction, work);
+    add_work(known_displacement, bounded(known_friction), work);
     return work.possible > 0. ? work.done / work.possible : 0.;
   }
 
@@ -634,13 +636,28 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // A sensor that is dead has no noise.
+    std::vector<double> without_dead_rows(std::vector<double> values)
+    {
+      const auto found = repeated_value(values);
+      if (found.has_value() && found->n_in_a_row > 0)
+        values.erase(values.begin() + found->first,
+                     values.begin() + found->first + found->n_in_a_row);
+      return values;
+    }
+  } // namespace
+
+
+
   double noise_of_friction(const MeasuredTest &test)
   {
     double result = 0.;
     for (const auto *values : {&test.friction, &test.friction_y})
       if (!values->empty())
         result = std::max({result,
-                           noise_level(*values),
+                           noise_level(without_dead_rows(*values)),
                            coarse_step(*values) / std::sqrt(12.)});
     return result;
   }

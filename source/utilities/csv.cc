@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace SlipStep
@@ -88,15 +89,18 @@ namespace SlipStep
 
     bool is_gap(const std::string_view cell)
     {
-      if (cell.empty())
+      // "---", "**", "--.--"
+      if (cell.find_first_not_of("-*.?#_~") == std::string_view::npos)
         return true;
-      if (cell.size() > 4)
+      if (cell.size() > 9)
         return false;
-      const std::string word = lower_case(cell);
-      for (const char *gap : {"nan", "na", "n/a", "null", "none", "-", "--"})
-        if (word == gap)
-          return true;
-      return false;
+      // As loggers and spreadsheets have them.
+      static const std::set<std::string> gaps = {
+        "nan",      "na",       "n/a",       "null",    "none",  "nil",
+        "#n/a",     "#na",      "#nv",       "#value!", "#num!", "#div/0!",
+        "overflow", "overload", "overrange", "ovrflw",  "ovld",  "ol",
+        "error",    "err",      "invalid",   "missing", "bad"};
+      return gaps.count(lower_case(cell)) > 0;
     }
 
     /// Independent of the locale, unlike strtod.

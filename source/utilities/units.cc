@@ -49,6 +49,8 @@ namespace SlipStep
            {"cm", 10, 1},
            {"m", 1e3, 1},
            {"inch", 25.4, 1},
+           {"ft", 304.8, 1},
+           {"mil", 25.4, 1e3},
            {"µm", 1, 1e3}}}},
         {Dimension::time,
          {"a time",
@@ -78,6 +80,9 @@ namespace SlipStep
            {"kPa", 1, 1e3},
            {"GPa", 1e3, 1},
            {"bar", 1, 10},
+           {"mbar", 1, 1e4},
+           {"atm", 0.101325, 1},
+           {"kgf/cm^2", 0.0980665, 1},
            {"psi", 4.4482216152605, 645.16},
            {"ksi", 4448.2216152605, 645.16},
            {"N/mm^2", 1, 1}}}},
@@ -155,7 +160,10 @@ namespace SlipStep
            {"m^2", 1e6, 1}}}},
         {Dimension::temperature,
          {"a temperature",
-          {{"degC", 1, 1}, {"C", 1, 1}, {"K", 1, 1, -273.15}}}}};
+          {{"degC", 1, 1},
+           {"C", 1, 1},
+           {"K", 1, 1, -273.15},
+           {"degF", 5, 9, -160. / 9.}}}}};
       return entries.at(dimension);
     }
 
@@ -194,13 +202,48 @@ namespace SlipStep
              at             = unit.find(written))
           unit.replace(at, written.size(), plain);
       const std::vector<std::pair<std::string, std::string>> words = {
-        {"sec", "s"},         {"secs", "s"},     {"second", "s"},
-        {"seconds", "s"},     {"msec", "ms"},    {"minutes", "min"},
-        {"hours", "h"},       {"micron", "um"},  {"microns", "um"},
-        {"micrometer", "um"}, {"in", "inch"},    {"inches", "inch"},
-        {"in2", "in^2"},      {"Newton", "N"},   {"newton", "N"},
-        {"N/mm2", "N/mm^2"},  {"mm2", "mm^2"},   {"Celsius", "degC"},
-        {"deg C", "degC"},    {"deg. C", "degC"}};
+        {"sec", "s"},
+        {"secs", "s"},
+        {"second", "s"},
+        {"seconds", "s"},
+        {"msec", "ms"},
+        {"minutes", "min"},
+        {"hours", "h"},
+        {"micron", "um"},
+        {"microns", "um"},
+        {"micrometer", "um"},
+        {"in", "inch"},
+        {"inches", "inch"},
+        {"in2", "in^2"},
+        {"Newton", "N"},
+        {"newton", "N"},
+        {"N/mm2", "N/mm^2"},
+        {"mm2", "mm^2"},
+        {"Celsius", "degC"},
+        {"deg C", "degC"},
+        {"deg. C", "degC"},
+        {"hr", "h"},
+        {"hrs", "h"},
+        {"hour", "h"},
+        {"day", "d"},
+        {"days", "d"},
+        {"\"", "inch"},
+        {"kips", "kip"},
+        {"kp", "kgf"},
+        {"KN", "kN"},
+        {"MM", "mm"},
+        {"UM", "um"},
+        {"MPA", "MPa"},
+        {"KPA", "kPa"},
+        {"GPA", "GPa"},
+        {"BAR", "bar"},
+        {"PSI", "psi"},
+        {"SEC", "s"},
+        {"MM/S", "mm/s"},
+        {"MM/MIN", "mm/min"},
+        {"kgf/cm2", "kgf/cm^2"},
+        {"kg/cm2", "kgf/cm^2"},
+        {"deg F", "degF"}};
       for (const auto &[written, plain] : words)
         if (unit == written)
           return plain;

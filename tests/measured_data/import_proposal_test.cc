@@ -290,6 +290,23 @@ namespace
      "0,0,0,5,0\n1,1,0.9,5,0.1\n2,2,1.9,5,0.1\n",
      {"Columns/Displacement = Position act [mm] in mm"},
      {}},
+    // Uncommented, a unit that nobody knows is refused.
+    {"furlongs.csv",
+     "Time [MIN],x [furlong],N [KN],Ft [kips]\n0,0,5,0\n1,1,5,0.1\n"
+     "2,2,5,0.1\n",
+     {"? Columns/Displacement = x [furlong] in ?",
+      "Columns/Tangential load = Ft [kips] in kips",
+      "Columns/Normal load = N [KN] in KN"},
+     {"Convention/Friction sign"}},
+    {"clock_that_begins_anew.csv",
+     "Cycle,Time [s],x [mm],Ft [N],Fz [N]\n1,0,0,0,9\n1,1,1,1,9\n"
+     "2,0,2,1,9\n2,1,3,1,9\n",
+     {"? Columns/Time = Time [s] in s"},
+     {}},
+    {"clamped.csv",
+     "t [s],x [mm],Load (N),Clamp force (kN)\n0,0,0,1\n1,1,99,1.1\n",
+     {"Columns/Normal load = Clamp force (kN) in kN"},
+     {}},
     {"forces_set_and_actual.csv",
      "t [s],x [mm],Fx_meas [N],Fz set [kN],Fz act [kN]\n"
      "0,0,0,1,1.01\n1,1,100,1,0.99\n2,2,101,1,1.01\n",

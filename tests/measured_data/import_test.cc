@@ -495,6 +495,30 @@ TEST(Import, ACoefficientMayBeInPercent)
 
 
 
+// As loggers and spreadsheets have them, in a column with a limit, too.
+TEST(Import, ValuesThatAreMissingAreLeftOut)
+{
+  std::string text = "t,x,F,N\n";
+  for (int i = 0; i < 100; ++i)
+    text += std::to_string(i) + "," + std::to_string(0.1 * i) + "," +
+            (i % 7 == 3 ?
+               std::vector<std::string>{
+                 "---", "#N/A", "OVERFLOW", "**", "NaN"}[i % 5] :
+               std::to_string(10 + i % 3)) +
+            "," + std::to_string(100 + i % 2) + "\n";
+  const auto test = import_test(map_of({{"Columns/Time", "t in s"},
+                                        {"Columns/Displacement", "x in mm"},
+                                        {"Columns/Tangential load", "F in N"},
+                                        {"Columns/Normal load", "N in N"},
+                                        {"Constants/Area", "50 mm^2"}}),
+                                write("raw.csv", text));
+  EXPECT_EQ(test.time.size(), 86u);
+  ASSERT_EQ(test.warnings.size(), 1u);
+  EXPECT_TRUE(contains(test.warnings[0], "rows without a value, left out: 14"));
+}
+
+
+
 TEST(Import, UnitsThatNobodyKnowsAreToldToo)
 {
   const auto read = [&](const std::string &force) {

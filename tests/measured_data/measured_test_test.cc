@@ -139,7 +139,7 @@ TEST(MeasuredTest, AMissingOrWrongUnitIsAsked)
   text = message("time_s,displacement_furlong,pressure_MPa,friction\n" + rows);
   EXPECT_EQ(text.substr(0, 6), ":1:8: ");
   EXPECT_TRUE(contains(text, "not a unit of a length"));
-  text = message("time_s,displacement_mm,pressure_MPA,friction\n" + rows);
+  text = message("time_s,displacement_mm,pressure_MPas,friction\n" + rows);
   EXPECT_TRUE(contains(text, "nearest is MPa"));
 }
 

@@ -419,7 +419,7 @@ TEST(TestRows, StrayRowsAreTold)
                    if (i == 120)
                      row[2] = 9999.;
                  }),
-                 "pressure is 10000 there");
+                 "the pressure goes to 9999 MPa there and back");
 }
 
 
@@ -463,6 +463,45 @@ TEST(TestRows, ASensorAtItsLimitIsTold)
                 if (i > 0)
                   row[3] = 0.005 * std::round(30. + noise(random) / 0.005);
               }).warnings.empty());
+}
+
+
+
+// Codes of errors in what leads the contact; where it turns round or goes on at
+// another pressure, nothing is odd.
+TEST(TestRows, RowsThatComeBackAtOnceAreTold)
+{
+  std::mt19937                     random(10);
+  std::normal_distribution<double> noise(0., 1e-3);
+  const auto changed = [&](const int column, const int n, const double value) {
+    return slide_with([&](const int i, double(&row)[4]) {
+      row[3] += noise(random);
+      if (i >= 120 && i < 120 + n)
+        row[column] = value;
+    });
+  };
+  expect_warning(changed(1, 1, -9999.), "displacement goes to -9999 mm there");
+  expect_warning(changed(1, 4, 0.), "Such rows: 4 (first: line 122)");
+  expect_warning(changed(2, 1, 1e-4), "the pressure goes to 1e-04 MPa there");
+  expect_warning(changed(2, 2, 327.), "the pressure goes to 327 MPa there");
+  expect_warning(changed(3, 3, 0.), "friction goes to 0 there and back");
+  EXPECT_TRUE(changed(2, 60, 1.).warnings.empty());
+  EXPECT_TRUE(slide_with([&](const int i, double(&row)[4]) {
+                row[1] = 0.01 * std::abs(i - 125);
+                row[3] = (i < 125 ? -0.15 : 0.15) + noise(random);
+              }).warnings.empty());
+}
+
+
+
+TEST(TestRows, OneBadRowDoesNotTurnTheSignOfFriction)
+{
+  std::vector<double> displacement, friction(100, 0.1);
+  for (int i = 0; i < 100; ++i)
+    displacement.push_back(0.1 * i);
+  EXPECT_DOUBLE_EQ(share_of_resistance(displacement, friction), 1.);
+  friction[50] = -9999.;
+  EXPECT_GT(share_of_resistance(displacement, friction), 0.9);
 }
 
 

@@ -136,7 +136,7 @@ TEST(Units, AnUnknownUnitOfAColumnComesWithTheNearest)
 {
   try
     {
-      unit_conversion("MPA", Dimension::stress);
+      unit_conversion("MPas", Dimension::stress);
       FAIL();
     }
   catch (const InputError &error)

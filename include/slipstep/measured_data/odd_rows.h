@@ -19,6 +19,8 @@ namespace SlipStep
   {
     std::string words; ///< "is exactly 5 in 80 rows ..."
     std::size_t first; ///< row
+    /// Of those one after the other; 0 where a limit is met again and again.
+    std::size_t n_in_a_row = 0;
   };
 
   /// A value at the limit of a series, again and again, or one that lasts, in a
