@@ -40,6 +40,7 @@ namespace SlipStep
         {"heat", "MPa mm", false},
         {"angle", "deg", false},
         {"direction", "", false},
+        {"position", "mm", false},
         {"order of the tests", "", false},
         {"flank", "", false},
         {"unloading", "", false, true},
