@@ -20,6 +20,17 @@ namespace SlipStep
 
 
 
+    // The logarithm where there is one, else nothing.
+    Eigen::VectorXd logarithm(const Eigen::VectorXd &x)
+    {
+      return x.unaryExpr([](const double value) {
+        return value > 0. ? std::log10(value) :
+                            std::numeric_limits<double>::quiet_NaN();
+      });
+    }
+
+
+
     /// Adds functions of one covariate after the other.
     class BasisMaker
     {
@@ -29,12 +40,13 @@ namespace SlipStep
         , n(covariates.friction.size())
       {}
 
-      // Three polynomials of x over the rows where it is finite, times
-      // friction; nothing if it hardly varies there.
-      void polynomials(const std::string     &name,
-                       const Eigen::VectorXd &x,
-                       const bool             is_logarithmic)
+      // Three polynomials over the rows where there is a value, times friction;
+      // nothing if it hardly varies there.
+      void polynomials(const Covariate &covariate)
       {
+        const bool             is_logarithmic = covariate.is_logarithmic;
+        const Eigen::VectorXd &values         = covariates.*covariate.values;
+        const Eigen::VectorXd  x = is_logarithmic ? logarithm(values) : values;
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (Eigen::Index i = 0; i < n; ++i)
           if (std::isfinite(x(i)))
@@ -45,7 +57,7 @@ namespace SlipStep
         if (!(high - low > (is_logarithmic ? 0.05 : 1e-6 * std::abs(high))))
           return;
         for (unsigned int degree = 1; degree <= 3; ++degree)
-          factor(name, [&](const Eigen::Index i) {
+          factor(covariate.name, [&](const Eigen::Index i) {
             const double t = 2. * (x(i) - low) / (high - low) - 1.;
             return !std::isfinite(x(i)) ? 0. :
                    degree == 1          ? t :
@@ -74,17 +86,6 @@ namespace SlipStep
       const Eigen::Index       n;
       std::vector<BasisColumn> columns;
     };
-
-
-
-    // The logarithm where there is one, else nothing.
-    Eigen::VectorXd logarithm(const Eigen::VectorXd &x)
-    {
-      return x.unaryExpr([](const double value) {
-        return value > 0. ? std::log10(value) :
-                            std::numeric_limits<double>::quiet_NaN();
-      });
-    }
 
 
 
@@ -196,11 +197,9 @@ namespace SlipStep
                                         const Covariates &covariates)
   {
     BasisMaker maker(covariates);
-    maker.polynomials("speed", logarithm(covariates.speed), true);
-    maker.polynomials("pressure", logarithm(covariates.pressure), true);
-    maker.polynomials("path", covariates.path, false);
-    maker.polynomials("heat", covariates.heat, false);
-    maker.polynomials("order of the tests", covariates.order, false);
+    for (const char *const name :
+         {"speed", "pressure", "path", "heat", "order of the tests"})
+      maker.polynomials(covariate_called(name));
     add_memories(maker);
     add_steps(maker);
     add_histories(maker, comparison);

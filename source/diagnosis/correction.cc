@@ -10,29 +10,16 @@ namespace SlipStep
 {
   namespace
   {
-    // What effect expression knows of what is told to people.
-    std::string expression_covariate(const std::string &name)
-    {
-      for (const char *const covariate : {"log10 speed",
-                                          "pressure",
-                                          "path",
-                                          "position",
-                                          "hold time",
-                                          "angle"})
-        if (covariate_of_expression(covariate) == name)
-          return covariate;
-      return "";
-    }
-
-
-
     std::optional<Correction> correct_along(const Workspace   &workspace,
                                             const Model       &base,
                                             const Judgement   &judgement,
                                             const std::string &name)
     {
+      // What expression knows is the temperature of effect heating.
+      if (name == "heat")
+        return {};
       const std::optional<FreeFactor> factor =
-        add_free_factor(workspace, base, expression_covariate(name));
+        add_free_factor(workspace, base, covariate_called(name).in_expression);
       if (!factor.has_value())
         return {};
       Correction result;

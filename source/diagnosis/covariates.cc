@@ -245,28 +245,6 @@ namespace SlipStep
 
 
 
-  const Eigen::VectorXd &values_of(const Covariates  &covariates,
-                                   const std::string &name)
-  {
-    return name == "speed"              ? covariates.speed :
-           name == "pressure"           ? covariates.pressure :
-           name == "rest"               ? covariates.rest :
-           name == "slip since start"   ? covariates.since_start :
-           name == "heat"               ? covariates.heat :
-           name == "order of the tests" ? covariates.order :
-           name == "direction"          ? covariates.is_reverse :
-           name == "angle"              ? covariates.angle :
-           name == "position"           ? covariates.position :
-           name == "flank"              ? covariates.since_start :
-           name == "unloading"          ? covariates.unloading :
-           name == "change of pressure" ? covariates.pressure_change :
-           name == "rate of pressure"   ? covariates.pressure_rate :
-           name == "change of speed"    ? covariates.speed_change :
-                                          covariates.path;
-  }
-
-
-
   Eigen::VectorXd lagging_change(const Comparison      &comparison,
                                  const Eigen::VectorXd &path,
                                  const Eigen::VectorXd &value,
@@ -348,23 +326,9 @@ namespace SlipStep
     {
       Covariates result;
       result.phase.resize(n);
-      for (Eigen::VectorXd *values : {&result.speed,
-                                      &result.pressure,
-                                      &result.path,
-                                      &result.position,
-                                      &result.since_start,
-                                      &result.rest,
-                                      &result.since_rest,
-                                      &result.angle,
-                                      &result.is_reverse,
-                                      &result.heat,
-                                      &result.order,
-                                      &result.axis,
-                                      &result.unloading,
-                                      &result.pressure_rate,
-                                      &result.pressure_change,
-                                      &result.speed_change})
-        *values = Eigen::VectorXd::Zero(n);
+      result.since_rest = result.axis = Eigen::VectorXd::Zero(n);
+      for (const Covariate &covariate : all_covariates())
+        result.*covariate.values = Eigen::VectorXd::Zero(n);
       return result;
     }
 

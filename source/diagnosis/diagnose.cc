@@ -269,7 +269,7 @@ namespace SlipStep
                              left,
                              {{part.name,
                                comparison.difference(final_model) - left}},
-                             covariate_of_expression(covariate))});
+                             covariate_in_expression(covariate))});
         }
     }
 

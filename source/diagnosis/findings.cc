@@ -358,7 +358,7 @@ namespace SlipStep
                 part.formula.parameters.size() + part.formula.n_in_texts;
             }
         const std::size_t n =
-          n_levels(values_of(workspace.covariates, covariate));
+          n_levels(workspace.covariates.*covariate_called(covariate).values);
         if (names.size() > 1 && n <= n_numbers)
           diagnosis.warnings.push_back(
             "The tests have " + std::to_string(n) + " levels of " + covariate +

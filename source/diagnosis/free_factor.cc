@@ -409,14 +409,4 @@ namespace SlipStep
       }
     return best;
   }
-
-
-
-  std::string covariate_of_expression(const std::string &covariate)
-  {
-    return covariate == "log10 speed" ? "speed" :
-           covariate == "hold time"   ? "rest" :
-           covariate == "temperature" ? "heat" :
-                                        covariate;
-  }
 } // namespace SlipStep

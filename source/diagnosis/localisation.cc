@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/base/numbers.h>
-
 #include <slipstep/diagnosis/basis.h>
 #include <slipstep/diagnosis/track_waves.h>
 #include <slipstep/diagnosis/localisation.h>
@@ -19,51 +17,6 @@ namespace SlipStep
 
     // Covariates that explain less of the excess are not told.
     constexpr double least_share_told = 0.05;
-
-    /// A covariate along which rows are sorted.
-    struct Axis
-    {
-      std::string name, unit;
-      bool        is_logarithmic = false;
-      /// Near zero in most rows.
-      bool is_rare = false;
-    };
-
-    const std::vector<Axis> &axes()
-    {
-      static const std::vector<Axis> list = {
-        {"speed", "mm/s", true},
-        {"pressure", "MPa", true},
-        {"path", "mm", false},
-        {"slip since start", "mm", true},
-        {"rest", "s", true},
-        {"heat", "MPa mm", false},
-        {"angle", "deg", false},
-        {"direction", "", false},
-        {"position", "mm", false},
-        {"order of the tests", "", false},
-        {"flank", "", false},
-        {"unloading", "", false, true},
-        {"rate of pressure", "MPa/s", false, true},
-        {"change of pressure", "", false, true},
-        {"change of speed", "", false, true}};
-      return list;
-    }
-
-    Axis axis_of(const std::string &name)
-    {
-      for (const Axis &axis : axes())
-        if (axis.name == name)
-          return axis;
-      return {name, "", false};
-    }
-
-    double shown(const std::string &name, const double value)
-    {
-      return name == "angle" ? value * 180. / dealii::numbers::PI : value;
-    }
-
-
 
     std::vector<Direction>
     directions_of(const std::vector<BasisColumn> &columns,
@@ -87,18 +40,19 @@ namespace SlipStep
     // Where the correction is more than half of its largest.
     // @return the rows there, or all if it is nowhere
     Rows find_range(const Workspace       &workspace,
+                    const Covariate       &covariate,
                     const Eigen::VectorXd &correction,
                     Localisation          &place)
     {
       const Covariates      &covariates = workspace.covariates;
-      const Eigen::VectorXd &x     = values_of(covariates, place.covariate);
-      Eigen::VectorXd        share = Eigen::VectorXd::Zero(x.size());
-      double                 mean  = 0.;
+      const Eigen::VectorXd &x          = covariates.*covariate.values;
+      Eigen::VectorXd        share      = Eigen::VectorXd::Zero(x.size());
+      double                 mean       = 0.;
       Eigen::Index           n = 0, top = 0;
       for (Eigen::Index i = 0; i < x.size(); ++i)
         if (std::abs(covariates.friction(i)) >
               least_friction * workspace.range.typical_friction &&
-            (place.covariate != "speed" || x(i) > 0.))
+            (covariate.name != "speed" || x(i) > 0.))
           {
             share(i) = correction(i) / covariates.friction(i);
             mean += share(i);
@@ -121,13 +75,13 @@ namespace SlipStep
         if (share(i) != 0. &&
             (share(i) - mean) * place.sign > 0.5 * std::abs(share(top) - mean))
           {
-            const double value = shown(place.covariate, x(i));
+            const double value = covariate.shown(x(i));
             place.from         = std::min(place.from, value);
             place.to           = std::max(place.to, value);
           }
       for (Eigen::Index i = 0; i < x.size(); ++i)
         {
-          const double value = shown(place.covariate, x(i));
+          const double value = covariate.shown(x(i));
           inside[i] =
             share(i) != 0. && value >= place.from && value <= place.to;
         }
@@ -209,9 +163,10 @@ namespace SlipStep
           .together();
       if (!(together.excess > least_share_told * gap.excess))
         return;
-      Localisation place;
-      place.covariate = "position";
-      place.unit      = "mm";
+      const Covariate &covariate = covariate_called("position");
+      Localisation     place;
+      place.covariate = covariate.name;
+      place.unit      = covariate.unit;
       // The excess knows other waves only.
       place.share = together.excess / std::max(together.excess, gap.excess);
       place.wavelength = wavelength;
@@ -231,10 +186,10 @@ namespace SlipStep
     const std::vector<BasisColumn> columns =
       smooth_basis(workspace.comparison, workspace.covariates);
     std::vector<Localisation> result;
-    for (const Axis &axis : axes())
+    for (const Covariate &covariate : all_covariates())
       {
         const std::vector<Direction> directions =
-          directions_of(columns, axis.name);
+          directions_of(columns, covariate.name);
         if (directions.empty())
           continue;
         const ScoreTest           test(workspace.comparison,
@@ -246,8 +201,8 @@ namespace SlipStep
             !(together.excess > least_share_told * gap.excess))
           continue;
         Localisation place;
-        place.covariate = axis.name;
-        place.unit      = axis.unit;
+        place.covariate = covariate.name;
+        place.unit      = covariate.unit;
         place.share =
           gap.excess > 0. ? std::min(1., together.excess / gap.excess) : 0.;
         const Eigen::VectorXd strengths = test.mixture();
@@ -257,8 +212,8 @@ namespace SlipStep
           correction += strengths(i) * directions[i].friction;
         Rows inside(workspace.comparison.n_rows(), true);
         // Changes are of either sign, and forgotten on several lengths.
-        if (axis.name.compare(0, 9, "change of") != 0)
-          inside = find_range(workspace, correction, place);
+        if (covariate.name.compare(0, 9, "change of") != 0)
+          inside = find_range(workspace, covariate, correction, place);
         find_members(workspace, together.explained, inside, place);
         result.push_back(place);
       }
@@ -350,13 +305,13 @@ namespace SlipStep
       PanelMaker(const Workspace       &workspace,
                  const Eigen::VectorXd &difference,
                  const Changes         &changes,
-                 const std::string     &name)
+                 const Covariate       &axis)
         : workspace(workspace)
         , covariates(workspace.covariates)
         , difference(difference)
         , changes(changes)
-        , axis(axis_of(name))
-        , x(values_of(covariates, name))
+        , axis(axis)
+        , x(covariates.*axis.values)
       {}
 
       // Nothing if the covariate hardly varies.
@@ -376,7 +331,7 @@ namespace SlipStep
       const Covariates             &covariates;
       const Eigen::VectorXd        &difference;
       const Changes                &changes;
-      const Axis                    axis;
+      const Covariate              &axis;
       const Eigen::VectorXd        &x;
       std::vector<Bin>              bins;
       std::vector<std::vector<Bin>> change_bins;
@@ -395,7 +350,7 @@ namespace SlipStep
             {
               if (!is_used(i))
                 continue;
-              const double      value = shown(axis.name, x(i));
+              const double      value = axis.shown(x(i));
               const std::size_t b =
                 std::upper_bound(borders.begin(), borders.end(), value) -
                 borders.begin() - 1;
@@ -421,7 +376,7 @@ namespace SlipStep
       std::vector<double> values;
       for (Eigen::Index i = 0; i < x.size(); ++i)
         if (is_used(i))
-          values.push_back(shown(axis.name, x(i)));
+          values.push_back(axis.shown(x(i)));
       if (values.empty())
         return panel;
       sort_rows(bin_borders(values, axis.is_rare));
@@ -450,9 +405,9 @@ namespace SlipStep
     const Workspace                                            &workspace,
     const Eigen::VectorXd                                      &difference,
     const std::vector<std::pair<std::string, Eigen::VectorXd>> &changes,
-    const std::string                                          &name)
+    const Covariate                                            &covariate)
   {
-    return PanelMaker(workspace, difference, changes, name).make();
+    return PanelMaker(workspace, difference, changes, covariate).make();
   }
 
 
@@ -467,12 +422,14 @@ namespace SlipStep
     std::vector<std::string>    names = {
          "speed", "pressure", "path", "slip since start", "rest", "angle"};
     for (const Localisation &place : where)
-      if (axis_of(place.covariate).is_rare)
+      if (covariate_called(place.covariate).is_rare)
         names.push_back(place.covariate);
     for (const std::string &name : names)
       {
-        CovariatePanel panel =
-          covariate_panel(workspace, difference, changes, name);
+        CovariatePanel panel = covariate_panel(workspace,
+                                               difference,
+                                               changes,
+                                               covariate_called(name));
         if (panel.x.size() > 1)
           result.push_back(std::move(panel));
       }

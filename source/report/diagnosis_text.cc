@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/candidates.h>
+#include <slipstep/diagnosis/covariate.h>
 #include <slipstep/report/diagnosis_text.h>
 
 #include <slipstep/report/run_results.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace SlipStep
 {
@@ -458,18 +458,13 @@ namespace SlipStep
 
   namespace
   {
-    std::string wave_text(const Localisation &where)
+    /// "0.5 … 1.7 mm/s", or the length of a wave
+    std::string values_text(const Localisation &where)
     {
-      return plain_text(where.wavelength, 3) + " " + where.unit;
-    }
-
-
-
-    /// "0.5 … 1.7 mm/s"
-    std::string ends_text(const Localisation &where)
-    {
-      const std::string from = plain_text(where.from, 3);
-      const std::string to   = plain_text(where.to, 3);
+      const bool        is_wave = where.wavelength > 0.;
+      const std::string from =
+        plain_text(is_wave ? where.wavelength : where.from, 3);
+      const std::string to = is_wave ? from : plain_text(where.to, 3);
       return (from == to ? from : from + " … " + to) +
              (where.unit.empty() ? "" : " " + where.unit);
     }
@@ -480,43 +475,26 @@ namespace SlipStep
   std::string range_text(const Localisation &where)
   {
     if (where.wavelength > 0.)
-      return where.covariate + ", in waves of " + wave_text(where);
+      return where.covariate + ", in waves of " + values_text(where);
     return where.from == 0. && where.to == 0. ?
              where.covariate :
-             where.covariate + " " + ends_text(where);
+             where.covariate + " " + values_text(where);
   }
 
 
 
   std::string place_words(const Localisation &where)
   {
-    static const std::map<std::string, std::string> words = {
-      {"speed", "at speeds of"},
-      {"pressure", "under pressures of"},
-      {"path", "after a path of"},
-      {"slip since start", "after a start, at a slip of"},
-      {"rest", "after rests of"},
-      {"heat", "after recent frictional work of"},
-      {"angle", "at angles of"},
-      {"rate of pressure", "while the pressure changes by"},
-      {"order of the tests", "in the tests run as number"}};
-    if (where.wavelength > 0.)
-      return "along the track, in waves of " + wave_text(where);
     if (where.covariate == "direction")
       return where.from > 0.5 ? "where motion goes back" :
                                 "where motion goes forward";
-    if (where.covariate == "flank")
-      return "on the flanks where slip begins";
-    if (where.covariate == "unloading")
-      return "where the pressure has been higher before";
-    if (where.covariate == "change of pressure")
-      return "for some slip after a change of pressure";
-    if (where.covariate == "change of speed")
-      return "for some slip after a change of speed";
-    const auto found = words.find(where.covariate);
-    return found == words.end() || (where.from == 0. && where.to == 0.) ?
-             "by " + range_text(where) :
-             found->second + " " + ends_text(where);
+    std::string       words  = covariate_called(where.covariate).words;
+    const std::size_t values = words.find('*');
+    if (values == std::string::npos)
+      return words;
+    if (where.wavelength == 0. && where.from == 0. && where.to == 0.)
+      return "by " + where.covariate;
+    return words.replace(values, 1, values_text(where));
   }
 
 

@@ -3,6 +3,7 @@
 #define slipstep_diagnosis_covariates_h
 
 #include <slipstep/diagnosis/comparison.h>
+#include <slipstep/diagnosis/covariate.h>
 
 #include <Eigen/Core>
 
@@ -55,10 +56,6 @@ namespace SlipStep
     Eigen::VectorXd    pressure_change, speed_change;
     std::vector<Phase> phase;
   };
-
-  /// The values of a covariate by the name that a BasisColumn gives it.
-  const Eigen::VectorXd &values_of(const Covariates  &covariates,
-                                   const std::string &name);
 
   /// @param friction simulated, as Comparison::measured
   Covariates find_covariates(const Comparison                &comparison,

@@ -33,9 +33,6 @@ namespace SlipStep
   /// none if no formula does.
   std::optional<FreeFactor> complete_formula(const Workspace &workspace,
                                              const Model     &model);
-
-  /// What a reader calls a covariate of effect expression, as values_of() does.
-  std::string covariate_of_expression(const std::string &covariate);
 } // namespace SlipStep
 
 #endif

@@ -29,7 +29,7 @@ namespace SlipStep
     const Workspace                                            &workspace,
     const Eigen::VectorXd                                      &difference,
     const std::vector<std::pair<std::string, Eigen::VectorXd>> &changes,
-    const std::string                                          &name);
+    const Covariate                                            &covariate);
 } // namespace SlipStep
 
 #endif

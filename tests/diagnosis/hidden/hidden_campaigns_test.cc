@@ -260,7 +260,7 @@ TEST_F(CampaignFolder, KnowsWhereAnEffectIsFelt)
             ++t;
           const ComparedTest    &test = workspace.comparison.tests[t];
           const Eigen::VectorXd &x =
-            values_of(workspace.covariates, place.covariate);
+            workspace.covariates.*covariate_called(place.covariate).values;
           bool is_there = false;
           for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
             is_there = is_there || (x(i) >= place.from && x(i) <= place.to);
