@@ -13,16 +13,19 @@ namespace SlipStep
 {
   namespace
   {
-    /// The rows of one test, before they are averaged.
-    struct TestRows
+    Covariates zeros(const Eigen::Index n)
     {
-      std::vector<double> speed, angle, path, since_start, rest, since_rest,
-        heat;
-      std::vector<Phase> phase;
-    };
+      Covariates result;
+      result.phase.resize(n);
+      result.since_rest = result.axis = Eigen::VectorXd::Zero(n);
+      for (const Covariate &covariate : all_covariates())
+        result.*covariate.values = Eigen::VectorXd::Zero(n);
+      return result;
+    }
 
 
 
+    /// Follows the rows of one test, before they are averaged.
     class RowReader
     {
     public:
@@ -30,7 +33,7 @@ namespace SlipStep
                 const std::vector<double> &friction,
                 const double               elastic_slip_per_pressure);
 
-      TestRows read();
+      Covariates read();
 
     private:
       void find_motion();
@@ -45,7 +48,7 @@ namespace SlipStep
       const std::vector<double> &friction;
       const double               elastic_slip_per_pressure;
       const std::size_t          n;
-      TestRows                   result;
+      Covariates                 result;
       /// Row at which the present stroke began, and how.
       std::vector<std::size_t> stroke_begin;
       std::vector<Phase>       stroke_start;
@@ -60,7 +63,12 @@ namespace SlipStep
       , friction(friction)
       , elastic_slip_per_pressure(elastic_slip_per_pressure)
       , n(rows.time.size())
-    {}
+      , result(zeros(n))
+    {
+      result.pressure = Eigen::VectorXd::Map(rows.pressure.data(), n);
+      result.position = Eigen::VectorXd::Map(rows.displacement.data(), n);
+      result.order.setConstant(rows.order().value_or(0.));
+    }
 
 
 
@@ -81,8 +89,6 @@ namespace SlipStep
     // less than a hundredth of the usual speed is rest.
     void RowReader::find_motion()
     {
-      result.speed.assign(n, 0.);
-      result.angle.assign(n, 0.);
       // A record may tremble by its last digits.
       const std::vector<double> x =
         trembles(rows.displacement) ?
@@ -96,9 +102,9 @@ namespace SlipStep
             rows.displacement_y.empty() ?
               0. :
               rows.displacement_y[i] - rows.displacement_y[i - 1];
-          result.speed[i] =
+          result.speed(i) =
             std::hypot(dx, dy) / (rows.time[i] - rows.time[i - 1]);
-          result.angle[i] = std::atan2(dy, dx);
+          result.angle(i) = std::atan2(dy, dx);
         }
       std::vector<double> moving;
       for (const double speed : result.speed)
@@ -110,31 +116,29 @@ namespace SlipStep
           speed = 0.;
       if (n > 1)
         {
-          result.speed[0] = result.speed[1];
-          result.angle[0] = result.angle[1];
+          result.speed(0) = result.speed(1);
+          result.angle(0) = result.angle(1);
         }
+      for (std::size_t i = 0; i < n; ++i)
+        if (result.speed(i) > 0. && std::cos(result.angle(i)) < -0.5)
+          result.is_reverse(i) = 1.;
     }
 
 
 
     void RowReader::follow_history()
     {
-      result.path.assign(n, 0.);
-      result.since_start.assign(n, 0.);
-      result.rest.assign(n, 0.);
-      result.since_rest.assign(n, 0.);
-      result.heat.assign(n, 0.);
       double       path = 0., since = 0., rest = 0., since_rest = 0., heat = 0.;
       bool         has_moved = false;
       const double forget    = 0.1 * (rows.time.back() - rows.time.front());
       for (std::size_t i = 0; i < n; ++i)
         {
           const double dt     = i == 0 ? 0. : rows.time[i] - rows.time[i - 1];
-          const bool   rests  = result.speed[i] == 0.;
-          const bool   rested = i == 0 || result.speed[i - 1] == 0.;
+          const bool   rests  = result.speed(i) == 0.;
+          const bool   rested = i == 0 || result.speed(i - 1) == 0.;
           const bool   turns =
             i > 0 && !rests && !rested &&
-            std::cos(result.angle[i] - result.angle[i - 1]) < 0.5;
+            std::cos(result.angle(i) - result.angle(i - 1)) < 0.5;
           if (rests && !rested)
             rest = since_rest = 0.;
           if ((!rests && rested) || turns || i == 0)
@@ -147,20 +151,20 @@ namespace SlipStep
                                      has_moved ? Phase::restart :
                                                  Phase::presliding);
             }
-          path += result.speed[i] * dt;
-          since += result.speed[i] * dt;
+          path += result.speed(i) * dt;
+          since += result.speed(i) * dt;
           since_rest += dt;
           if (rests && has_moved)
             rest += dt;
           has_moved = has_moved || !rests;
           heat      = heat * std::exp(-dt / forget) + std::abs(friction[i]) *
                                                    rows.pressure[i] *
-                                                   result.speed[i] * dt;
-          result.path[i]        = path;
-          result.since_start[i] = since;
-          result.rest[i]        = rest;
-          result.since_rest[i]  = since_rest;
-          result.heat[i]        = heat;
+                                                   result.speed(i) * dt;
+          result.path(i)        = path;
+          result.since_start(i) = since;
+          result.rest(i)        = rest;
+          result.since_rest(i)  = since_rest;
+          result.heat(i)        = heat;
         }
     }
 
@@ -173,7 +177,7 @@ namespace SlipStep
       const std::size_t begin = stroke_begin[s];
       std::size_t       top = begin, last = begin;
       for (std::size_t i = begin; i < end; ++i)
-        if (result.speed[i] > 0.)
+        if (result.speed(i) > 0.)
           {
             last = i;
             if (std::abs(friction[i]) > std::abs(friction[top]))
@@ -189,13 +193,13 @@ namespace SlipStep
           const double now = std::abs(friction[i]);
           const double elastic =
             2. * elastic_slip_per_pressure * rows.pressure[i];
-          if (result.speed[i] == 0.)
+          if (result.speed(i) == 0.)
             {
               result.phase[i] = Phase::hold;
               continue;
             }
           has_risen = has_risen || now > 0.9 * peak || i >= top ||
-                      result.since_start[i] > 100. * elastic;
+                      result.since_start(i) > 100. * elastic;
           is_over = is_over || (i > top && now < 0.97 * peak);
           if (!has_risen)
             result.phase[i] = stroke_start[s];
@@ -213,14 +217,13 @@ namespace SlipStep
 
     void RowReader::find_phases()
     {
-      result.phase.assign(n, Phase::hold);
       for (std::size_t s = 0; s < stroke_begin.size(); ++s)
         name_stroke(s, s + 1 < stroke_begin.size() ? stroke_begin[s + 1] : n);
     }
 
 
 
-    TestRows RowReader::read()
+    Covariates RowReader::read()
     {
       find_motion();
       follow_history();
@@ -322,18 +325,6 @@ namespace SlipStep
 
   namespace
   {
-    Covariates zeros(const Eigen::Index n)
-    {
-      Covariates result;
-      result.phase.resize(n);
-      result.since_rest = result.axis = Eigen::VectorXd::Zero(n);
-      for (const Covariate &covariate : all_covariates())
-        result.*covariate.values = Eigen::VectorXd::Zero(n);
-      return result;
-    }
-
-
-
     // Of one test at every row: the simulated friction of the row's bin.
     std::vector<double> friction_at_rows(const ComparedTest    &test,
                                          const Eigen::VectorXd &friction)
@@ -347,30 +338,6 @@ namespace SlipStep
                         std::hypot(friction(test.begin + i),
                                    friction(test.begin + n_bins + i)));
       return result;
-    }
-
-
-
-    // Row k of those compared is this row of a test.
-    void copy_row(const MeasuredTest &test,
-                  const TestRows     &rows,
-                  const std::size_t   row,
-                  const Eigen::Index  k,
-                  Covariates         &covariates)
-    {
-      covariates.speed(k)       = rows.speed[row];
-      covariates.pressure(k)    = test.pressure[row];
-      covariates.path(k)        = rows.path[row];
-      covariates.position(k)    = test.displacement[row];
-      covariates.since_start(k) = rows.since_start[row];
-      covariates.rest(k)        = rows.rest[row];
-      covariates.since_rest(k)  = rows.since_rest[row];
-      covariates.angle(k)       = rows.angle[row];
-      covariates.is_reverse(k) =
-        rows.speed[row] > 0. && std::cos(rows.angle[row]) < -0.5 ? 1. : 0.;
-      covariates.heat(k)  = rows.heat[row];
-      covariates.order(k) = test.order().value_or(0.);
-      covariates.phase[k] = rows.phase[row];
     }
   } // namespace
 
@@ -386,16 +353,20 @@ namespace SlipStep
     for (std::size_t t = 0; t < tests.size(); ++t)
       {
         const ComparedTest &test = comparison.tests[t];
-        const TestRows      rows = RowReader(tests[t].rows,
-                                        friction_at_rows(test, friction),
-                                        elastic_slip_per_pressure)
-                                .read();
+        const Covariates    rows = RowReader(tests[t].rows,
+                                          friction_at_rows(test, friction),
+                                          elastic_slip_per_pressure)
+                                  .read();
         for (std::size_t s = 0; s < test.series.size(); ++s)
           for (std::size_t i = 0; i < test.n_bins(); ++i)
             {
-              const Eigen::Index k = test.begin + s * test.n_bins() + i;
-              copy_row(tests[t].rows, rows, middle_row(test, i), k, result);
-              result.axis(k) = s;
+              const Eigen::Index k   = test.begin + s * test.n_bins() + i;
+              const std::size_t  row = middle_row(test, i);
+              for (const Covariate &covariate : all_covariates())
+                (result.*covariate.values)(k) = (rows.*covariate.values)(row);
+              result.since_rest(k) = rows.since_rest(row);
+              result.phase[k]      = rows.phase[row];
+              result.axis(k)       = s;
             }
       }
     follow_pressure(comparison, tests, result);
