@@ -208,12 +208,8 @@ namespace SlipStep
     BasisColumn flank{"flank", Eigen::VectorXd::Zero(maker.n)};
     for (const ComparedTest &test : comparison.tests)
       for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
-        {
-          const Phase phase = covariates.phase[i];
-          if (phase == Phase::presliding || phase == Phase::restart ||
-              phase == Phase::reversal)
-            flank.friction(i) = test.level;
-        }
+        if (is_flank(covariates.phase[i]))
+          flank.friction(i) = test.level;
     maker.add(flank);
     return maker.columns;
   }

@@ -5,6 +5,28 @@
 
 namespace SlipStep
 {
+  std::string name_of(const Phase phase)
+  {
+    static const char *const names[] = {"presliding",
+                                        "peak",
+                                        "softening",
+                                        "steady",
+                                        "hold",
+                                        "restart",
+                                        "reversal"};
+    return names[static_cast<unsigned int>(phase)];
+  }
+
+
+
+  bool is_flank(const Phase phase)
+  {
+    return phase == Phase::presliding || phase == Phase::restart ||
+           phase == Phase::reversal;
+  }
+
+
+
   double Covariate::shown(const double value) const
   {
     return unit == "deg" ? value * 180. / dealii::numbers::PI : value;

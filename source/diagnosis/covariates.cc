@@ -3,7 +3,6 @@
 #include <slipstep/measured_data/test_rows.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -231,20 +230,6 @@ namespace SlipStep
       return result;
     }
   } // namespace
-
-
-
-  std::string name_of(const Phase phase)
-  {
-    static const std::array<std::string, n_phases> names = {{"presliding",
-                                                             "peak",
-                                                             "softening",
-                                                             "steady",
-                                                             "hold",
-                                                             "restart",
-                                                             "reversal"}};
-    return names[static_cast<unsigned int>(phase)];
-  }
 
 
 

@@ -175,8 +175,7 @@ namespace SlipStep
             rows.displacement_y.empty() ?
               rows.displacement[row] :
               std::hypot(rows.displacement[row], rows.displacement_y[row]));
-          test.phase.push_back(
-            name_of(workspace.covariates.phase[compared.begin + i]));
+          test.phase.push_back(workspace.covariates.phase[compared.begin + i]);
         }
       const Eigen::VectorXd before = comparison.measured + differences.before;
       const Eigen::VectorXd after  = comparison.measured + differences.after;

@@ -13,13 +13,6 @@ namespace SlipStep
 {
   namespace
   {
-    /// Where friction rises or falls steeply, or rests.
-    bool is_flank(const std::string &phase)
-    {
-      return phase == "presliding" || phase == "hold" || phase == "restart" ||
-             phase == "reversal";
-    }
-
     DrawnTest drawn_axis(const DiagnosedTest &test,
                          const bool           is_second_axis,
                          const bool           is_after)
@@ -40,8 +33,8 @@ namespace SlipStep
       drawn.noise =
         test.measured_y.empty() ? test.noise : test.noise / std::sqrt(2.);
       drawn.gap = test.rms_before;
-      for (const std::string &phase : test.phase)
-        drawn.is_flank.push_back(is_flank(phase));
+      for (const Phase phase : test.phase)
+        drawn.is_flank.push_back(is_flank(phase) || phase == Phase::hold);
       return drawn;
     }
 

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace SlipStep
 {
@@ -20,12 +21,12 @@ namespace SlipStep
     constexpr std::size_t most_lines = 30;
 
     /// Root mean square by phase, as a share of friction.
-    using Line = std::map<std::string, double>;
+    using Line = std::map<Phase, double>;
 
     struct HeatMap
     {
       std::vector<const DiagnosedTest *> tests;
-      std::vector<std::string>           phases; ///< those that occur
+      std::set<Phase>                    phases; ///< those that occur
       std::vector<Line>                  before, after;
       double                             largest = 0.;
     };
@@ -34,7 +35,7 @@ namespace SlipStep
                  const std::vector<double> &simulated,
                  const std::vector<double> &simulated_y)
     {
-      std::map<std::string, std::pair<double, double>> sums;
+      std::map<Phase, std::pair<double, double>> sums;
       const auto add = [&](const std::vector<double> &measured,
                            const std::vector<double> &values) {
         const std::size_t n =
@@ -58,34 +59,6 @@ namespace SlipStep
       return line;
     }
 
-    /// In the order in which they happen.
-    std::vector<std::string> phases_of(const std::vector<Line> &lines)
-    {
-      std::vector<std::string> phases = {"presliding",
-                                         "peak",
-                                         "softening",
-                                         "steady",
-                                         "hold",
-                                         "restart",
-                                         "reversal"};
-      const auto               occurs = [&](const std::string &phase) {
-        return std::any_of(lines.begin(), lines.end(), [&](const Line &line) {
-          return line.count(phase) > 0;
-        });
-      };
-      phases.erase(std::remove_if(phases.begin(),
-                                  phases.end(),
-                                  [&](const std::string &phase) {
-                                    return !occurs(phase);
-                                  }),
-                   phases.end());
-      for (const Line &line : lines)
-        for (const auto &[phase, rms] : line)
-          if (std::find(phases.begin(), phases.end(), phase) == phases.end())
-            phases.push_back(phase);
-      return phases;
-    }
-
     HeatMap make_map(const Diagnosis &diagnosis)
     {
       HeatMap map;
@@ -104,7 +77,9 @@ namespace SlipStep
           if (has_after(diagnosis))
             map.after.push_back(line_of(*test, test->after, test->after_y));
         }
-      map.phases = phases_of(map.before);
+      for (const Line &line : map.before)
+        for (const auto &[phase, rms] : line)
+          map.phases.insert(phase);
       for (const auto *const lines : {&map.before, &map.after})
         for (const Line &line : *lines)
           for (const auto &[phase, rms] : line)
@@ -131,15 +106,15 @@ namespace SlipStep
       std::string html =
         "<div><div class='scroll'><table class='heat'><caption>" + caption +
         "</caption>\n<thead><tr><th></th>";
-      for (const std::string &phase : map.phases)
-        html += "<th scope='col'><span>" + html_text(phase) + "</span></th>";
+      for (const Phase phase : map.phases)
+        html += "<th scope='col'><span>" + name_of(phase) + "</span></th>";
       html += "</tr></thead>\n<tbody>\n";
       for (std::size_t i = 0; i < lines.size(); ++i)
         {
           const std::string name = html_text(map.tests[i]->name);
           html +=
             "<tr><th scope='row' title=\"" + name + "\">" + name + "</th>";
-          for (const std::string &phase : map.phases)
+          for (const Phase phase : map.phases)
             {
               const auto found = lines[i].find(phase);
               html +=

@@ -62,10 +62,10 @@ namespace SyntheticDiagnosis
   /// What the test does at a row.
   struct Row
   {
-    double      displacement = 0.;
-    double      since_start  = 0.;
-    double      sign         = 1.;
-    std::string phase;
+    double displacement = 0.;
+    double since_start  = 0.;
+    double sign         = 1.;
+    Phase  phase        = Phase::steady;
   };
 
   /// @param kind "slide", "hold" or "strokes"
@@ -86,13 +86,13 @@ namespace SyntheticDiagnosis
       }
     const double at       = result.since_start;
     const bool   is_first = kind == "slide" || share < 0.4;
-    result.phase = kind == "hold" && share > 0.4 && share < 0.6 ? "hold" :
-                   at < 0.5 ? (is_first         ? "presliding" :
-                               result.sign < 0. ? "reversal" :
-                                                  "restart") :
-                   at < 1.2 ? "peak" :
-                   at < 5.  ? "softening" :
-                              "steady";
+    result.phase = kind == "hold" && share > 0.4 && share < 0.6 ? Phase::hold :
+                   at < 0.5 ? (is_first         ? Phase::presliding :
+                               result.sign < 0. ? Phase::reversal :
+                                                  Phase::restart) :
+                   at < 1.2 ? Phase::peak :
+                   at < 5.  ? Phase::softening :
+                              Phase::steady;
     return result;
   }
 

@@ -9,6 +9,23 @@
 
 namespace SlipStep
 {
+  /// What happens at a row.
+  enum class Phase
+  {
+    presliding, ///< the first flank
+    peak,
+    softening, ///< friction still falls, or rises, after the peak
+    steady,
+    hold,
+    restart, ///< the flank after a hold
+    reversal ///< the flank after a change of direction
+  };
+
+  std::string name_of(const Phase phase);
+
+  /// Whether friction rises towards sliding.
+  bool is_flank(const Phase phase);
+
   struct Covariates;
 
   /// What a difference may depend on.

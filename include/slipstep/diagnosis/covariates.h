@@ -7,28 +7,11 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <string>
 #include <vector>
 
 namespace SlipStep
 {
-  /// What happens at a row.
-  enum class Phase
-  {
-    presliding, ///< the first flank
-    peak,
-    softening, ///< friction still falls, or rises, after the peak
-    steady,
-    hold,
-    restart, ///< the flank after a hold
-    reversal ///< the flank after a change of direction
-  };
-
-  constexpr unsigned int n_phases = 7;
-
-  std::string name_of(const Phase phase);
-
   /// Everything known of the rows compared that may explain a difference, all
   /// tests in a row; for both axes of a test the same.
   struct Covariates

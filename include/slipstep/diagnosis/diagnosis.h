@@ -2,6 +2,7 @@
 #ifndef slipstep_diagnosis_diagnosis_h
 #define slipstep_diagnosis_diagnosis_h
 
+#include <slipstep/diagnosis/covariate.h>
 #include <slipstep/diagnosis/look_alike.h>
 #include <slipstep/utilities/parameters.h>
 
@@ -127,11 +128,11 @@ namespace SlipStep
     double      level      = 1.; ///< typical friction
     bool        is_outlier = false;
     double      start_time = 0.; ///< of the first row compared in the file [s]
-    std::vector<double>      time;         ///< since then [s]
-    std::vector<double>      displacement; ///< [mm]
-    std::vector<double>      measured, before, after;
-    std::vector<double>      measured_y, before_y, after_y;
-    std::vector<std::string> phase;
+    std::vector<double> time;    ///< since then [s]
+    std::vector<double> displacement; ///< [mm]
+    std::vector<double> measured, before, after;
+    std::vector<double> measured_y, before_y, after_y;
+    std::vector<Phase>  phase;
     double noise = 0.; ///< standard deviation of a row from all noise
     /// Root mean square of measured minus simulated, as shares of level.
     double rms_before = 0., rms_after = 0.;
