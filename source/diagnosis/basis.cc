@@ -70,21 +70,21 @@ namespace SlipStep
       template <class Factor>
       void factor(const std::string &name, const Factor &of_row)
       {
-        BasisColumn column{name, Eigen::VectorXd(n)};
+        Eigen::VectorXd column(n);
         for (Eigen::Index i = 0; i < n; ++i)
-          column.friction(i) = covariates.friction(i) * of_row(i);
-        add(column);
+          column(i) = covariates.friction(i) * of_row(i);
+        add(name, column);
       }
 
-      void add(const BasisColumn &column)
+      void add(const std::string &name, const Eigen::VectorXd &column)
       {
-        if (column.friction.squaredNorm() > 0.)
-          columns.push_back(column);
+        if (column.squaredNorm() > 0.)
+          columns.push_back({column, false, name});
       }
 
-      const Covariates        &covariates;
-      const Eigen::Index       n;
-      std::vector<BasisColumn> columns;
+      const Covariates      &covariates;
+      const Eigen::Index     n;
+      std::vector<Direction> columns;
     };
 
 
@@ -124,7 +124,7 @@ namespace SlipStep
       const auto add = [&](const std::string &name, const Eigen::VectorXd &x) {
         if (x.size() == 0 || !(x.maxCoeff() - x.minCoeff() > 0.05))
           return;
-        maker.add({name, at.friction.cwiseProduct(x)});
+        maker.add(name, at.friction.cwiseProduct(x));
       };
       add("unloading", at.unloading);
       const double fastest = largest(at.pressure_rate.cwiseAbs());
@@ -193,8 +193,8 @@ namespace SlipStep
 
 
 
-  std::vector<BasisColumn> smooth_basis(const Comparison &comparison,
-                                        const Covariates &covariates)
+  std::vector<Direction> smooth_basis(const Comparison &comparison,
+                                      const Covariates &covariates)
   {
     BasisMaker maker(covariates);
     for (const char *const name :
@@ -205,22 +205,22 @@ namespace SlipStep
     add_histories(maker, comparison);
     add_directions(maker);
     // The pressure's own change, along the flanks.
-    BasisColumn flank{"flank", Eigen::VectorXd::Zero(maker.n)};
+    Eigen::VectorXd flank = Eigen::VectorXd::Zero(maker.n);
     for (const ComparedTest &test : comparison.tests)
       for (Eigen::Index i = test.begin; i < test.begin + test.size; ++i)
         if (is_flank(covariates.phase[i]))
-          flank.friction(i) = test.level;
-    maker.add(flank);
+          flank(i) = test.level;
+    maker.add("flank", flank);
     return maker.columns;
   }
 
 
 
-  std::vector<Eigen::VectorXd> condition_basis(const Comparison  &comparison,
-                                               const Covariates  &covariates,
-                                               const unsigned int n_waves)
+  std::vector<Direction> condition_basis(const Comparison  &comparison,
+                                         const Covariates  &covariates,
+                                         const unsigned int n_waves)
   {
-    std::vector<Eigen::VectorXd> result;
+    std::vector<Direction> result;
     for (std::size_t c = 0; c < comparison.conditions.size(); ++c)
       for (unsigned int wave = 0; wave <= n_waves; ++wave)
         {
@@ -234,7 +234,7 @@ namespace SlipStep
                                 std::cos(wave * PI * (i % test.n_bins() + 0.5) /
                                          test.n_bins());
                 }
-          result.push_back(column);
+          result.push_back({column});
         }
     return result;
   }

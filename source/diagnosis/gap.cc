@@ -10,27 +10,6 @@ namespace SlipStep
 {
   namespace
   {
-    // Waves of every condition; the first is its mean.
-    std::vector<Direction> condition_waves(const Comparison  &comparison,
-                                           const Covariates  &covariates,
-                                           const unsigned int n_waves)
-    {
-      std::vector<Direction> result;
-      for (const Eigen::VectorXd &column :
-           condition_basis(comparison, covariates, n_waves))
-        {
-          Direction direction;
-          direction.friction = column;
-          result.push_back(direction);
-        }
-      return result;
-    }
-  } // namespace
-
-
-
-  namespace
-  {
     // Rows that are added up before replicates are multiplied: sharp patterns
     // are seen with few, weak slow ones with many.
     constexpr std::array<std::size_t, 4> stretches = {1, 4, 16, 64};
@@ -108,15 +87,8 @@ namespace SlipStep
     const auto        set = [&](const std::vector<Direction> &directions) {
       return DirectionSet(comparison, workspace.null_draws, directions);
     };
-    std::vector<Direction> smooth;
-    for (const BasisColumn &column : smooth_basis(comparison, covariates))
-      {
-        Direction direction;
-        direction.friction = column.friction;
-        smooth.push_back(direction);
-      }
-    workspace.smooth      = set(smooth);
-    workspace.waves       = set(condition_waves(comparison, covariates, 6));
+    workspace.smooth      = set(smooth_basis(comparison, covariates));
+    workspace.waves       = set(condition_basis(comparison, covariates, 6));
     workspace.wavelengths = track_wavelengths(comparison, covariates);
     workspace.along_track =
       set(track_waves(comparison, covariates, workspace.wavelengths));

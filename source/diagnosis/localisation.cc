@@ -18,23 +18,6 @@ namespace SlipStep
     // Covariates that explain less of the excess are not told.
     constexpr double least_share_told = 0.05;
 
-    std::vector<Direction>
-    directions_of(const std::vector<BasisColumn> &columns,
-                  const std::string              &covariate)
-    {
-      std::vector<Direction> result;
-      for (const BasisColumn &column : columns)
-        if (column.covariate == covariate)
-          {
-            Direction direction;
-            direction.friction = column.friction;
-            result.push_back(direction);
-          }
-      return result;
-    }
-
-
-
     using Rows = std::vector<bool>;
 
     // Where the correction is more than half of its largest.
@@ -183,13 +166,15 @@ namespace SlipStep
   std::vector<Localisation>
   localise(const Workspace &workspace, const Model &base, const GapTest &gap)
   {
-    const std::vector<BasisColumn> columns =
+    const std::vector<Direction> basis =
       smooth_basis(workspace.comparison, workspace.covariates);
     std::vector<Localisation> result;
     for (const Covariate &covariate : all_covariates())
       {
-        const std::vector<Direction> directions =
-          directions_of(columns, covariate.name);
+        std::vector<Direction> directions;
+        for (const Direction &direction : basis)
+          if (direction.covariate == covariate.name)
+            directions.push_back(direction);
         if (directions.empty())
           continue;
         const ScoreTest           test(workspace.comparison,

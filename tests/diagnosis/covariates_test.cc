@@ -150,7 +150,7 @@ TEST(Covariates, RememberThePressure)
   EXPECT_NEAR(found.speed_change.cwiseAbs().maxCoeff(), 0., 1e-9);
 
   std::set<std::string> names;
-  for (const BasisColumn &column : smooth_basis(comparison, found))
+  for (const Direction &column : smooth_basis(comparison, found))
     {
       names.insert(column.covariate);
       EXPECT_TRUE(column.friction.allFinite()) << column.covariate;
@@ -206,7 +206,7 @@ TEST(SmoothBasis, HasWhatVaries)
   const MeasuredTest    test = slide_rest_return();
   Comparison            comparison({{test, 0.001, true, Replay(test)}}, 1000);
   std::set<std::string> names;
-  for (const BasisColumn &column :
+  for (const Direction &column :
        smooth_basis(comparison, covariates_of(test, comparison)))
     {
       names.insert(column.covariate);

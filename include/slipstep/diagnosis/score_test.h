@@ -34,7 +34,8 @@ namespace SlipStep
   {
     Eigen::VectorXd friction; ///< the change, not whitened
     bool            is_one_sided = false;
-    /// Which candidate it is; or which column of the smooth basis.
+    std::string     covariate    = ""; ///< of a column of the smooth basis
+    /// Which candidate it is.
     std::size_t candidate = 0;
     std::size_t formula   = 0;
     std::size_t shape     = 0;
