@@ -113,12 +113,7 @@ namespace SlipStep
     void Diagnostician::name()
     {
       result.has_gap         = judgement.gap.p <= ingested.workspace->level;
-      result.gap_p           = judgement.gap.p;
-      result.p_smooth        = judgement.gap.p_smooth;
-      result.p_replicates    = judgement.gap.p_replicates;
-      result.p_together      = judgement.gap.p_together;
-      result.p_track         = judgement.gap.p_track;
-      result.excess          = judgement.gap.excess;
+      result.gap             = judgement.gap;
       result.verdict         = judgement.verdict;
       result.withdrawn       = judgement.withdrawn;
       result.explained_share = judgement.explained_share;

@@ -147,12 +147,12 @@ namespace SlipStep
     json gap_block(const Diagnosis &diagnosis)
     {
       return {{"status", diagnosis.has_gap ? "gap" : "no_gap"},
-              {"p", diagnosis.gap_p},
-              {"p_smooth", diagnosis.p_smooth},
-              {"p_replicates", diagnosis.p_replicates},
-              {"p_together", diagnosis.p_together},
-              {"p_track", diagnosis.p_track},
-              {"excess", diagnosis.excess},
+              {"p", diagnosis.gap.p},
+              {"p_smooth", diagnosis.gap.p_smooth},
+              {"p_replicates", diagnosis.gap.p_replicates},
+              {"p_together", diagnosis.gap.p_together},
+              {"p_track", diagnosis.gap.p_track},
+              {"excess", diagnosis.gap.excess},
               {"rms_percent", percent(diagnosis.shrink.fitted_before)},
               {"noise_floor_percent", percent(diagnosis.shrink.noise_floor)}};
     }

@@ -49,7 +49,7 @@ namespace SlipStep
              (diagnosis.effects.empty() ? "" : " – " + names_text(diagnosis)) +
              (under.empty() ? "" : ", " + under) +
              "\n  chance of this gap by noise alone: " +
-             chance_text(diagnosis.gap_p, diagnosis.n_draws) + "\n\n" +
+             chance_text(diagnosis.gap.p, diagnosis.n_draws) + "\n\n" +
              text_table(lines, terminal_width);
     }
 

@@ -125,7 +125,7 @@ namespace SlipStep
     /// " (p = 0.2)"
     std::string gap_chance(const Diagnosis &diagnosis)
     {
-      const std::string text = chance_text(diagnosis.gap_p, diagnosis.n_draws);
+      const std::string text = chance_text(diagnosis.gap.p, diagnosis.n_draws);
       return std::string(" (p ") + (text.rfind("≤", 0) == 0 ? "" : "= ") +
              text + ")";
     }

@@ -207,24 +207,24 @@ namespace SyntheticDiagnosis
               test("slide-hold-slide", "hold 100 s", "hold", nothing),
               test("strokes", "10 mm/min, forth and back", "strokes", nothing),
               test("high pressure", "20 MPa", "slide", nothing)};
-    result.gap_p          = 0.41;
-    result.p_smooth       = 0.41;
-    result.p_replicates   = 0.52;
-    result.p_track        = 0.83;
-    const double infinity = std::numeric_limits<double>::infinity();
-    const double none     = std::nan("");
-    result.candidates     = {
-          candidate("overstress", Standing::rejected, 0.47, none, none, 0.0035),
-          candidate("stribeck", Standing::rejected, 0.6, none, none, 0.006),
-          candidate("viscous", Standing::rejected, 0.8, none, none, 0.008),
-          candidate("healing", Standing::rejected, 0.93, none, none, 0.021),
-          candidate("run_in", Standing::rejected, 0.97, none, none, 0.004),
-          candidate("pressure", Standing::rejected, 1., none, none, 0.012),
-          candidate("shear_cap", Standing::rejected, 1., none, none, 0.31),
-          candidate("direction", Standing::rejected, 1., none, none, 0.005),
-          candidate("anisotropy", Standing::not_testable, 1., none, none, infinity),
-          candidate("heating", Standing::not_testable, 1., none, none, infinity),
-          candidate("softening", Standing::in_the_model, 1., none, none, infinity)};
+    result.gap.p            = 0.41;
+    result.gap.p_smooth     = 0.41;
+    result.gap.p_replicates = 0.52;
+    result.gap.p_track      = 0.83;
+    const double infinity   = std::numeric_limits<double>::infinity();
+    const double none       = std::nan("");
+    result.candidates       = {
+            candidate("overstress", Standing::rejected, 0.47, none, none, 0.0035),
+            candidate("stribeck", Standing::rejected, 0.6, none, none, 0.006),
+            candidate("viscous", Standing::rejected, 0.8, none, none, 0.008),
+            candidate("healing", Standing::rejected, 0.93, none, none, 0.021),
+            candidate("run_in", Standing::rejected, 0.97, none, none, 0.004),
+            candidate("pressure", Standing::rejected, 1., none, none, 0.012),
+            candidate("shear_cap", Standing::rejected, 1., none, none, 0.31),
+            candidate("direction", Standing::rejected, 1., none, none, 0.005),
+            candidate("anisotropy", Standing::not_testable, 1., none, none, infinity),
+            candidate("heating", Standing::not_testable, 1., none, none, infinity),
+            candidate("softening", Standing::in_the_model, 1., none, none, infinity)};
     result.candidates[8].why           = "no test slides off the axis";
     result.candidates[8].cheapest_test = "a slide at 45 deg";
     result.candidates[9].why           = "no run is long and fast enough";
@@ -259,21 +259,21 @@ namespace SyntheticDiagnosis
   {
     Diagnosis result = base();
     result.has_gap   = true;
-    result.gap_p = result.p_smooth = 0.001;
-    result.p_replicates            = 0.001;
-    result.excess                  = 2210.;
-    result.where                   = {
-                        {"speed",
-                         "mm/s",
-                         0.83,
-                         0.5,
-                         1.7,
-                         1,
-                         {"steady", "softening"},
-                         {"fast", "fast again"}},
-                        {"heat", "MPa mm", 0.31, 4., 90., 1, {"steady"}, {"fast"}},
-                        {"order of the tests", "", 0.12, 5., 8., -1, {"steady"}, {"strokes"}},
-                        {"flank", "", 0.04, 0., 0., -1, {"presliding"}, {"middle"}}};
+    result.gap.p = result.gap.p_smooth = 0.001;
+    result.gap.p_replicates            = 0.001;
+    result.gap.excess                  = 2210.;
+    result.where                       = {
+                            {"speed",
+                             "mm/s",
+                             0.83,
+                             0.5,
+                             1.7,
+                             1,
+                             {"steady", "softening"},
+                             {"fast", "fast again"}},
+                            {"heat", "MPa mm", 0.31, 4., 90., 1, {"steady"}, {"fast"}},
+                            {"order of the tests", "", 0.12, 5., 8., -1, {"steady"}, {"strokes"}},
+                            {"flank", "", 0.04, 0., 0., -1, {"presliding"}, {"middle"}}};
     const std::vector<double> effect = {
       -0.06, -0.06, 0., 0.07, 0.07, -0.02, 0.035, -0.02};
     for (std::size_t i = 0; i < result.tests.size(); ++i)

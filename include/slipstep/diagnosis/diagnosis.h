@@ -59,6 +59,19 @@ namespace SlipStep
     std::string effect; ///< "" for a parameter of the starting model
   };
 
+  /// Whether anything is missing.
+  struct Gap
+  {
+    double p            = 1.; ///< of all four, Bonferroni
+    double p_smooth     = 1.; ///< largest score of covariates and candidates
+    double p_together   = 1.; ///< smooth and waves at once
+    double p_replicates = 1.; ///< what replicates have in common
+    double p_track      = 1.; ///< waves along the track
+    /// Of the objective: what a model with anything at all could explain,
+    /// beyond chance.
+    double excess = 0.;
+  };
+
   /// Where the calibrated starting model disagrees.
   struct Localisation
   {
@@ -246,10 +259,8 @@ namespace SlipStep
     std::vector<NoiseComponent>     noise;
 
     // ---- gap
-    bool   has_gap  = false;
-    double gap_p    = 1.;
-    double p_smooth = 1., p_replicates = 1., p_together = 1., p_track = 1.;
-    double excess = 0.;              ///< of the objective
+    bool                      has_gap = false;
+    Gap                       gap;
     std::vector<Localisation> where; ///< most first
 
     /// What is no missing effect and would explain as much.

@@ -3,6 +3,7 @@
 #define slipstep_diagnosis_gap_h
 
 #include <slipstep/diagnosis/candidate_scores.h>
+#include <slipstep/diagnosis/diagnosis.h>
 #include <slipstep/diagnosis/rules.h>
 
 #include <algorithm>
@@ -10,16 +11,9 @@
 
 namespace SlipStep
 {
-  /// Whether anything is missing.
-  struct GapTest
+  /// With what later stages ask of it.
+  struct GapTest : Gap
   {
-    double p            = 1.; ///< of all four, Bonferroni
-    double p_smooth     = 1.; ///< largest score of covariates and candidates
-    double p_together   = 1.; ///< smooth and waves at once
-    double p_replicates = 1.; ///< what replicates have in common
-    double p_track      = 1.; ///< waves along the track
-    /// What a model with anything at all could explain, beyond chance.
-    double          excess  = 0.;
     double          scatter = 0.; ///< of the excess, by chance
     Eigen::VectorXd explained;    ///< that part of the residual, whitened
 
