@@ -144,10 +144,7 @@ namespace SlipStep
              "by the name of " + list_text(judgement.named_by_outliers)) +
           ": should their records be right, this verdict is not.");
       for (const Rival &rival : judgement.found.rivals)
-        {
-          result.ambiguous_with.push_back(rival.name);
-          result.rival_of.push_back(rival.instead_of);
-        }
+        result.rivals.push_back({rival.name, rival.instead_of});
     }
 
 

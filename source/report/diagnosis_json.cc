@@ -168,11 +168,17 @@ namespace SlipStep
 
     json verdict_block(const Diagnosis &diagnosis)
     {
+      json rivals = json::array(), rival_of = json::array();
+      for (const RivalEffect &rival : diagnosis.rivals)
+        {
+          rivals.push_back(rival.name);
+          rival_of.push_back(rival.instead_of);
+        }
       return {{"status", name_of(diagnosis.verdict)},
               {"headline", headline(diagnosis)},
               {"effects", diagnosis.effects},
-              {"ambiguous_with", diagnosis.ambiguous_with},
-              {"rival_of", diagnosis.rival_of},
+              {"ambiguous_with", rivals},
+              {"rival_of", rival_of},
               {"withdrawn", diagnosis.withdrawn},
               {"look_alike",
                diagnosis.look_alike.has_value() ?

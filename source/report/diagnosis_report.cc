@@ -86,16 +86,14 @@ namespace SlipStep
       std::string html;
       for (const std::string &effect : diagnosis.effects)
         html += paragraph(effect_words(effect), "big");
-      if (!diagnosis.ambiguous_with.empty())
-        {
-          html += paragraph("or, as these tests do not tell them apart:");
-          for (std::size_t i = 0; i < diagnosis.ambiguous_with.size(); ++i)
-            html += paragraph(
-              effect_words(diagnosis.ambiguous_with[i]) +
-              (i < diagnosis.rival_of.size() && diagnosis.effects.size() > 1 ?
-                 ", in place of " + diagnosis.rival_of[i] :
-                 ""));
-        }
+      if (!diagnosis.rivals.empty())
+        html += paragraph("or, as these tests do not tell them apart:");
+      for (const RivalEffect &rival : diagnosis.rivals)
+        html +=
+          paragraph(effect_words(rival.name) +
+                    (!rival.instead_of.empty() && diagnosis.effects.size() > 1 ?
+                       ", in place of " + rival.instead_of :
+                       ""));
       return html + note("Explains " +
                          fixed_text(100. * diagnosis.explained_share, 0) +
                          " % of the difference beyond the noise.");

@@ -25,14 +25,11 @@ namespace SlipStep
                                        const std::size_t effect)
     {
       std::vector<std::string> rivals;
-      for (std::size_t i = 0; i < diagnosis.ambiguous_with.size(); ++i)
-        {
-          const std::string place =
-            i < diagnosis.rival_of.size() ? diagnosis.rival_of[i] : "";
-          const bool is_known = contains(diagnosis.effects, place);
-          if (is_known ? place == diagnosis.effects[effect] : effect == 0)
-            rivals.push_back(diagnosis.ambiguous_with[i]);
-        }
+      for (const RivalEffect &rival : diagnosis.rivals)
+        if (contains(diagnosis.effects, rival.instead_of) ?
+              rival.instead_of == diagnosis.effects[effect] :
+              effect == 0)
+          rivals.push_back(rival.name);
       return rivals;
     }
 
@@ -60,9 +57,8 @@ namespace SlipStep
     std::string all_plain_words(const Diagnosis &diagnosis)
     {
       std::vector<std::string> names = diagnosis.effects;
-      names.insert(names.end(),
-                   diagnosis.ambiguous_with.begin(),
-                   diagnosis.ambiguous_with.end());
+      for (const RivalEffect &rival : diagnosis.rivals)
+        names.push_back(rival.name);
       // More would bury the numbers.
       if (names.size() > 2)
         return "";
@@ -416,11 +412,10 @@ namespace SlipStep
     // "a, b, and c or d", but "a and b".
     std::string text;
     for (std::size_t i = 0; i < alternatives.size(); ++i)
-      text += (i == 0                      ? "" :
-               i + 1 < alternatives.size() ? ", " :
-               diagnosis.ambiguous_with.empty() || alternatives.size() < 2 ?
-                                             " and " :
-                                             ", and ") +
+      text += (i == 0                                              ? "" :
+               i + 1 < alternatives.size()                         ? ", " :
+               diagnosis.rivals.empty() || alternatives.size() < 2 ? " and " :
+                                                                     ", and ") +
               alternatives[i];
     return text;
   }

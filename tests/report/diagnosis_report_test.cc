@@ -258,7 +258,7 @@ TEST(DiagnosisHeadline, RivalsStandBesideWhatTheyReplace)
     contains(headline(diagnosis), "; sliding at 0.01 mm/min would tell."));
   diagnosis.effects = {"healing", "overstress"};
   EXPECT_EQ(names_text(diagnosis), "healing, and overstress or stribeck");
-  diagnosis.rival_of.clear();
+  diagnosis.rivals[0].instead_of.clear();
   EXPECT_EQ(names_text(diagnosis), "healing or stribeck, and overstress");
 }
 

@@ -343,8 +343,7 @@ namespace SyntheticDiagnosis
   {
     Diagnosis result              = named();
     result.verdict                = Verdict::ambiguous;
-    result.ambiguous_with         = {"stribeck"};
-    result.rival_of               = {"overstress"};
+    result.rivals                 = {{"stribeck", "overstress"}};
     result.candidates[1].standing = Standing::rival;
     result.candidates[1].gain     = 2206.2;
     return result;

@@ -122,6 +122,13 @@ namespace SlipStep
     std::vector<DiagnosedParameter> parameters; ///< of those named
   };
 
+  /// An effect that does as well as one that is named.
+  struct RivalEffect
+  {
+    std::string name;
+    std::string instead_of; ///< "" if that is not known
+  };
+
   /// Something that hinders the verdict.
   struct Outlier
   {
@@ -268,10 +275,8 @@ namespace SlipStep
 
     // ---- verdict
     Verdict                  verdict = Verdict::no_gap;
-    std::vector<std::string> effects;        ///< strongest first
-    std::vector<std::string> ambiguous_with; ///< the rivals
-    /// Of each rival, the effect in whose place it stands.
-    std::vector<std::string> rival_of;
+    std::vector<std::string> effects; ///< strongest first
+    std::vector<RivalEffect> rivals;
     double                   explained_share = 0.;
     double                   remainder_p     = 1.;
     /// Names that explained too little and were taken back.
