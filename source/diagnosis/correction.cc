@@ -10,10 +10,10 @@ namespace SlipStep
 {
   namespace
   {
-    std::optional<Correction> correct_along(const Workspace   &workspace,
-                                            const Model       &base,
-                                            const Judgement   &judgement,
-                                            const std::string &name)
+    std::optional<CorrectedModel> correct_along(const Workspace   &workspace,
+                                                const Model       &base,
+                                                const Judgement   &judgement,
+                                                const std::string &name)
     {
       // What expression knows is the temperature of effect heating.
       if (name == "heat")
@@ -22,7 +22,7 @@ namespace SlipStep
         add_free_factor(workspace, base, covariate_called(name).in_expression);
       if (!factor.has_value())
         return {};
-      Correction result;
+      CorrectedModel result;
       result.covariate    = factor->covariate;
       result.formula      = factor->formula;
       result.model        = factor->model;
@@ -58,7 +58,7 @@ namespace SlipStep
 
 
 
-  std::optional<Correction>
+  std::optional<CorrectedModel>
   find_correction(const Workspace                 &workspace,
                   const Model                     &base,
                   const Judgement                 &judgement,
@@ -68,7 +68,7 @@ namespace SlipStep
 
     for (const Localisation &place : where)
       {
-        const std::optional<Correction> correction =
+        const std::optional<CorrectedModel> correction =
           correct_along(workspace, base, judgement, place.covariate);
         if (correction.has_value())
           return correction->share >= least_share &&

@@ -222,14 +222,12 @@ namespace SlipStep
       stage("describing what has no name");
       ingested.workspace->range.track_wave =
         clear_track_wave(*ingested.workspace, ingested.base);
-      const std::optional<Correction> correction = find_correction(
+      const std::optional<CorrectedModel> correction = find_correction(
         *ingested.workspace, ingested.base, judgement, result.where);
       if (!correction.has_value())
         return;
-      result.correction_covariate = correction->covariate;
-      result.correction_formula   = correction->formula;
-      result.correction_share     = correction->share;
-      final_model                 = correction->model;
+      result.correction = *correction;
+      final_model       = correction->model;
     }
 
 

@@ -207,10 +207,10 @@ namespace SlipStep
     json new_model_block(const Diagnosis &diagnosis)
     {
       json correction;
-      if (!diagnosis.correction_covariate.empty())
-        correction = {{"covariate", diagnosis.correction_covariate},
-                      {"formula", diagnosis.correction_formula},
-                      {"share", diagnosis.correction_share}};
+      if (diagnosis.correction.has_value())
+        correction = {{"covariate", diagnosis.correction->covariate},
+                      {"formula", diagnosis.correction->formula},
+                      {"share", diagnosis.correction->share}};
       return {{"prm", diagnosis.improved_case},
               {"added", diagnosis.effects},
               {"correction", correction}};

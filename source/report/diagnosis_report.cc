@@ -250,17 +250,17 @@ namespace SlipStep
     std::string correction_section(const Diagnosis &diagnosis)
     {
       if (diagnosis.verdict != Verdict::unnamed ||
-          diagnosis.correction_covariate.empty())
+          !diagnosis.correction.has_value())
         return "";
       return heading("A correction, cause unknown") +
              paragraph("A smooth factor on friction that depends on " +
-                       diagnosis.correction_covariate + " takes away " +
-                       fixed_text(100. * diagnosis.correction_share, 0) +
+                       diagnosis.correction->covariate + " takes away " +
+                       fixed_text(100. * diagnosis.correction->share, 0) +
                        " % of the difference beyond the noise. It describes "
                        "the difference and does not explain it; outside of the "
                        "range that was tested it keeps the value of the "
                        "border.") +
-             "<p><code>" + html_text(diagnosis.correction_formula) +
+             "<p><code>" + html_text(diagnosis.correction->formula) +
              "</code></p>\n";
     }
 

@@ -158,8 +158,8 @@ namespace SlipStep
                          gap_words(diagnosis) + gap_chance(diagnosis);
       if (!diagnosis.where.empty())
         text += ", most " + place_words(diagnosis.where[0]);
-      if (!diagnosis.correction_covariate.empty())
-        text += "; a correction by " + diagnosis.correction_covariate +
+      if (diagnosis.correction.has_value())
+        text += "; a correction by " + diagnosis.correction->covariate +
                 ", cause unknown, brings it to " +
                 percent_text(diagnosis.shrink.fitted_after);
       return text;
@@ -567,8 +567,7 @@ namespace SlipStep
 
   bool has_after(const Diagnosis &diagnosis)
   {
-    return !diagnosis.effects.empty() ||
-           !diagnosis.correction_covariate.empty();
+    return !diagnosis.effects.empty() || diagnosis.correction.has_value();
   }
 
 

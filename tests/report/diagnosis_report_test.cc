@@ -271,7 +271,7 @@ TEST(DiagnosisHeadline, WhatHasNoNameHasItsPlace)
   EXPECT_TRUE(contains(text, "no effect of the catalogue explains"));
   EXPECT_TRUE(contains(text, "most at speeds of 0.5 … 1.7 mm/s"));
   EXPECT_TRUE(contains(text, "cause unknown, brings it to 2.71 %"));
-  diagnosis.correction_covariate = "";
+  diagnosis.correction.reset();
   diagnosis.where.clear();
   EXPECT_FALSE(contains(headline(diagnosis), "cause unknown"));
 }

@@ -356,10 +356,8 @@ namespace SyntheticDiagnosis
     result.withdrawn = {"overstress"};
     result.candidates[0] =
       candidate("overstress", Standing::rejected, 0.001, 310.4, -12., 0.0035);
-    result.correction_covariate = "speed";
-    result.correction_formula =
-      "1 + 0.04*min(max(log(v/0.01), 0), 6.9) - 0.002*log(v)^2";
-    result.correction_share        = 0.62;
+    result.correction = {
+      "speed", "1 + 0.04*min(max(log(v/0.01), 0), 6.9) - 0.002*log(v)^2", 0.62};
     result.shrink.fitted_after     = 0.0271;
     result.shrink.left_out_after   = 0.0322;
     result.shrink.systematic_after = 0.0251;

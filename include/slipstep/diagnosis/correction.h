@@ -10,16 +10,13 @@
 
 namespace SlipStep
 {
-  /// The free-form correction of one covariate, cause unknown.
-  struct Correction
+  struct CorrectedModel : Correction
   {
-    std::string covariate, formula;
-    Model       model;
-    double      share = 0.; ///< of the excess that it takes away
+    Model model;
   };
 
   /// @return none if it takes away less than half
-  std::optional<Correction>
+  std::optional<CorrectedModel>
   find_correction(const Workspace                 &workspace,
                   const Model                     &base,
                   const Judgement                 &judgement,

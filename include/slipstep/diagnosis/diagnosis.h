@@ -217,6 +217,13 @@ namespace SlipStep
     CovariatePanel panel;
   };
 
+  /// A free factor along one covariate, cause unknown.
+  struct Correction
+  {
+    std::string covariate, formula; ///< as effect expression has them
+    double      share = 0.;         ///< of the excess that it takes away
+  };
+
   struct NextTest
   {
     std::string words;     ///< "sliding at 0.01 mm/min"; empty for none
@@ -287,10 +294,7 @@ namespace SlipStep
     std::vector<Localisation>     remains;
     std::vector<CompletedFormula> completed;
     std::vector<CandidateResult>  candidates; ///< best first
-    /// Covariate of the correction of unknown cause; "" if there is none.
-    std::string correction_covariate;
-    std::string correction_formula;
-    double      correction_share = 0.; ///< of the excess that it explains
+    std::optional<Correction>     correction; ///< of what has no name
 
     // ---- the way down
     Shrink                      shrink;

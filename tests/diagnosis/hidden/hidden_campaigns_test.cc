@@ -431,8 +431,8 @@ TEST_F(CampaignFolder, WavesWithoutANameAreDescribed)
   parameters.set("Diagnosis/Candidates", "pressure, healing", "test");
   const Judgement judgement = judged();
   ASSERT_EQ(name_of(judgement.verdict), "unnamed");
-  const Workspace                &workspace = *ingested.workspace;
-  const std::optional<Correction> correction =
+  const Workspace                    &workspace = *ingested.workspace;
+  const std::optional<CorrectedModel> correction =
     find_correction(workspace,
                     judgement.base,
                     judgement,
