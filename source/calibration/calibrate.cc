@@ -653,23 +653,20 @@ namespace SlipStep
   Parameters fitted_case(const Parameters  &parameters,
                          const Calibration &calibration)
   {
-    Parameters result = parameters;
-    for (const FittedParameter &fitted : calibration.parameters)
-      result.set(fitted.parameter.path,
-                 fitted.parameter.text(fitted.value),
-                 "calibration");
-    apply_ties(read_derived(result), result);
-    // Without the starts: they are the values now.
-    std::string list;
+    Parameters                result = parameters;
+    std::vector<FitParameter> listed;
     for (const FittedParameter &fitted : calibration.parameters)
       {
-        const FitParameter &parameter = fitted.parameter;
-        list += (list.empty() ? "" : "; ") + parameter.path + " from " +
-                parameter.text(parameter.lower) + " to " +
-                parameter.text(parameter.upper) +
-                (parameter.is_logarithmic ? " log" : " linear");
+        result.set(fitted.parameter.path,
+                   fitted.parameter.text(fitted.value),
+                   "calibration");
+        listed.push_back(fitted.parameter);
       }
-    result.set("Calibration/Parameters", list, "calibration");
+    apply_ties(read_derived(result), result);
+    // Without the starts: they are the values now.
+    result.set("Calibration/Parameters",
+               statements(listed, false),
+               "calibration");
     return result;
   }
 } // namespace SlipStep

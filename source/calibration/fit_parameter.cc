@@ -327,6 +327,21 @@ namespace SlipStep
 
 
 
+  std::string statements(const std::vector<FitParameter> &parameters,
+                         const bool                       with_starts)
+  {
+    std::string list;
+    for (const FitParameter &parameter : parameters)
+      list += (list.empty() ? "" : "; ") + parameter.path + " from " +
+              parameter.text(parameter.lower) + " to " +
+              parameter.text(parameter.upper) +
+              (with_starts ? " start " + parameter.text(parameter.start) : "") +
+              (parameter.is_logarithmic ? " log" : " linear");
+    return list;
+  }
+
+
+
   std::string label_of(const FitParameter &parameter)
   {
     return parameter.name.empty() ? parameter.path : parameter.name;

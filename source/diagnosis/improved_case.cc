@@ -6,18 +6,14 @@ namespace SlipStep
   Parameters case_of(const Parameters &start, const Model &model)
   {
     Parameters result = assemble(start, model.parts, model.values()).parameters;
-    std::string list;
-    for (const FitParameter &parameter : model.campaign->fitted)
-      list += (list.empty() ? "" : "; ") + parameter.path + " from " +
-              parameter.text(parameter.lower) + " to " +
-              parameter.text(parameter.upper) +
-              (parameter.is_logarithmic ? " log" : " linear");
     for (const auto &value : model.values())
       result.set(value.first,
                  quantity_text(result, value.first, value.second, 8),
                  "diagnosis");
     apply_ties(read_derived(result), result);
-    result.set("Calibration/Parameters", list, "diagnosis");
+    result.set("Calibration/Parameters",
+               statements(model.campaign->fitted, false),
+               "diagnosis");
     return result;
   }
 } // namespace SlipStep

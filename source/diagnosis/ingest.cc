@@ -27,29 +27,29 @@ namespace SlipStep
 
     const char *const list_key = "Calibration/Parameters";
 
-    // "path from a to b start c scale", within what the key allows; "" for what
-    // is no positive number.
-    std::string statement(const Parameters  &parameters,
-                          const std::string &path,
-                          const double       factor,
-                          const std::string &scale)
+    // Unless it is no positive number: a few times smaller to larger, as far as
+    // is allowed.
+    void add_to_fit(const Parameters          &parameters,
+                    const std::string         &path,
+                    std::vector<FitParameter> &listed)
     {
       const auto *quantity =
         dynamic_cast<const Quantity *>(parameters.entry(path).pattern.get());
       if (quantity == nullptr || !(parameters.number(path) > 0.))
-        return "";
-      const double value = parameters.number(path);
+        return;
+      const bool is_coefficient = path.find("coefficient") != std::string::npos;
+      const double factor       = is_coefficient ? 3. : 30.;
+      FitParameter result;
+      result.path      = path;
+      result.dimension = quantity->dimension;
+      result.start     = parameters.number(path);
       // Next to a bound that is excluded.
-      const double lower =
-        std::max(value / factor, quantity->minimum * (1. + 1e-6));
-      const double upper = std::min(value * factor, quantity->maximum);
-      if (!(lower < value) || !(value < upper))
-        return "";
-      const auto text = [&](const double number) {
-        return quantity_text(parameters, path, number);
-      };
-      return path + " from " + text(lower) + " to " + text(upper) + " start " +
-             text(value) + " " + scale;
+      result.lower =
+        std::max(result.start / factor, quantity->minimum * (1. + 1e-6));
+      result.upper = std::min(result.start * factor, quantity->maximum);
+      result.is_logarithmic = !is_coefficient;
+      if (result.lower < result.start && result.start < result.upper)
+        listed.push_back(result);
     }
 
 
@@ -75,31 +75,20 @@ namespace SlipStep
 
   Parameters with_parameters_listed(const Parameters &parameters)
   {
-    Parameters  result = parameters;
-    std::string list;
-    const auto  add = [&](const std::string &text) {
-      if (!text.empty())
-        list += (list.empty() ? "" : "; ") + text;
-    };
+    Parameters                result = parameters;
+    std::vector<FitParameter> listed;
     if (parameters.text(list_key).empty())
       {
-        add(statement(parameters, "Friction/Static coefficient", 3., "linear"));
+        add_to_fit(parameters, "Friction/Static coefficient", listed);
         for (const std::string &effect : parameters.list("Friction/Effects"))
           for (const std::string &path :
                parameters.paths("Friction/" + effect + "/"))
             if (!is_reference(path))
-              add(path.find("coefficient") == std::string::npos ?
-                    statement(parameters, path, 30., "log") :
-                    statement(parameters, path, 3., "linear"));
+              add_to_fit(parameters, path, listed);
       }
     else
-      // With the starts written out.
-      for (const FitParameter &parameter : read_fit_parameters(parameters))
-        add(parameter.path + " from " + parameter.text(parameter.lower) +
-            " to " + parameter.text(parameter.upper) + " start " +
-            parameter.text(parameter.start) +
-            (parameter.is_logarithmic ? " log" : " linear"));
-    result.set(list_key, list, "diagnosis");
+      listed = read_fit_parameters(parameters);
+    result.set(list_key, statements(listed, true), "diagnosis");
     return result;
   }
 

@@ -63,6 +63,10 @@ namespace SlipStep
                                   const double       start,
                                   const bool         is_logarithmic);
 
+  /// As "Calibration/Parameters" lists them.
+  std::string statements(const std::vector<FitParameter> &parameters,
+                         const bool                       with_starts);
+
   /// Give parameters the names that tell them apart.
   void name_apart(std::vector<FitParameter> &parameters);
 
