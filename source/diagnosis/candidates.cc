@@ -125,6 +125,16 @@ namespace SlipStep
 
 
 
+    void add_effect(const std::string &name, Parameters &parameters)
+    {
+      const std::string path = "Friction/Effects", list = parameters.text(path);
+      parameters.set(path,
+                     list + (list.empty() ? "" : ", ") + name,
+                     "diagnosis");
+    }
+
+
+
     // Seen from the model with its partner, if the model has not.
     Candidate candidate_beside(const EffectInfo &own, const Circumstances &now)
     {
@@ -135,13 +145,10 @@ namespace SlipStep
           candidate.leave_to_model("it is in the model already");
           return candidate;
         }
-      Parameters  with_partner = now.parameters;
-      std::string list         = now.parameters.text("Friction/Effects");
-      const bool  has_partner  = has_formula_of(partner, now);
+      Parameters with_partner = now.parameters;
+      const bool has_partner  = has_formula_of(partner, now);
       if (!has_partner)
-        with_partner.set("Friction/Effects",
-                         list + (list.empty() ? "" : ", ") + partner,
-                         "diagnosis");
+        add_effect(partner, with_partner);
       else if (!own.search.candidate.empty() &&
                own.search.formula(now).why_not.empty())
         {
@@ -259,12 +266,7 @@ namespace SlipStep
       const TrialFormula &formula    = part.formula;
       Parameters         &parameters = result.parameters;
       if (!formula.effect.empty())
-        {
-          const std::string list = parameters.text("Friction/Effects");
-          parameters.set("Friction/Effects",
-                         list + (list.empty() ? "" : ", ") + formula.effect,
-                         "diagnosis");
-        }
+        add_effect(formula.effect, parameters);
       for (const auto &[path, value] : formula.settings)
         parameters.set(path,
                        quantity_text(parameters, path, value),
