@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 
 namespace SlipStep
@@ -361,18 +362,12 @@ namespace SlipStep
       std::string  words;
       for (const ProposedTest &test : proposed)
         {
-          double gained = 0.;
-          try
-            {
-              gained = information(simulator, optimum, direction, test);
-              ++n_simulated;
-            }
-          catch (const InputError &)
-            {}
-          catch (const RunError &)
-            {
-              throw_if_stopped();
-            }
+          const double gained = if_possible([&]() {
+            const double found =
+              information(simulator, optimum, direction, test);
+            ++n_simulated;
+            return found;
+          });
           const double after =
             1. / std::sqrt(1. / (before * before) + gained / optimum.inflation);
           if (after < 0.9 * best)
@@ -428,23 +423,17 @@ namespace SlipStep
               continue;
             for (double &value : scaled)
               value = std::clamp(value, 0., 1.);
-            try
-              {
-                const FitResult found = fit(simulator, scaled, others, 0);
-                if (found.misfit > optimum.misfit + nearly * optimum.inflation)
-                  continue;
-                Eigen::VectorXd change(scaled.size());
-                for (std::size_t i = 0; i < scaled.size(); ++i)
-                  change(i) =
-                    (found.scaled[i] - optimum.scaled[i]) * optimum.size[i];
-                return change;
-              }
-            catch (const InputError &)
-              {}
-            catch (const RunError &)
-              {
-                throw_if_stopped();
-              }
+            const auto found = if_possible([&]() -> std::optional<FitResult> {
+              return fit(simulator, scaled, others, 0);
+            });
+            if (!found.has_value() ||
+                found->misfit > optimum.misfit + nearly * optimum.inflation)
+              continue;
+            Eigen::VectorXd change(scaled.size());
+            for (std::size_t i = 0; i < scaled.size(); ++i)
+              change(i) =
+                (found->scaled[i] - optimum.scaled[i]) * optimum.size[i];
+            return change;
           }
       return Eigen::VectorXd::Zero(direction.size());
     }

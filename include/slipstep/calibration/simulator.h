@@ -3,6 +3,7 @@
 #define slipstep_calibration_simulator_h
 
 #include <slipstep/calibration/campaign.h>
+#include <slipstep/utilities/exceptions.h>
 
 #include <cstddef>
 #include <functional>
@@ -13,6 +14,24 @@ namespace SlipStep
 {
   /// @throws RunError if a signal asked to stop
   void throw_if_stopped();
+
+  /// What @p attempt returns; nothing if it asks for a model that cannot be made
+  /// or simulated.
+  template <class Attempt>
+  auto if_possible(const Attempt &attempt) -> decltype(attempt())
+  {
+    try
+      {
+        return attempt();
+      }
+    catch (const InputError &)
+      {}
+    catch (const RunError &)
+      {
+        throw_if_stopped();
+      }
+    return {};
+  }
 
   /// Do work for 0 to n - 1 side by side on the cores, each writing only what
   /// is its own; the first exception is thrown again.

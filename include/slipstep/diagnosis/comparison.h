@@ -7,8 +7,6 @@
 #include <slipstep/diagnosis/noise.h>
 #include <slipstep/measured_data/row_noise.h>
 
-#include <slipstep/utilities/exceptions.h>
-
 #include <Eigen/Core>
 
 #include <memory>
@@ -177,24 +175,6 @@ namespace SlipStep
                    const Values                    &values,
                    const std::vector<CampaignTest> &tests,
                    const Model                     &like);
-
-  /// What @p attempt returns; nothing if it asks for a model that cannot be made
-  /// or simulated.
-  template <class Attempt>
-  auto if_possible(const Attempt &attempt) -> decltype(attempt())
-  {
-    try
-      {
-        return attempt();
-      }
-    catch (const InputError &)
-      {}
-    catch (const RunError &)
-      {
-        throw_if_stopped();
-      }
-    return {};
-  }
 
   /// How much smaller the errors of the steps are by which a model's own are
   /// taken out, see Simulator::correct(): what is left is of second order, and
