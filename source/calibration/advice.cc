@@ -299,32 +299,24 @@ namespace SlipStep
       };
       const CampaignTest &like = simulator.campaign.tests.front();
       Replay              replay(proposed.motion);
-      Replay::Curve       plus, minus;
       constexpr double    least = 1e-3;
       const double        ahead = is_outside(least) ? 0. : least;
       const double        back  = is_outside(-least) ? 0. : least;
       if (ahead + back == 0.)
         return 0.;
-      {
-        const Parameters &parameters = simulator.with(optimum.scaled);
-        replay.plan(FrictionLaw(parameters),
-                    Machine(parameters),
-                    simulator.campaign.search_tolerance,
-                    Replay::most_steps_of_imagined_test);
-      }
-      {
-        const Parameters &parameters = simulator.with(shifted(ahead));
-        replay.simulate(FrictionLaw(parameters), Machine(parameters), plus);
-      }
-      {
-        const Parameters &parameters = simulator.with(shifted(-back));
-        replay.simulate(FrictionLaw(parameters), Machine(parameters), minus);
-      }
-      const std::vector<double> a =
-        replay.at(plus.friction, proposed.motion.time);
-      const std::vector<double> b =
-        replay.at(minus.friction, proposed.motion.time);
-      double sum = 0.;
+      const Parameters &middle = simulator.with(optimum.scaled);
+      replay.plan(FrictionLaw(middle),
+                  Machine(middle),
+                  simulator.campaign.search_tolerance,
+                  Replay::most_steps_of_imagined_test);
+      const auto friction = [&](const double step) {
+        const Parameters &parameters = simulator.with(shifted(step));
+        Replay::Curve     curve;
+        replay.simulate(FrictionLaw(parameters), Machine(parameters), curve);
+        return replay.at(curve.friction, proposed.motion.time);
+      };
+      const std::vector<double> a = friction(ahead), b = friction(-back);
+      double                    sum = 0.;
       for (std::size_t i = 0; i < a.size(); ++i)
         sum += std::pow((a[i] - b[i]) / ((ahead + back) * like.noise), 2);
       return sum;
