@@ -347,17 +347,18 @@ namespace SlipStep
   {
     for (const std::string covariate : {"pressure", "speed"})
       {
+        const Covariate         &known = covariate_called(covariate);
         std::vector<std::string> names;
         std::size_t              n_numbers = 1; // the coefficient
         for (const Part &part : model.parts)
-          if (part.corrects.empty() && part.formula.along == covariate)
+          if (part.corrects.empty() &&
+              part.formula.along == known.in_expression)
             {
               names.push_back(part.name);
               n_numbers +=
                 part.formula.parameters.size() + part.formula.n_in_texts;
             }
-        const std::size_t n =
-          n_levels(workspace.covariates.*covariate_called(covariate).values);
+        const std::size_t n = n_levels(workspace.covariates.*known.values);
         if (names.size() > 1 && n <= n_numbers)
           diagnosis.warnings.push_back(
             "The tests have " + std::to_string(n) + " levels of " + covariate +

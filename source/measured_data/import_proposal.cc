@@ -13,7 +13,6 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <sstream>
 
 namespace SlipStep
@@ -28,66 +27,6 @@ namespace SlipStep
                                                     "soll",
                                                     "target",
                                                     "nominal"};
-
-    bool has_word(const std::string              &name,
-                  const std::vector<std::string> &words)
-    {
-      return std::any_of(words.begin(), words.end(), [&](const auto &word) {
-        return name.find(word) != std::string::npos;
-      });
-    }
-
-    // "fz act" is "fz": which of several it is does not make it another
-    // quantity.
-    std::string without_qualifier(const std::string &name)
-    {
-      static const std::set<std::string> qualifiers = {"set",
-                                                       "soll",
-                                                       "target",
-                                                       "nominal",
-                                                       "act",
-                                                       "actual",
-                                                       "ist",
-                                                       "meas",
-                                                       "measured",
-                                                       "gemessen",
-                                                       "avg",
-                                                       "mean"};
-      const std::size_t                  at         = name.find_last_of(" _.");
-      return at != std::string::npos && at > 0 &&
-                 qualifiers.count(name.substr(at + 1)) > 0 ?
-               name.substr(0, at) :
-               name;
-    }
-
-
-
-    // "Displ [mm]", "displacement_mm", "Time, s", "Weg in mm", "F / N".
-    void
-    split_name(const std::string &heading, std::string &name, std::string &unit)
-    {
-      const Heading split = split_heading(heading);
-      name                = split.name;
-      unit                = split.unit;
-      if (split.has_brackets)
-        return;
-      for (const std::string mark : {" in ", ", ", " / ", "/", "_", " "})
-        {
-          const std::size_t at = heading.rfind(mark);
-          if (at == std::string::npos || at == 0)
-            continue;
-          const std::string behind = heading.substr(at + mark.size());
-          // "Encoder in" is an input.
-          if (!dimension_of_unit(behind).has_value() ||
-              (behind == "in" && mark != " in "))
-            continue;
-          name = split_heading(heading.substr(0, at)).name;
-          unit = behind;
-          return;
-        }
-    }
-
-
 
     // A map takes the rest of a line behind # for a remark, and * for any
     // letters; ? stands for one letter.

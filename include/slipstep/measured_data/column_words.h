@@ -18,6 +18,16 @@ namespace SlipStep
 
   /// Those of all keys that a map needs, in English and German.
   const std::vector<KeyWords> &key_words();
+
+  /// Whether a name has one of these words in it.
+  bool has_word(const std::string &name, const std::vector<std::string> &words);
+
+  /// A name without what only tells which of several it is.
+  std::string without_qualifier(const std::string &name);
+
+  /// Name and unit of a heading, in small letters with _ for blanks.
+  void
+  split_name(const std::string &heading, std::string &name, std::string &unit);
 } // namespace SlipStep
 
 #endif

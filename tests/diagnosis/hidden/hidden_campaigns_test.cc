@@ -15,6 +15,7 @@
 #include <optional>
 #include <random>
 #include <regex>
+#include <set>
 #include <sstream>
 
 using namespace SlipStep;
@@ -555,6 +556,35 @@ TEST_F(CampaignFolder, NamesADriftOverTheCampaign)
   EXPECT_NEAR(judgement.found.model.values().at("Friction/run_order/Change"),
               change,
               0.1 * std::abs(change));
+}
+
+
+
+// Friction that falls with speed, in a model in which nothing rises with it at
+// once, has no stable sliding to be compared; with a direct effect it has.
+TEST_F(CampaignFolder, EffectsThatMakeSlidingJumpAreNotScored)
+{
+  plant(CampaignClass::none, 3);
+  const auto unstable = [&](const std::string &effects) {
+    parameters.set("Friction/Effects", effects, "test");
+    parameters.set("Calibration/Parameters",
+                   "Friction/Static coefficient from 0.03 to 0.5",
+                   "test");
+    ingested = ingest(parameters, {});
+    std::set<std::string> names;
+    for (const CandidateView &seen :
+         score_candidates(*ingested.workspace, ingested.base).candidates)
+      if (seen.is_unstable)
+        {
+          EXPECT_TRUE(seen.ways.empty());
+          EXPECT_NE(seen.failure.find("no stable branch"), std::string::npos);
+          names.insert(seen.candidate.name);
+        }
+    return names;
+  };
+  EXPECT_EQ(unstable("subloading").count("stribeck"), 1u);
+  EXPECT_EQ(unstable("subloading").count("overstress"), 0u);
+  EXPECT_EQ(unstable("subloading, overstress").size(), 0u);
 }
 
 
