@@ -440,10 +440,11 @@ namespace SlipStep
   {
     bool depends_on_position(const Parameters &parameters)
     {
-      const FrictionLaw law(parameters);
-      return law.has("texture") ||
-             (law.has("expression") &&
-              parameters.text("Friction/expression/Covariate") == "position");
+      return find_effect(FrictionLaw(parameters).effects(),
+                         [&](const EffectInfo &info) {
+                           return info.heeds_position &&
+                                  info.heeds_position(parameters);
+                         }) != nullptr;
     }
   } // namespace
 
@@ -451,35 +452,40 @@ namespace SlipStep
 
   namespace
   {
-    // Tests whose number effect run_order does not know, or takes for that of
-    // one of its ends.
+    // Tests whose number the effect does not know, or takes for that of one of
+    // its ends.
     std::string warning_of_order(const Parameters                &parameters,
                                  const std::vector<CampaignTest> &tests)
     {
-      if (!FrictionLaw(parameters).has("run_order"))
+      const EffectInfo *const effect =
+        effect_of_order(FrictionLaw(parameters).effects());
+      if (effect == nullptr)
         return "";
-      const std::string section = "Friction/run_order/";
-      const auto        end     = [&](const char *const key) {
-        return section + key + " = " + parameters.text(section + key);
+      const auto number = [&](const std::string &key) {
+        return parameters.number(effect->section() + key);
+      };
+      const auto end = [&](const std::string &key) {
+        return effect->section() + key + " = " +
+               parameters.text(effect->section() + key);
       };
       std::size_t n_unknown = 0, n_beyond = 0;
       for (const CampaignTest &test : tests)
         if (const auto order = test.rows.order(); !order.has_value())
           ++n_unknown;
-        else if (*order < parameters.number(section + "First test") ||
-                 *order > parameters.number(section + "Last test"))
+        else if (*order < number(effect->first_test) ||
+                 *order > number(effect->last_test))
           ++n_beyond;
       std::string words;
       if (n_unknown > 0)
         words = std::to_string(n_unknown) +
                 " of the tests do not say in which order they were made "
                 "('# order: 7'), and are taken for " +
-                end("Test");
+                end(effect->test_number);
       if (n_beyond > 0)
         words += (words.empty() ? "" : "; ") + std::to_string(n_beyond) +
-                 " of the tests were made before " + end("First test") +
-                 " or after " + end("Last test") +
-                 ", beyond which effect run_order stays";
+                 " of the tests were made before " + end(effect->first_test) +
+                 " or after " + end(effect->last_test) +
+                 ", beyond which effect " + effect->name + " stays";
       return words;
     }
   } // namespace

@@ -16,8 +16,8 @@ namespace SlipStep
 {
   namespace
   {
-    /// One simulation, for all tests of its motion; with effect run_order one
-    /// for each, by the same steps.
+    /// One simulation, for all tests of its motion; where their order matters
+    /// one for each, by the same steps.
     class Simulation
     {
     public:
@@ -27,7 +27,7 @@ namespace SlipStep
         : replay(motion)
         , law(law)
         , machine(machine)
-        , heeds_order(law.has("run_order"))
+        , heeds_order(effect_of_order(law.effects()) != nullptr)
       {
         replay.simulate(law, machine, curve);
       }

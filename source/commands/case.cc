@@ -184,9 +184,11 @@ namespace SlipStep
                        const Programme       &programme,
                        std::set<std::string> &warnings)
     {
-      const std::string key = "Friction/run_order/Test";
-      if (!FrictionLaw(parameters).has("run_order"))
+      const EffectInfo *const effect =
+        effect_of_order(FrictionLaw(parameters).effects());
+      if (effect == nullptr)
         return;
+      const std::string key = effect->section() + effect->test_number;
       for (const FollowedTest &followed : programme.followed())
         if (followed.test.order().value_or(parameters.number(key)) !=
             parameters.number(key))

@@ -47,8 +47,10 @@ namespace SlipStep
                                    .generic_string(),
                      "diagnosis");
       const std::optional<double> order = read_measured_test(test.file).order();
-      if (order.has_value() && FrictionLaw(parameters).has("run_order"))
-        parameters.set("Friction/run_order/Test",
+      const EffectInfo *const     effect =
+        effect_of_order(FrictionLaw(parameters).effects());
+      if (order.has_value() && effect != nullptr)
+        parameters.set(effect->section() + effect->test_number,
                        rounded_text(*order, 15),
                        "diagnosis");
       write_file(job.case_file,

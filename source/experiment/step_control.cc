@@ -91,13 +91,15 @@ namespace SlipStep
 
   std::string words_of_sudden_effects(const FrictionLaw &law)
   {
-    for (const std::string effect : {"expression", "damage", "texture"})
-      if (law.has(effect))
-        return "; where the effect " + effect +
+    const EffectInfo *effect =
+      find_effect(law.effects(),
+                  [](const EffectInfo &info) { return info.is_sudden; });
+    return effect == nullptr ?
+             "" :
+             "; where the effect " + effect->name +
                " lets friction fall within less slip than the contact's "
                "elastic one, friction over stiffness, it jumps: let it fall "
                "over more";
-    return "";
   }
 
 

@@ -58,6 +58,27 @@ namespace SlipStep
 
 
 
+  const EffectInfo *
+  find_effect(const std::vector<std::string>                &names,
+              const std::function<bool(const EffectInfo &)> &is_it)
+  {
+    for (const std::string &name : names)
+      if (const EffectInfo &info = effect_registry().at(name); is_it(info))
+        return &info;
+    return nullptr;
+  }
+
+
+
+  const EffectInfo *effect_of_order(const std::vector<std::string> &names)
+  {
+    return find_effect(names, [](const EffectInfo &info) {
+      return !info.test_number.empty();
+    });
+  }
+
+
+
   RegisterEffect::RegisterEffect(const EffectInfo &info)
   {
     const bool is_new = mutable_registry().emplace(info.name, info).second;

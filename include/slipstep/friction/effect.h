@@ -341,6 +341,16 @@ namespace SlipStep
 
     EffectSearch search;
 
+    /// Whether friction may fall within less slip than the contact's own.
+    bool is_sudden = false;
+
+    /// Whether the place on the plane matters; may be empty.
+    std::function<bool(const Parameters &)> heeds_position = {};
+
+    /// Keys of its section for the number of the test that is made, and for the
+    /// first and the last one that it knows; "" if that does not matter.
+    std::string test_number = "", first_test = "", last_test = "";
+
     /// What is looked at once, before a case is run, and not whenever a law is
     /// made. May be empty.
     /// @throws InputError
@@ -358,6 +368,15 @@ namespace SlipStep
 
   /// All effects linked into the program, by name.
   const std::map<std::string, EffectInfo> &effect_registry();
+
+  /// The first of some effects of which something is true, nullptr if there is
+  /// none.
+  const EffectInfo *
+  find_effect(const std::vector<std::string>                &names,
+              const std::function<bool(const EffectInfo &)> &is_it);
+
+  /// The one to which the order of the tests matters.
+  const EffectInfo *effect_of_order(const std::vector<std::string> &names);
 
   /// A global object of this type registers an effect.
   struct RegisterEffect

@@ -67,6 +67,7 @@ namespace SlipStep
         info.search = {"one rise or fall after a distance slid, none before",
                        search};
         info.search.along = "path";
+        info.is_sudden    = true;
         return info;
       }
 

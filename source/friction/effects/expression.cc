@@ -137,6 +137,10 @@ namespace SlipStep
         info.check            = [](const Parameters &parameters) {
           SampledFunction::check_section(parameters, section);
         };
+        info.is_sudden      = true;
+        info.heeds_position = [](const Parameters &parameters) {
+          return parameters.text(section + "Covariate") == "position";
+        };
         info.search.why_not =
           "it is what describes a gap for which no effect has a name";
         return info;

@@ -66,6 +66,9 @@ namespace SlipStep
            number,
            "number of this test; measured tests that are fitted have their own "
            "if a comment '# order: 7' says so"}};
+        info.test_number      = "Test";
+        info.first_test       = "First test";
+        info.last_test        = "Last test";
         info.neutral_settings = {{"Change", "0"}};
         info.typical_settings = {{"Change", "0.3"}, {"Test", "11"}};
         info.search = {"differs from test to test, never within one", search};

@@ -174,7 +174,9 @@ namespace SlipStep
               [is_second, even](const Circumstances &now) {
                 return uneven(even(now), is_second);
               });
-        info.search.along = "position";
+        info.search.along   = "position";
+        info.is_sudden      = true;
+        info.heeds_position = [](const Parameters &) { return true; };
         return info;
       }
 
