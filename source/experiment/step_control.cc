@@ -225,7 +225,9 @@ namespace SlipStep
             << " of the programme takes more than " << most_steps
             << " time steps (" << most_steps_key
             << "): at t = " << std::setprecision(6) << end << " s they are "
-            << std::setprecision(2) << step_size() << " s long";
+            << std::setprecision(2) << step_size()
+            << " s long; stick-slip, and a mass that rings on its spring, want "
+               "many: allow more, slide for less, or damp it (effect viscous)";
     throw RunError(message.str());
   }
 

@@ -93,6 +93,8 @@ namespace SlipStep
 
       const SeenColumn *taken_as(const std::string &key) const;
 
+      std::string condition() const;
+
       ImportProposal                   proposal;
       std::vector<std::vector<double>> values; ///< of each column
       std::vector<std::vector<double>> finite; ///< the same without gaps
@@ -564,6 +566,19 @@ namespace SlipStep
 
 
 
+    // "dry, 50 N": of this load, and who knows what else.
+    std::string Observer::condition() const
+    {
+      for (const std::string key : {"Normal load", "Pressure"})
+        if (const SeenColumn *seen = taken_as(key); seen != nullptr)
+          return "dry, " +
+                 rounded_text(std::abs(median(finite[seen->number - 1])), 2) +
+                 (seen->unit.empty() ? "" : " " + seen->unit);
+      return "dry, 5 N";
+    }
+
+
+
     ImportProposal Observer::propose()
     {
       guess_layout();
@@ -573,8 +588,9 @@ namespace SlipStep
       guess_loads();
       guess_signs();
       guess("Test/Condition",
-            "dry, 5 N",
-            "tests of the same condition are replicates",
+            condition(),
+            "tests of the same condition are replicates: say all in which "
+            "they differ",
             true);
       return proposal;
     }

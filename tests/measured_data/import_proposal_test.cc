@@ -305,7 +305,8 @@ namespace
      {}},
     {"clamped.csv",
      "t [s],x [mm],Load (N),Clamp force (kN)\n0,0,0,1\n1,1,99,1.1\n",
-     {"Columns/Normal load = Clamp force (kN) in kN"},
+     {"Columns/Normal load = Clamp force (kN) in kN",
+      "? Test/Condition = dry, 1.1 kN"},
      {}},
     {"forces_set_and_actual.csv",
      "t [s],x [mm],Fx_meas [N],Fz set [kN],Fz act [kN]\n"
