@@ -90,7 +90,8 @@ namespace SlipStep
       const FrictionLaw  &law;
       const ContactState  start;
       const double        time_step;
-      std::vector<double> ends; ///< of the parts, as shares of the step
+      std::vector<double> ends;        ///< of the parts, as shares of the step
+      unsigned int        n_jumps = 0; ///< parts that are off, however short
     };
 
 
@@ -117,7 +118,7 @@ namespace SlipStep
 
 
 
-    // By halves: where a host's iteration varies an increment a little, the
+    // By halves: where a host's iteration varies an increment a little, most
     // parts stay, and the tangent is that of what is computed.
     ContactState PartedStep::find_parts(const ContactState         &from,
                                         const double                begin,
@@ -126,15 +127,21 @@ namespace SlipStep
                                         const double                pressure)
     {
       // A little more than what slipstep itself allows, so that its own steps
-      // stay whole; where friction jumps no part is short enough.
-      constexpr double      allowed = 1e-3, shortest = 1e-9;
-      constexpr std::size_t most_parts = 100000;
+      // stay whole.
+      constexpr double       allowed = 1e-3, shortest = 1e-14;
+      constexpr std::size_t  most_parts = 10000;
+      constexpr unsigned int most_jumps = 5;
 
       const ContactPoint tried = part(from, begin, end, slip, pressure);
       if (tried.error(law).at_end <= allowed || end - begin < shortest)
         {
+          if (end - begin < shortest && ++n_jumps > most_jumps)
+            throw RunError("friction jumps again and again, however short the "
+                           "step: where it falls with speed or slip, effect "
+                           "overstress or viscous lets it rise at once");
           if (ends.size() == most_parts)
-            throw RunError("the step is too long: more than 100000 parts");
+            throw RunError("the step is too long: it needs more than 10000 "
+                           "parts");
           ends.push_back(end);
           return tried.trial();
         }
@@ -388,7 +395,7 @@ int slipstep_step(const slipstep_law *const law,
       std::vector<double> numbers(law->numbers.size());
       law->numbers.write(last, numbers.data());
       if (!is_finite(numbers.data(), numbers.size()) || !is_finite(slopes, 6))
-        throw RunError("slip or pressure are too large for this program");
+        throw RunError("the result is no number: slip or pressure too large?");
       std::copy(numbers.begin(), numbers.end(), end);
       for (unsigned int i = 0; i < 2; ++i)
         traction[i] = last.traction[i];

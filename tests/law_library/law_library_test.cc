@@ -429,6 +429,62 @@ TEST_F(SlidingPoint, AStepMayBeOfAnyLength)
 
 
 
+// Friction that falls with speed and that nothing lets rise at once: told, and
+// in time, instead of a number. With a direct effect it slides.
+TEST(LawLibraryStep, JumpsAreNoSolution)
+{
+  for (const bool is_stable : {false, true})
+    {
+      const std::string rise         = is_stable ? "0.05" : "1";
+      char              message[300] = "";
+      slipstep_law     *law          = slipstep_law_parse(
+        (std::string("subsection Friction\n  set Effects = subloading, ") +
+         (is_stable ? "overstress, " : "") +
+         "stribeck\n  set Static coefficient = 0.2\n"
+                      "  subsection stribeck\n    set Rise = " +
+         rise +
+         "\n"
+                      "    set Speed = 0.5 mm/s\n  end\nend\n")
+          .c_str(),
+        message,
+        300);
+      ASSERT_NE(law, nullptr) << message;
+      std::vector<double> state(slipstep_state_size(law));
+      slipstep_initial_state(law, state.data());
+      double       traction[2] = {0., 0.};
+      unsigned int n_failed    = 0;
+      for (unsigned int i = 0; i < 100; ++i)
+        {
+          const double slip[2] = {5e-3, 0.};
+          n_failed += slipstep_step(law,
+                                    state.data(),
+                                    slip,
+                                    5.,
+                                    0.01,
+                                    state.data(),
+                                    traction,
+                                    nullptr,
+                                    nullptr,
+                                    message,
+                                    300);
+        }
+      if (is_stable)
+        {
+          EXPECT_EQ(n_failed, 0u) << message;
+          EXPECT_GT(traction[0], 5. * 0.19);
+        }
+      else
+        {
+          EXPECT_GT(n_failed, 50u);
+          EXPECT_TRUE(contains(message, "friction jumps again and again"))
+            << message;
+        }
+      slipstep_law_free(law);
+    }
+}
+
+
+
 TEST_F(SlidingPoint, WhatNoStepLeavesBehindIsRefused)
 {
   const auto before = state;
