@@ -37,44 +37,61 @@ namespace SlipStep
 
 
 
-    // "" if sliding at the speeds of the tests is stable.
-    std::string why_unstable(const Model &model, const TestedRange &range)
+    // Why sliding at the speeds of the tests is not stable with these parts, ""
+    // if it is, or is not without the last one, either.
+    std::string why_unstable(const Workspace         &workspace,
+                             const Model             &model,
+                             const std::vector<Part> &parts,
+                             const Values            &values)
     {
-      return why_no_branch(FrictionLaw(model.simulator->with(model.scaled)),
-                           {range.slowest,
-                            std::sqrt(range.slowest * range.fastest),
-                            range.fastest},
-                           range.highest);
+      const auto why = [&](const Parameters &parameters) {
+        const TestedRange &range = workspace.range;
+        return why_no_branch(FrictionLaw(parameters),
+                             {range.slowest,
+                              std::sqrt(range.slowest * range.fastest),
+                              range.fastest},
+                             range.highest);
+      };
+      const std::string with_them =
+        why(assemble(workspace.start, parts, values).parameters);
+      return with_them.empty() ||
+                 why(model.simulator->with(model.scaled)).empty() ?
+               with_them :
+               "";
     }
 
 
 
-    // Changes of friction by one formula of a candidate at unit strength.
-    // Returns why there are none, if it cannot be simulated.
-    std::string add_directions(const Workspace        &workspace,
-                               const Model            &model,
-                               const Candidate        &candidate,
-                               const std::size_t       candidate_number,
-                               const std::size_t       formula_number,
-                               std::vector<Direction> &directions)
+    // Changes of friction by one formula of a candidate at unit strength, or
+    // why there are none, if it cannot be simulated.
+    void add_directions(const Workspace        &workspace,
+                        const Model            &model,
+                        const Candidate        &candidate,
+                        const std::size_t       candidate_number,
+                        const std::size_t       formula_number,
+                        std::vector<Direction> &directions,
+                        CandidateView          &seen)
     {
-      const TrialFormula &formula = candidate.formulas[formula_number];
-      const Values        own     = model.values();
+      const TrialFormula     &formula = candidate.formulas[formula_number];
+      const Values            own     = model.values();
+      const std::vector<Part> parts =
+        with_part(model, candidate, formula_number);
       try
         {
           const Values unity =
             merged(own, formula.shapes[formula.shapes.size() / 2](1.));
-          const Model trial =
-            make_coarse_model(workspace.start,
-                              with_part(model, candidate, formula_number),
-                              unity,
-                              workspace.tests,
-                              &model);
-          const std::string why = formula.along == "log10 speed" ?
-                                    why_unstable(trial, workspace.range) :
-                                    "";
-          if (!why.empty() && why_unstable(model, workspace.range).empty())
-            return why;
+          if (const std::string why =
+                formula.along == "log10 speed" ?
+                  why_unstable(workspace, model, parts, unity) :
+                  "";
+              !why.empty())
+            {
+              seen.failure     = why;
+              seen.is_unstable = true;
+              return;
+            }
+          const Model trial = make_coarse_model(
+            workspace.start, parts, unity, workspace.tests, &model);
           trial.simulator->subtract(model.simulator->with(model.scaled));
           for (std::size_t s = 0; s < formula.shapes.size(); ++s)
             {
@@ -98,14 +115,13 @@ namespace SlipStep
         }
       catch (const InputError &error)
         {
-          return error.what();
+          seen.failure = error.what();
         }
       catch (const RunError &error)
         {
           throw_if_stopped();
-          return error.what();
+          seen.failure = error.what();
         }
-      return "";
     }
 
 
@@ -140,19 +156,14 @@ namespace SlipStep
                         workspace.range,
                         model.campaign->fitted);
       std::vector<std::vector<Direction>> found(candidates.size());
-      std::vector<std::string>            failures(candidates.size());
+      View                                view;
+      view.candidates.resize(candidates.size());
       side_by_side(candidates.size(), [&](const std::size_t c) {
         Model own = model.copy();
         for (std::size_t f = 0; f < candidates[c].formulas.size(); ++f)
-          {
-            const std::string failure =
-              add_directions(workspace, own, candidates[c], c, f, found[c]);
-            if (!failure.empty())
-              failures[c] = failure;
-          }
+          add_directions(
+            workspace, own, candidates[c], c, f, found[c], view.candidates[c]);
       });
-      View view;
-      view.candidates.resize(candidates.size());
       for (std::size_t c = 0; c < candidates.size(); ++c)
         {
           for (const Direction &direction : found[c])
@@ -161,11 +172,12 @@ namespace SlipStep
               view.set.directions.push_back(direction);
           view.candidates[c].candidate = candidates[c];
           view.candidates[c].number    = c;
+          // By one formula at least it can be.
           if (!found[c].empty())
-            continue;
-          view.candidates[c].failure = failures[c];
-          view.candidates[c].is_unstable =
-            failures[c].find(no_branch) != std::string::npos;
+            {
+              view.candidates[c].failure     = "";
+              view.candidates[c].is_unstable = false;
+            }
         }
       return view;
     }

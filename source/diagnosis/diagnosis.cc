@@ -7,6 +7,8 @@ namespace SlipStep
   {
     static const char *const names[] = {
       "named", "ambiguous", "unnamed", "no_gap", "not_testable"};
+    static_assert(sizeof(names) / sizeof(*names) ==
+                  static_cast<unsigned int>(Verdict::not_testable) + 1);
     return names[static_cast<unsigned int>(verdict)];
   }
 
@@ -22,6 +24,8 @@ namespace SlipStep
                                         "not simulated",
                                         "not testable",
                                         "in the model"};
+    static_assert(sizeof(names) / sizeof(*names) ==
+                  static_cast<unsigned int>(Standing::in_the_model) + 1);
     return names[static_cast<unsigned int>(standing)];
   }
 } // namespace SlipStep

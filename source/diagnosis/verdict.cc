@@ -3,6 +3,7 @@
 #include <slipstep/diagnosis/verdict.h>
 #include <slipstep/diagnosis/ingest.h>
 #include <slipstep/diagnosis/left_out.h>
+#include <slipstep/diagnosis/localisation.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/rules.h>
 
@@ -179,16 +180,25 @@ namespace SlipStep
 
 
 
-    // Whether an effect that would make sliding jump was left out: what others
-    // take up of it is no evidence for them.
-    bool has_untried(const Workspace &workspace, const Model &model)
+    // Whether an effect that would make sliding jump was left out, and what
+    // remains goes with speed: what others took up of it is no evidence for
+    // them.
+    bool has_untried(const Workspace &workspace, const Judgement &judgement)
     {
-      const View view = score_candidates(workspace, model);
-      return std::any_of(view.candidates.begin(),
-                         view.candidates.end(),
-                         [](const CandidateView &seen) {
-                           return seen.is_unstable;
-                         });
+      constexpr double much = 0.2;
+
+      const Model &model = judgement.found.model;
+      const View   view  = score_candidates(workspace, model);
+      if (std::none_of(view.candidates.begin(),
+                       view.candidates.end(),
+                       [](const CandidateView &seen) {
+                         return seen.is_unstable;
+                       }))
+        return false;
+      const auto places = localise(workspace, model, judgement.remainder);
+      return std::any_of(places.begin(), places.end(), [](const auto &place) {
+        return place.covariate == "speed" && place.share > much;
+      });
     }
 
 
@@ -203,7 +213,7 @@ namespace SlipStep
           !explains_by_itself(workspace, judgement))
         return false;
       judgement.is_incomplete = judgement.remainder.p <= workspace.level;
-      if (judgement.is_incomplete && has_untried(workspace, model))
+      if (judgement.is_incomplete && has_untried(workspace, judgement))
         return false;
       const bool is_enough = !(judgement.is_incomplete &&
                                judgement.explained_share < sufficient_share) &&

@@ -330,10 +330,6 @@ namespace SlipStep
 
 
 
-  const char *const no_branch = " has no stable branch";
-
-
-
   std::string why_no_branch(const FrictionLaw         &law,
                             const std::vector<double> &speeds,
                             const double               pressure)
@@ -342,9 +338,10 @@ namespace SlipStep
       {
         const SteadySliding sliding(law, Tensor<1, 2>({speed, 0.}), pressure);
         if (sliding.exists() && sliding.grows_at_once())
-          return "sliding at " + rounded_text(speed, 3) + " mm/s" + no_branch +
-                 ": friction falls with speed, and nothing in the model lets "
-                 "it rise at once, as effect overstress does";
+          return "sliding at " + rounded_text(speed, 3) +
+                 " mm/s has no stable branch: friction falls with speed, and "
+                 "nothing in the model lets it rise at once by as much, as "
+                 "effect overstress can";
       }
     return "";
   }
@@ -371,7 +368,7 @@ namespace SlipStep
 
         std::ostringstream text;
         text << std::setprecision(3) << "sliding at " << slide.velocity.norm()
-             << " mm/s under " << slide.pressure << " MPa" << no_branch;
+             << " mm/s under " << slide.pressure << " MPa has no stable branch";
         std::string effects;
         for (const std::string &name : law.weakening_effects(sliding.state()))
           effects += (effects.empty() ? "" : ", ") + name;

@@ -122,9 +122,6 @@ namespace SlipStep
                                                 const Programme   &programme,
                                                 const Machine     &machine);
 
-  /// What words of sliding that nothing holds have in common.
-  extern const char *const no_branch;
-
   /// The first of some speeds [mm/s] at which friction falls with speed and
   /// nothing lets it rise at once, so that sliding jumps, in words; "" if there
   /// is none.
