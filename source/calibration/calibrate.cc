@@ -34,7 +34,7 @@ namespace SlipStep
 
       Calibration run();
 
-      std::string reason_of_jumps() const;
+      std::string reason_of_jumps(const std::string &failure) const;
 
     private:
       void search();
@@ -44,6 +44,10 @@ namespace SlipStep
       void correct_steps();
 
       std::vector<double> follow_profiles();
+
+      void find_intervals();
+
+      void describe_surroundings();
 
       void keep_profile(const std::size_t i, const Profile &profile);
 
@@ -67,11 +71,14 @@ namespace SlipStep
 
       void tell(const std::string &text, const double share);
 
-      bool is_late() const;
+      double confidence() const
+      {
+        return campaign.parameters.number("Calibration/Confidence");
+      }
 
       const Campaign                              campaign;
       const Report                                progress;
-      const std::chrono::steady_clock::time_point deadline;
+      const std::chrono::steady_clock::time_point end_of_search, deadline;
       std::mutex                                  mutex;
 
       std::vector<double>        best;
@@ -97,15 +104,10 @@ namespace SlipStep
     Calibrator::Calibrator(const Parameters &parameters, const Report &progress)
       : campaign(parameters)
       , progress(progress)
+      , end_of_search(
+          deadline_after(0.5 * parameters.number("Calibration/Most time")))
       , deadline(deadline_after(parameters.number("Calibration/Most time")))
     {}
-
-
-
-    bool Calibrator::is_late() const
-    {
-      return std::chrono::steady_clock::now() > deadline;
-    }
 
 
 
@@ -119,8 +121,10 @@ namespace SlipStep
 
 
     // "; sliding at 1 mm/s has no stable branch", with the values of the case.
-    std::string Calibrator::reason_of_jumps() const
+    std::string Calibrator::reason_of_jumps(const std::string &failure) const
     {
+      if (failure.find("time step") == std::string::npos)
+        return "";
       std::vector<double> speeds;
       for (const CampaignTest &test : campaign.tests)
         if (const double speed = mean_speed(test.rows); speed > 0.)
@@ -142,7 +146,7 @@ namespace SlipStep
       std::vector<FitResult>    found(starts.size());
       std::atomic<unsigned int> n_done{0}, n_simulations{0};
       side_by_side(starts.size(), [&](const std::size_t i) {
-        if (i > 0 && is_late())
+        if (i > 0 && std::chrono::steady_clock::now() > end_of_search)
           {
             found[i].message = no_time;
             return;
@@ -265,19 +269,17 @@ namespace SlipStep
     // Returns a better optimum if one was met on the way, else nothing.
     std::vector<double> Calibrator::follow_profiles()
     {
-      const double confidence =
-        campaign.parameters.number("Calibration/Confidence");
       std::vector<Profile> profiles(best.size());
       is_symmetric.assign(best.size(), 0);
       std::atomic<unsigned int> n_done{0};
       side_by_side(best.size(), [&](const std::size_t i) {
         try
           {
-            profiles[i] = profile(*planned, optimum, i, confidence, deadline);
+            profiles[i] = profile(*planned, optimum, i, confidence(), deadline);
           }
         catch (const OutOfTime &)
           {
-            profiles[i]     = symmetric_profile(optimum, i, confidence);
+            profiles[i]     = symmetric_profile(optimum, i, confidence());
             is_symmetric[i] = 1;
           }
         ++n_done;
@@ -431,8 +433,11 @@ namespace SlipStep
     void Calibrator::warn_of_time()
     {
       const std::string over =
-        "Calibration/Most time = " +
-        campaign.parameters.text("Calibration/Most time") + " was over before ";
+        SignalGuard::caught() != 0 ?
+          SignalGuard::in_words() + " before " :
+          "Calibration/Most time = " +
+            campaign.parameters.text("Calibration/Most time") +
+            " was over before ";
       const std::size_t n_left_out =
         std::count_if(result.starts.begin(),
                       result.starts.end(),
@@ -579,6 +584,57 @@ namespace SlipStep
 
 
 
+    // By profiles, and as long as these lead to a better optimum. Who stops it
+    // then does not lose the values that were found.
+    void Calibrator::find_intervals()
+    {
+      constexpr unsigned int most_turns = 6;
+
+      try
+        {
+          for (unsigned int n = 0; n < most_turns; ++n)
+            {
+              const std::vector<double> better = follow_profiles();
+              if (better.empty())
+                return;
+              best = better;
+              correct_steps();
+            }
+          result.warnings.push_back(
+            "Following the intervals still leads to better values: take them "
+            "with care.");
+        }
+      catch (const RunError &)
+        {
+          if (SignalGuard::caught() == 0)
+            throw;
+          best = optimum.scaled;
+          is_symmetric.assign(best.size(), 1);
+          result.parameters.resize(best.size());
+          for (std::size_t i = 0; i < best.size(); ++i)
+            keep_profile(i, symmetric_profile(optimum, i, confidence()));
+        }
+    }
+
+
+
+    void Calibrator::describe_surroundings()
+    {
+      tell("weak directions", 0.96);
+      try
+        {
+          result.weak = find_weak_directions(*planned, optimum);
+          find_constraints();
+        }
+      catch (const RunError &)
+        {
+          if (SignalGuard::caught() == 0)
+            throw;
+        }
+    }
+
+
+
     Calibration Calibrator::run()
     {
       const ResourceUsage begin = ResourceUsage::now();
@@ -591,21 +647,7 @@ namespace SlipStep
       planned->plan(campaign.scaled_start());
       const std::vector<double> start_rms = keep_start();
       correct_steps();
-      for (unsigned int n = 0; n < 6; ++n)
-        {
-          const std::vector<double> better = follow_profiles();
-          if (better.empty())
-            break;
-          if (n == 5)
-            {
-              result.warnings.push_back(
-                "Following the intervals still leads to better values: take "
-                "them with care.");
-              break;
-            }
-          best = better;
-          correct_steps();
-        }
+      find_intervals();
 
       for (std::size_t i = 0; i < result.tests.size(); ++i)
         result.tests[i].start_rms = start_rms[i];
@@ -613,15 +655,13 @@ namespace SlipStep
       result.n_rows      = campaign.n_residuals();
       result.n_effective = optimum.n_effective;
       result.inflation   = optimum.inflation;
-      result.confidence  = campaign.parameters.number("Calibration/Confidence");
+      result.confidence  = confidence();
       result.correlation.assign(best.size(), std::vector<double>(best.size()));
       for (std::size_t i = 0; i < best.size(); ++i)
         for (std::size_t j = 0; j < best.size(); ++j)
           result.correlation[i][j] = optimum.correlation(i, j);
       derive();
-      tell("weak directions", 0.96);
-      result.weak = find_weak_directions(*planned, optimum);
-      find_constraints();
+      describe_surroundings();
       warn();
       result.n_simulations += planned->n_simulations();
       result.n_steps          = planned->n_steps();
@@ -644,29 +684,7 @@ namespace SlipStep
     catch (const RunError &error)
       {
         throw_if_stopped();
-        throw RunError(error.what() + calibrator.reason_of_jumps());
+        throw RunError(error.what() + calibrator.reason_of_jumps(error.what()));
       }
-  }
-
-
-
-  Parameters fitted_case(const Parameters  &parameters,
-                         const Calibration &calibration)
-  {
-    Parameters                result = parameters;
-    std::vector<FitParameter> listed;
-    for (const FittedParameter &fitted : calibration.parameters)
-      {
-        result.set(fitted.parameter.path,
-                   fitted.parameter.text(fitted.value),
-                   "calibration");
-        listed.push_back(fitted.parameter);
-      }
-    apply_ties(read_derived(result), result);
-    // Without the starts: they are the values now.
-    result.set("Calibration/Parameters",
-               statements(listed, false),
-               "calibration");
-    return result;
   }
 } // namespace SlipStep

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/calibration/calibration.h>
+#include <slipstep/calibration/calibrate.h>
+#include <slipstep/calibration/derived.h>
 
 #include <algorithm>
 #include <cmath>
@@ -69,5 +70,27 @@ namespace SlipStep
            "it ('slipstep effects' lists them)." :
            ". The tests want the other side of it, or do not need the effect."));
     return sentences;
+  }
+
+
+
+  Parameters fitted_case(const Parameters  &parameters,
+                         const Calibration &calibration)
+  {
+    Parameters                result = parameters;
+    std::vector<FitParameter> listed;
+    for (const FittedParameter &fitted : calibration.parameters)
+      {
+        result.set(fitted.parameter.path,
+                   fitted.parameter.text(fitted.value),
+                   "calibration");
+        listed.push_back(fitted.parameter);
+      }
+    apply_ties(read_derived(result), result);
+    // Without the starts: they are the values now.
+    result.set("Calibration/Parameters",
+               statements(listed, false),
+               "calibration");
+    return result;
   }
 } // namespace SlipStep

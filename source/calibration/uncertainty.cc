@@ -380,7 +380,9 @@ namespace SlipStep
                              const unsigned int   parameter,
                              const double         confidence)
     {
-      return optimum.deviations(parameter) / optimum.size[parameter] *
+      // What tests differ by is in both the deviation and the threshold.
+      return optimum.deviations(parameter) / optimum.between_tests(parameter) /
+             optimum.size[parameter] *
              std::sqrt(optimum.threshold(confidence, parameter) /
                        optimum.inflation);
     }

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -49,6 +50,49 @@ TEST_F(Planted, IntervalsAreSymmetricWhereNoTimeIsLeft)
       EXPECT_NEAR(guessed.lower, followed.lower, 0.1 * width);
       EXPECT_NEAR(guessed.upper, followed.upper, 0.1 * width);
       EXPECT_NE(words(late).find(guessed.parameter.path), std::string::npos);
+    }
+}
+
+
+
+// The same where gains differ from test to test, which widens both.
+TEST_F(Planted, SymmetricIntervalsCountGainsOnce)
+{
+  const Parameters                 truth = calibration_case(paper);
+  std::mt19937                     random(11);
+  std::normal_distribution<double> gain(1., 0.005);
+  for (unsigned int n = 0; n < 12; ++n)
+    {
+      const double speed = std::array{1., 20., 200.}[n % 3];
+      MeasuredTest test =
+        planted_test(truth, speed / 60., 100., 120, 1e-3, random);
+      const double factor = gain(random);
+      for (double &friction : test.friction)
+        friction *= factor;
+      write_measured_test(folder.path() /
+                            ("test_" + std::to_string(n) + ".csv"),
+                          test);
+    }
+  const Settings    four_from_one = {{"Calibration/Parameters", four},
+                                     {"Calibration/Starts", "1"}};
+  const Calibration whole         = calibrate(fitting(four_from_one));
+  Settings          late_settings = four_from_one;
+  late_settings.emplace_back("Calibration/Most time", "1 us");
+  const Calibration late     = calibrate(fitting(late_settings));
+  bool              is_wider = false;
+  for (const std::string &warning : whole.warnings)
+    is_wider =
+      is_wider || warning.find("differ from one another") != std::string::npos;
+  EXPECT_TRUE(is_wider);
+  for (std::size_t i = 0; i < whole.parameters.size(); ++i)
+    {
+      const FittedParameter &followed = whole.parameters[i];
+      const FittedParameter &guessed  = late.parameters[i];
+      EXPECT_NEAR((guessed.upper - guessed.lower) /
+                    (followed.upper - followed.lower),
+                  1.,
+                  0.2)
+        << followed.parameter.path;
     }
 }
 

@@ -482,3 +482,35 @@ TEST(Stop, ACalibrationEndsAtOnceAndWritesNothing)
   EXPECT_TRUE(contains(run.err(), "nothing was written"));
   EXPECT_FALSE(fs::exists(process.folder() / "output"));
 }
+
+
+
+// Values that were found are not lost with their intervals.
+TEST(Calibrate, KeepsTheValuesThatAreFound)
+{
+  const SlipstepProcess process;
+  std::string           rows = "time_s,displacement_mm,pressure_MPa,friction\n";
+  for (int i = 0; i < 30000; ++i)
+    rows +=
+      std::to_string(0.01 * i) + "," + std::to_string(1e-4 * i) + ",5.8," +
+      std::to_string((i < 9 ? 0.01 * i : 0.1) + 1e-4 * (i * i % 7)) + "\n";
+  process.write("test.csv", rows);
+  process.write("case.prm",
+                "set Calibration/Tests = test.csv\n"
+                "set Calibration/Starts = 1\n"
+                "set Calibration/Parameters = Friction/Static coefficient from "
+                "0.05 to 1; Friction/overstress/Viscosity from 1 to 1e9; "
+                "Friction/overstress/Exponent from 5 to 50; "
+                "Friction/subloading/Rate from 1 to 1e5\n");
+  BackgroundRun run(process.folder(), {"calibrate", "case.prm"});
+  ASSERT_TRUE(run.wait_until(
+    [&]() { return run.out().find("interval 1 of 4") != std::string::npos; }))
+    << run.err();
+  run.send(SIGINT);
+  run.wait();
+  EXPECT_EQ(run.outcome(), -SIGINT);
+  const std::string words = run.out() + run.err();
+  EXPECT_TRUE(contains(words, "from the curvature at the optimum alone"));
+  EXPECT_TRUE(
+    fs::exists(process.folder() / "output/case/calibrate/fitted.prm"));
+}
