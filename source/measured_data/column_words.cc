@@ -92,8 +92,7 @@ namespace SlipStep
 
 
 
-  // "fz act" is "fz": which of several it is does not make it another
-  // quantity.
+  // "fz act" is "fz".
   std::string without_qualifier(const std::string &name)
   {
     static const std::set<std::string> qualifiers = {"set",

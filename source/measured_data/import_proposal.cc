@@ -571,9 +571,18 @@ namespace SlipStep
     {
       for (const std::string key : {"Normal load", "Pressure"})
         if (const SeenColumn *seen = taken_as(key); seen != nullptr)
-          return "dry, " +
-                 rounded_text(std::abs(median(finite[seen->number - 1])), 2) +
-                 (seen->unit.empty() ? "" : " " + seen->unit);
+          {
+            // Letters of another encoding are none of a map.
+            const bool is_plain =
+              std::all_of(seen->unit.begin(),
+                          seen->unit.end(),
+                          [](const char c) {
+                            return static_cast<unsigned char>(c) < 0x7f;
+                          });
+            return "dry, " +
+                   rounded_text(std::abs(median(finite[seen->number - 1])), 2) +
+                   (seen->unit.empty() || !is_plain ? "" : " " + seen->unit);
+          }
       return "dry, 5 N";
     }
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <tuple>
 
 namespace SlipStep
 {
@@ -48,6 +50,17 @@ namespace SlipStep
 
 
 
+    std::vector<double> without_gaps(std::vector<double> values)
+    {
+      values.erase(std::remove_if(values.begin(),
+                                  values.end(),
+                                  [](const double x) { return std::isnan(x); }),
+                   values.end());
+      return values;
+    }
+
+
+
     // The largest size that is there, of a series that stays on it far more
     // often than on the one before: 0 if it does not.
     double limit_of(const std::vector<double> &values, const std::size_t least)
@@ -56,7 +69,8 @@ namespace SlipStep
 
       std::map<double, std::size_t> n_of_size;
       for (const double value : values)
-        ++n_of_size[std::abs(value)];
+        if (!std::isnan(value))
+          ++n_of_size[std::abs(value)];
       if (n_of_size.size() < 3)
         return 0.;
       const auto        largest = std::prev(n_of_size.end());
@@ -69,14 +83,25 @@ namespace SlipStep
 
 
 
+  std::vector<double> under_load(std::vector<double> values,
+                                 const MeasuredTest &test)
+  {
+    const double load = 0.5 * median(test.pressure);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (test.pressure[i] < load)
+        values[i] = std::numeric_limits<double>::quiet_NaN();
+    return values;
+  }
+
+
+
   std::optional<RepeatedValue> repeated_value(const std::vector<double> &values)
   {
     constexpr double      share = 0.02;
-    constexpr std::size_t few   = 10;
-    const std::size_t     least =
-      std::max<std::size_t>(few, std::ceil(share * values.size()));
+    constexpr std::size_t few = 10, many = 20;
+    const std::size_t     least = std::ceil(share * values.size());
 
-    const double limit = limit_of(values, least);
+    const double limit = limit_of(values, std::max(few, least));
     if (limit > 0. && scatters_elsewhere(values, limit) &&
         scatters_elsewhere(values, -limit))
       {
@@ -105,7 +130,10 @@ namespace SlipStep
             longest = end - begin;
           }
       }
-    if (longest < least || !scatters_elsewhere(values, values[first]))
+    // Where values are steps of a sensor, some repeat themselves.
+    if (longest < std::max(many, least) ||
+        coarse_step(without_gaps(values)) > 0. ||
+        !scatters_elsewhere(values, values[first]))
       return {};
     return RepeatedValue{"is exactly " + rounded_text(values[first], 6) +
                            " in " + std::to_string(longest) +
@@ -270,7 +298,7 @@ namespace SlipStep
 
       std::vector<double> steps;
       for (std::size_t i = 1; i < x.size(); ++i)
-        if (x[i] != x[i - 1])
+        if (std::abs(x[i] - x[i - 1]) > 0.)
           steps.push_back(x[i] - x[i - 1]);
       // What hardly ever changes has no usual step.
       const double usual =
@@ -300,10 +328,12 @@ namespace SlipStep
 
 
 
-    // Codes of errors and spikes in what leads the contact.
+    // Codes of errors, spikes and drop-outs. Friction may well go there and
+    // back for a moment, after a rest or a change of speed, but not to zero, to
+    // the other side, or to three times what it is.
     void OddRows::warn_of_excursions() const
     {
-      constexpr double times = 3.; // of a pressure
+      constexpr double times = 3., least_friction = 1e-3;
 
       const auto tell = [&](const std::string              &words,
                             const std::string              &unit,
@@ -316,16 +346,36 @@ namespace SlipStep
                  std::to_string(rows.size()),
                rows[0]);
       };
-      std::vector<std::size_t> rows = excursions(test.friction, 0.);
-      rows.erase(std::remove_if(rows.begin(),
-                                rows.end(),
-                                [&](const std::size_t row) {
-                                  return test.pressure[row] <= 0. ||
-                                         std::abs(test.friction[row]) >
-                                           largest_friction;
-                                }),
-                 rows.end());
-      tell("friction goes to ", "", test.friction, rows);
+      for (const auto &[name, friction, x] :
+           {std::tuple{"friction", &test.friction, &test.displacement},
+            std::tuple{"friction_y", &test.friction_y, &test.displacement_y}})
+        {
+          if (friction->empty())
+            continue;
+          // There or a row beside.
+          const auto turns = [&x = *x](const std::size_t row) {
+            for (std::size_t i = std::max<std::size_t>(row, 3) - 1;
+                 i < std::min(row + 2, x.size());
+                 ++i)
+              if ((x[i] - x[i - 1]) * (x[i - 1] - x[i - 2]) < 0.)
+                return true;
+            return false;
+          };
+          const double             usual = usual_size(*friction);
+          std::vector<std::size_t> rows;
+          for (const std::size_t row :
+               excursions(under_load(*friction, test), 0.5 * usual))
+            {
+              const double value = (*friction)[row];
+              const double size  = std::abs(value);
+              // Beyond the largest friction it has been told already.
+              if (size <= largest_friction &&
+                  (size < least_friction * usual || size > times * usual ||
+                   (value * (*friction)[row - 1] < 0. && !turns(row))))
+                rows.push_back(row);
+            }
+          tell(std::string(name) + " goes to ", "", *friction, rows);
+        }
       tell("the displacement goes to ",
            " mm",
            test.displacement,
@@ -334,13 +384,18 @@ namespace SlipStep
            " mm",
            test.displacement_y,
            excursions(test.displacement_y, 0.));
-      std::vector<double> decades;
+      // From full load, and to it.
+      const double             load = 0.5 * median(test.pressure);
+      std::vector<double>      decades;
+      std::vector<std::size_t> rows;
       for (const double pressure : test.pressure)
-        decades.push_back(std::log10(std::max(pressure, 1e-12)));
-      tell("the pressure goes to ",
-           " MPa",
-           test.pressure,
-           excursions(decades, std::log10(times)));
+        decades.push_back(std::log10(std::max(pressure, 1e-6 * load)));
+      for (const std::size_t row : excursions(decades, std::log10(times)))
+        if (rows.empty() ?
+              test.pressure[row - 1] >= load :
+              row == rows.back() + 1 || test.pressure[row - 1] >= load)
+          rows.push_back(row);
+      tell("the pressure goes to ", " MPa", test.pressure, rows);
     }
 
 
@@ -385,15 +440,13 @@ namespace SlipStep
 
 
 
-    // Without pressure there is no friction, and no noise of it.
     void OddRows::warn_of_sensors() const
     {
       for (const auto &[name, values] :
            {std::pair{"friction", &test.friction},
             std::pair{"friction_y", &test.friction_y},
             std::pair{"pressure", &test.pressure}})
-        if (const auto found = repeated_value(*values);
-            found.has_value() && test.pressure[found->first] > 0.)
+        if (const auto found = repeated_value(under_load(*values, test)))
           warn(std::string(name) + " " + found->words, found->first);
     }
   } // namespace

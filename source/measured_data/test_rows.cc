@@ -639,9 +639,10 @@ namespace SlipStep
   namespace
   {
     // A sensor that is dead has no noise.
-    std::vector<double> without_dead_rows(std::vector<double> values)
+    std::vector<double> without_dead_rows(std::vector<double> values,
+                                          const MeasuredTest &test)
     {
-      const auto found = repeated_value(values);
+      const auto found = repeated_value(under_load(values, test));
       if (found.has_value() && found->n_in_a_row > 0)
         values.erase(values.begin() + found->first,
                      values.begin() + found->first + found->n_in_a_row);
@@ -657,7 +658,7 @@ namespace SlipStep
     for (const auto *values : {&test.friction, &test.friction_y})
       if (!values->empty())
         result = std::max({result,
-                           noise_level(without_dead_rows(*values)),
+                           noise_level(without_dead_rows(*values, test)),
                            coarse_step(*values) / std::sqrt(12.)});
     return result;
   }

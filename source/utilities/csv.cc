@@ -89,6 +89,9 @@ namespace SlipStep
 
     bool is_gap(const std::string_view cell)
     {
+      // Most are numbers.
+      if (std::isdigit(static_cast<unsigned char>(cell.back())) != 0)
+        return false;
       // "---", "**", "--.--"
       if (cell.find_first_not_of("-*.?#_~") == std::string_view::npos)
         return true;

@@ -486,6 +486,24 @@ TEST(TestRows, RowsThatComeBackAtOnceAreTold)
   expect_warning(changed(2, 2, 327.), "the pressure goes to 327 MPa there");
   expect_warning(changed(3, 3, 0.), "friction goes to 0 there and back");
   EXPECT_TRUE(changed(2, 60, 1.).warnings.empty());
+  // Before it is pressed: noise over noise, or nothing, over a load of noise.
+  for (const bool is_zero : {false, true})
+    EXPECT_TRUE(slide_with([&](const int i, double(&row)[4]) {
+                  row[3] += noise(random);
+                  if (i >= 40)
+                    return;
+                  row[2] = 0.002 + std::abs(noise(random));
+                  row[3] = is_zero ? 0. : 100. * noise(random);
+                }).warnings.empty());
+  // A rest of two rows, after which friction peaks; strokes of few rows.
+  EXPECT_TRUE(slide_with([&](const int i, double(&row)[4]) {
+                row[3] += noise(random) + (i == 120 ? 0.08 : 0.);
+              }).warnings.empty());
+  EXPECT_TRUE(slide_with([&](const int i, double(&row)[4]) {
+                const bool is_back = i >= 120 && i < 124;
+                row[1] = 0.01 * (i < 120 ? i : is_back ? 238 - i : i - 8);
+                row[3] = (is_back ? -0.15 : 0.15) + noise(random);
+              }).warnings.empty());
   EXPECT_TRUE(slide_with([&](const int i, double(&row)[4]) {
                 row[1] = 0.01 * std::abs(i - 125);
                 row[3] = (i < 125 ? -0.15 : 0.15) + noise(random);

@@ -14,6 +14,11 @@ namespace SlipStep
   /// What nearly all values (95 %) are below, in size.
   double usual_size(std::vector<double> values);
 
+  /// Values with gaps (NaN) where the load is less than half of the median:
+  /// there friction is noise over noise, or none.
+  std::vector<double> under_load(std::vector<double> values,
+                                 const MeasuredTest &test);
+
   /// What a sensor repeats as no noise would.
   struct RepeatedValue
   {
