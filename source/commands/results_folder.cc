@@ -25,7 +25,7 @@ namespace SlipStep
 
     bool holds_results(const fs::path &folder)
     {
-      // Names that nobody else uses, where the marker got lost on the way.
+      // Names that few others use, where the marker got lost on the way.
       for (const char *name : {marker,
                                "summary.json",
                                "calibration.json",

@@ -173,7 +173,10 @@ namespace SlipStep
           }
         const double weight =
           programme.weight_of_error(control.time(), control.end_of_step());
-        if (!control.accept(weight * machine.error(law, point, step).measure()))
+        StepError error = machine.error(law, point, step);
+        error.at_end *= weight;
+        error.of_line *= weight;
+        if (!control.accept(error))
           continue;
 
         work += normal_energy(law, point.trial()) -

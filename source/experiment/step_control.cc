@@ -265,8 +265,9 @@ namespace SlipStep
 
 
 
-  bool StepControl::accept(const double error, const std::string &remedy)
+  bool StepControl::accept(const StepError &estimate, const std::string &remedy)
   {
+    const double error = estimate.measure();
     const double step  = step_size();
     const double ideal = 0.9 * std::sqrt(tolerance / std::max(error, 1e-30));
     if (!would_accept(error))
@@ -282,9 +283,12 @@ namespace SlipStep
     ++accepted;
     tries = 0;
     count_step();
-    if (error > largest_error)
+    // That of a line between rows does not add up, and sliding on makes good
+    // what a flank in one step is off; at rest it stays.
+    if (estimate.at_end > largest_error &&
+        programme.segments()[segment].end.velocity.norm() == 0.)
       {
-        largest_error   = error;
+        largest_error   = estimate.at_end;
         time_of_largest = end;
       }
     begin = end;

@@ -42,12 +42,12 @@ namespace SlipStep
     {
       run.summary.status = "failed";
       run.summary.steps  = run.history.size();
-      run.summary.reason = "it was killed, or still runs; so far it has no "
-                           "steps";
+      run.summary.reason = "it has not ended: killed, or still running, "
+                           "before its first step";
       if (run.history.empty())
         return;
       run.summary.reason =
-        "it was killed, or still runs, and has come to t = " +
+        "it has not ended: killed, or still running, at t = " +
         short_text(run.history.back().time, 6) + " s";
       summarise_energies(run.history, run.summary);
     }

@@ -95,16 +95,21 @@ namespace SlipStep
         const double        pushed_path = drive.pushed_path();
         // On a new mesh the contact finds another equilibrium at once, however
         // short the step; the step's length was fine before.
-        double error = 0.;
+        StepError error;
         if (!is_put_down())
-          error = std::max(
-            {contact.step_error(communicator) *
-               programme.weight_of_error(control.time(), control.end_of_step()),
-             drive.error(drive_springs, driven_mass, totals.limit_load),
-             error_of_motion(totals)});
+          {
+            const double weight =
+              programme.weight_of_error(control.time(), control.end_of_step());
+            error        = contact.step_error(communicator);
+            error.at_end = std::max(
+              {error.at_end * weight,
+               drive.error(drive_springs, driven_mass, totals.limit_load),
+               error_of_motion(totals)});
+            error.of_line *= weight;
+          }
         if (mesh_is_new)
-          error = std::min(error, control.wanted_error());
-        if (control.would_accept(error) && adapt_to_trial(output))
+          error.limit_to(control.wanted_error());
+        if (control.would_accept(error.measure()) && adapt_to_trial(output))
           continue;
         if (!control.accept(error, remedy_of_jumps()))
           {

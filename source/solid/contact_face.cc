@@ -348,7 +348,7 @@ namespace SlipStep
   // err ten times as much.
 
   template <int dim>
-  double ContactFace<dim>::step_error(const MPI_Comm &communicator) const
+  StepError ContactFace<dim>::step_error(const MPI_Comm &communicator) const
   {
     // What a single point may err, over what the mean may; points weaker than
     // a share of the mean do not matter.
@@ -377,7 +377,7 @@ namespace SlipStep
                         communicator,
                         ArrayView<double>(sums.data(), sums.size()));
     if (!(sums[2] > 0.))
-      return 0.;
+      return {};
 
     double worst = 0.;
     auto   error = errors_at_end.begin();
@@ -389,8 +389,7 @@ namespace SlipStep
           ++error;
         }
     worst = Utilities::MPI::max(worst, communicator);
-    return std::max(StepError{sums[0] / sums[2], sums[1] / sums[2]}.measure(),
-                    worst / times_more);
+    return {std::max(sums[0] / sums[2], worst / times_more), sums[1] / sums[2]};
   }
 
 

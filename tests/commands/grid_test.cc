@@ -271,8 +271,8 @@ TEST_F(Grid, IsComparedWithOtherResults)
   process.write("one/summary.json", summary);
   EXPECT_TRUE(
     contains(run({"compare", "one", "--output", "killed"}).out,
-             "one: failed: it was killed, or still runs, and has come "
-             "to t = "));
+             "one: failed: it has not ended: killed, or still running, "
+             "at t = "));
   fs::create_directory(process.folder() / "empty");
   refused({"empty"}, {"empty: it holds no results"});
   refused({"one", "./one/"}, {"named twice"});

@@ -92,6 +92,13 @@ TEST(StepControl, WarnsOfStepsThatAreFarTooLong)
     }
   EXPECT_EQ(after({{"Time stepping/Equal steps per statement", "2000"}}).second,
             "");
+  // A flank within one step is a coarse line between rows, but no error.
+  EXPECT_EQ(after({{"Time stepping/Equal steps per statement", "200"},
+                   {"Loading/Programme",
+                    "press 5 MPa in 1 s; slide 1 mm/min for 1 mm; "
+                    "slide -1 mm/min for 1 mm"}})
+              .second,
+            "");
 }
 
 

@@ -80,13 +80,12 @@ namespace SlipStep
     /// What accept() would answer.
     bool would_accept(const double error) const;
 
-    /// Judge a step by its estimated error, StepError::measure(): go on to the
-    /// next and return true, or ask for the same again, smaller, and return
-    /// false.
+    /// Judge a step by the measure of its estimated error: go on to the next
+    /// and return true, or ask for the same again, smaller, and return false.
     /// @param remedy to be said where no step is small enough
     /// @throws RunError if the statement takes too many steps, or too small
     /// ones
-    bool accept(const double error, const std::string &remedy = "");
+    bool accept(const StepError &estimate, const std::string &remedy = "");
 
     /// The step could not be made: try a smaller one.
     /// @throws RunError with @p reason if it is too small already
@@ -150,7 +149,7 @@ namespace SlipStep
     double       smallest_step    = 0.;
     unsigned int steps_of_statement = 0;  ///< tried
     unsigned int rows_of_statement  = 0;  ///< of a test that is followed
-    double       largest_error      = 0.; ///< of an accepted step
+    double       largest_error      = 0.; ///< at the end of a step
     double       time_of_largest    = 0.; ///< its end [s]
   };
 } // namespace SlipStep

@@ -116,6 +116,13 @@ namespace SlipStep
     {
       return std::max(at_end, of_line / 4.);
     }
+
+    /// Let the measure be no more than this.
+    void limit_to(const double most)
+    {
+      at_end  = std::min(at_end, most);
+      of_line = std::min(of_line, 4. * most);
+    }
   };
 
   /// Where an implicit stage starts.

@@ -112,7 +112,7 @@ namespace SlipStep
     /// strength, as StepError::measure(). It is that of the mean, or a part of
     /// that of the worst point among those that bear a load, so that a narrow
     /// front counts, too.
-    double step_error(const MPI_Comm &communicator) const;
+    StepError step_error(const MPI_Comm &communicator) const;
 
     /// How far the block has to go towards the plane, as a rigid body, to bear
     /// a normal load [N] > 0, from where it was in the last update [mm].
