@@ -36,7 +36,7 @@ TEST(MeasuredTests, WrongFilesAreRefused)
                       {"a.csv:1:1: ", "'pressure_MPa' is missing"});
   expect_refused_test("time,displacement_mm,pressure_MPa,friction\n" + row,
                       {"a.csv:1:1: ", "unit", "'time_s'"});
-  expect_refused_test("time_s,displacement_mm,pressure_MPA,friction\n" + row,
+  expect_refused_test("time_s,displacement_mm,pressure_MPas,friction\n" + row,
                       {"a.csv:1:24: ", "nearest is MPa"});
   expect_refused_test(header + row + "1,1,1,o.1\n",
                       {"a.csv:3:7: ", "'o.1' is not a number (friction)"});
