@@ -43,6 +43,16 @@ namespace SlipStep
 
 
 
+    // Without letters that a map in another encoding would not show.
+    bool is_plain(const std::string &text)
+    {
+      return std::all_of(text.begin(), text.end(), [](const char c) {
+        return static_cast<unsigned char>(c) < 0x7f;
+      });
+    }
+
+
+
     /// Looks at one file.
     class Observer
     {
@@ -303,12 +313,7 @@ namespace SlipStep
         }
       const bool is_known =
         !seen.unit.empty() && dimension_of_unit(seen.unit) == dimension;
-      // Letters that a file in another encoding would not show.
-      const bool is_plain =
-        std::all_of(seen.unit.begin(), seen.unit.end(), [](const char c) {
-          return static_cast<unsigned char>(c) < 0x7f;
-        });
-      const std::string unit = is_plain ?
+      const std::string unit = is_plain(seen.unit) ?
                                  seen.unit :
                                dimension == Dimension::temperature ?
                                  "degC" :
@@ -572,16 +577,11 @@ namespace SlipStep
       for (const std::string key : {"Normal load", "Pressure"})
         if (const SeenColumn *seen = taken_as(key); seen != nullptr)
           {
-            // Letters of another encoding are none of a map.
-            const bool is_plain =
-              std::all_of(seen->unit.begin(),
-                          seen->unit.end(),
-                          [](const char c) {
-                            return static_cast<unsigned char>(c) < 0x7f;
-                          });
             return "dry, " +
                    rounded_text(std::abs(median(finite[seen->number - 1])), 2) +
-                   (seen->unit.empty() || !is_plain ? "" : " " + seen->unit);
+                   (seen->unit.empty() || !is_plain(seen->unit) ?
+                      "" :
+                      " " + seen->unit);
           }
       return "dry, 5 N";
     }

@@ -69,8 +69,7 @@ namespace SlipStep
 
       std::map<double, std::size_t> n_of_size;
       for (const double value : values)
-        if (!std::isnan(value))
-          ++n_of_size[std::abs(value)];
+        ++n_of_size[std::abs(value)];
       if (n_of_size.size() < 3)
         return 0.;
       const auto        largest = std::prev(n_of_size.end());
@@ -101,7 +100,8 @@ namespace SlipStep
     constexpr std::size_t few = 10, many = 20;
     const std::size_t     least = std::ceil(share * values.size());
 
-    const double limit = limit_of(values, std::max(few, least));
+    const std::vector<double> known = without_gaps(values);
+    const double              limit = limit_of(known, std::max(few, least));
     if (limit > 0. && scatters_elsewhere(values, limit) &&
         scatters_elsewhere(values, -limit))
       {
@@ -131,8 +131,7 @@ namespace SlipStep
           }
       }
     // Where values are steps of a sensor, some repeat themselves.
-    if (longest < std::max(many, least) ||
-        coarse_step(without_gaps(values)) > 0. ||
+    if (longest < std::max(many, least) || coarse_step(known) > 0. ||
         !scatters_elsewhere(values, values[first]))
       return {};
     return RepeatedValue{"is exactly " + rounded_text(values[first], 6) +
@@ -391,9 +390,8 @@ namespace SlipStep
       for (const double pressure : test.pressure)
         decades.push_back(std::log10(std::max(pressure, 1e-6 * load)));
       for (const std::size_t row : excursions(decades, std::log10(times)))
-        if (rows.empty() ?
-              test.pressure[row - 1] >= load :
-              row == rows.back() + 1 || test.pressure[row - 1] >= load)
+        if (test.pressure[row - 1] >= load ||
+            (!rows.empty() && row == rows.back() + 1))
           rows.push_back(row);
       tell("the pressure goes to ", " MPa", test.pressure, rows);
     }

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -61,18 +60,7 @@ TEST_F(Planted, SymmetricIntervalsCountGainsOnce)
   const Parameters                 truth = calibration_case(paper);
   std::mt19937                     random(11);
   std::normal_distribution<double> gain(1., 0.005);
-  for (unsigned int n = 0; n < 12; ++n)
-    {
-      const double speed = std::array{1., 20., 200.}[n % 3];
-      MeasuredTest test =
-        planted_test(truth, speed / 60., 100., 120, 1e-3, random);
-      const double factor = gain(random);
-      for (double &friction : test.friction)
-        friction *= factor;
-      write_measured_test(folder.path() /
-                            ("test_" + std::to_string(n) + ".csv"),
-                          test);
-    }
+  plant_with_gains(folder.path(), truth, 4, gain, random);
   const Settings    four_from_one = {{"Calibration/Parameters", four},
                                      {"Calibration/Starts", "1"}};
   const Calibration whole         = calibrate(fitting(four_from_one));
@@ -203,20 +191,7 @@ TEST_F(IntervalsCover, TheTruthWhereGainsDiffer)
       for (unsigned int repetition = 0; repetition < n_repetitions;
            ++repetition)
         {
-          unsigned int n = 0;
-          for (unsigned int replicate = 0; replicate < n_replicates;
-               ++replicate)
-            for (const double speed : {1., 20., 200.})
-              {
-                MeasuredTest test =
-                  planted_test(truth, speed / 60., 100., 120, 1e-3, random);
-                const double factor = gain(random);
-                for (double &friction : test.friction)
-                  friction *= factor;
-                write_measured_test(folder.path() /
-                                      ("test_" + std::to_string(n++) + ".csv"),
-                                    test);
-              }
+          plant_with_gains(folder.path(), truth, n_replicates, gain, random);
           const Calibration found = calibrate(fitted);
           for (const FittedParameter &parameter : found.parameters)
             {

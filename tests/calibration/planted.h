@@ -81,6 +81,31 @@ namespace SlipStep
 
 
 
+    /// Write planted tests at 1, 20 and 200 mm/min, as often as told, each with
+    /// a gain of its own.
+    inline void plant_with_gains(const std::filesystem::path      &folder,
+                                 const Parameters                 &truth,
+                                 const unsigned int                n_replicates,
+                                 std::normal_distribution<double> &gain,
+                                 std::mt19937                     &random)
+    {
+      unsigned int n = 0;
+      for (unsigned int replicate = 0; replicate < n_replicates; ++replicate)
+        for (const double speed : {1., 20., 200.})
+          {
+            MeasuredTest test =
+              planted_test(truth, speed / 60., 100., 120, 1e-3, random);
+            const double factor = gain(random);
+            for (double &friction : test.friction)
+              friction *= factor;
+            write_measured_test(folder /
+                                  ("test_" + std::to_string(n++) + ".csv"),
+                                test);
+          }
+    }
+
+
+
     /// Write planted tests at several speeds [mm/min] into a folder.
     inline void plant(const std::filesystem::path &folder,
                       const Parameters            &truth,

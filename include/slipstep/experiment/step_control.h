@@ -91,7 +91,7 @@ namespace SlipStep
     /// @throws RunError with @p reason if it is too small already
     void cut(const std::string &reason);
 
-    /// What to warn of: equal steps with errors that may be seen; else "".
+    /// What to warn of: steps at rest so long that friction is off; else "".
     std::string warning() const;
 
     unsigned int n_accepted() const
@@ -149,7 +149,7 @@ namespace SlipStep
     double       smallest_step    = 0.;
     unsigned int steps_of_statement = 0;  ///< tried
     unsigned int rows_of_statement  = 0;  ///< of a test that is followed
-    double       largest_error      = 0.; ///< at the end of a step
+    double       largest_error      = 0.; ///< at the end of a step at rest
     double       time_of_largest    = 0.; ///< its end [s]
   };
 } // namespace SlipStep
