@@ -112,6 +112,7 @@ namespace SlipStep
       {"gain", "of friction"},
       {"offset", "of friction"},
       {"slope", "of friction"},
+      {"row memory", "of what the scatter of rows says"},
       {"drift by seconds", "0: goes with the duration, 1: the same seconds"}};
     const Noise::Logarithms logarithms = workspace.noise.noise.logarithms();
     for (std::size_t i = 0; i < names.size(); ++i)

@@ -164,6 +164,8 @@ namespace SlipStep
 
       double judge_rows(const Eigen::VectorXd &difference);
 
+      void scale_rows(const Eigen::VectorXd &difference);
+
       void drop_copies(std::vector<CampaignTest> &tests);
 
       std::vector<std::pair<double, std::size_t>>
@@ -281,6 +283,35 @@ namespace SlipStep
 
 
 
+    // Where rows hang together, their scatter is hardly told from a drift in
+    // one record: how far they are from what those before them predict tells
+    // it. Neighbours are subtracted, so that what the model lacks is not
+    // counted.
+    void Preparer::scale_rows(const Eigen::VectorXd &difference)
+    {
+      Comparison &comparison  = result.workspace->comparison;
+      RowMatrix   innovations = difference;
+      comparison.whiten(innovations);
+      for (std::size_t t = 0; t < comparison.tests.size(); ++t)
+        {
+          ComparedTest &test = comparison.tests[t];
+          if (result.workspace->tests[t].noise_is_stated)
+            continue;
+          std::vector<double> sizes;
+          for (Eigen::Index i = 1; i < test.size; ++i)
+            if (i % test.n_bins() != 0)
+              sizes.push_back(std::abs(innovations(test.begin + i, 0) -
+                                       innovations(test.begin + i - 1, 0)));
+          const double factor =
+            median(std::move(sizes)) / (0.6745 * std::sqrt(2.));
+          for (Series &series : test.series)
+            for (double &own : series.row_noise)
+              own *= factor;
+        }
+    }
+
+
+
     // Add what rounded positions do to the noise of the rows, in the place of
     // what was added before.
     void Preparer::weigh_motion(const Eigen::VectorXd &noise)
@@ -318,11 +349,20 @@ namespace SlipStep
           weigh_motion(motion_noise(comparison,
                                     workspace.tests,
                                     comparison.measured + difference));
-          workspace.noise =
-            estimate_noise(comparison.contrasts(difference), stated);
-          workspace.noise.row_freedom = row_freedom;
-          comparison.set_noise(workspace.noise.noise,
-                               comparison.measured + difference);
+          const auto estimate = [&]() {
+            workspace.noise =
+              estimate_noise(comparison.contrasts(difference), stated);
+            workspace.noise.row_freedom = row_freedom;
+            comparison.set_noise(workspace.noise.noise,
+                                 comparison.measured + difference);
+          };
+          estimate();
+          if (row_freedom > 0.)
+            for (unsigned int n = 0; n < 2; ++n)
+              {
+                scale_rows(difference);
+                estimate();
+              }
         }
       comparison.fit(result.base, 0.01);
       keep_near();

@@ -16,7 +16,8 @@ namespace SlipStep
   {
     Logarithms result;
     result << std::log(white), std::log(drift), std::log(drift_time),
-      std::log(gain), std::log(offset), std::log(slope), by_seconds;
+      std::log(gain), std::log(offset), std::log(slope), std::log(row_memory),
+      by_seconds;
     return result;
   }
 
@@ -31,7 +32,8 @@ namespace SlipStep
             values(3),
             values(4),
             values(5),
-            logarithms(6)};
+            values(6),
+            logarithms(7)};
   }
 
 
@@ -39,6 +41,13 @@ namespace SlipStep
   double Series::drift_time(const Noise &noise) const
   {
     return noise.drift_time * std::pow(duration, -noise.by_seconds);
+  }
+
+
+
+  double Series::row_kept(const Noise &noise) const
+  {
+    return std::pow(row_decay, 1. / noise.row_memory);
   }
 
 
@@ -124,6 +133,7 @@ namespace SlipStep
   {
     const double stationary = std::pow(noise.drift * level, 2);
     const double drift_time = series.drift_time(noise);
+    const double row_kept   = series.row_kept(noise);
     // Covariance of the states.
     double drift = stationary, both = 0., row = 1.;
     for (std::size_t i = 0; i < series.time.size(); ++i)
@@ -134,7 +144,7 @@ namespace SlipStep
           {
             step.drift_kept =
               std::exp((series.time[i - 1] - series.time[i]) / drift_time);
-            step.row_kept   = series.row_decay;
+            step.row_kept   = row_kept;
             const double kd = step.drift_kept, kr = step.row_kept;
             drift = kd * kd * drift + (1. - kd * kd) * stationary;
             both *= kd * kr;
@@ -227,7 +237,7 @@ namespace SlipStep
             double own = normal(random);
             if (one.row_share > 0.)
               {
-                const double keep = one.row_decay;
+                const double keep = one.row_kept(noise);
                 if (i > 0)
                   together = keep * together +
                              std::sqrt(1. - keep * keep) * normal(random);
@@ -260,7 +270,7 @@ namespace SlipStep
   Noise::Logarithms prior_deviations()
   {
     Noise::Logarithms result;
-    result << 0.2, 0.6, 0.5, 0.6, 0.6, 0.6, 0.5;
+    result << 0.2, 0.6, 0.5, 0.6, 0.6, 0.6, 0.4, 0.5;
     return result;
   }
 

@@ -23,9 +23,10 @@ namespace SlipStep
         if (test.series[0].row_share > 0.)
           {
             ++n;
-            decay =
-              std::max(decay,
-                       test.series[0].row_share * test.series[0].row_decay);
+            decay = std::max(decay,
+                             test.series[0].row_share *
+                               test.series[0].row_kept(
+                                 result.workspace->noise.noise));
           }
       if (n == 0)
         return;

@@ -68,7 +68,8 @@ namespace
                   value += rows * (1. - series[s].row_share);
                 if (s == t)
                   value += rows * series[s].row_share *
-                           std::pow(series[s].row_decay, i > j ? i - j : j - i);
+                           std::pow(series[s].row_decay,
+                                    (i > j ? i - j : j - i) / noise.row_memory);
                 result(row, column) = value;
               }
         }
@@ -89,6 +90,7 @@ namespace
                                                   usual_noise()});
     result[1].first.row_share   = 0.6;
     result[1].first.row_decay   = 0.8;
+    result[1].second.row_memory = 1.7;
     result[2].first.row_share   = 1.;
     result[2].first.row_decay   = 0.5;
     result[3].first.row_share   = 0.3;
@@ -196,7 +198,7 @@ TEST(EstimateNoise, IsThePriorWithoutReplicates)
   const NoiseEstimate found = estimate_noise({}, prior);
   EXPECT_EQ(found.n_contrasts, 0u);
   EXPECT_EQ((found.noise.logarithms() - prior.logarithms()).norm(), 0.);
-  for (Eigen::Index i = 0; i < 7; ++i)
+  for (Eigen::Index i = 0; i < found.covariance.rows(); ++i)
     EXPECT_DOUBLE_EQ(found.covariance(i, i),
                      std::pow(prior_deviations()(i), 2));
 }
@@ -224,7 +226,34 @@ TEST(EstimateNoise, TellsSecondsFromShares)
         }
       const NoiseEstimate found = estimate_noise(contrasts, usual_noise());
       EXPECT_LT(std::abs(found.noise.by_seconds - by_seconds),
-                3. * std::sqrt(found.covariance(6, 6)));
-      EXPECT_LT(std::sqrt(found.covariance(6, 6)), 0.25);
+                3. * std::sqrt(found.covariance(7, 7)));
+      EXPECT_LT(std::sqrt(found.covariance(7, 7)), 0.25);
     }
+}
+
+
+
+// Rows of correlation 0.8 that were taken for ones of 0.65.
+TEST(EstimateNoise, TellsHowLongRowsRemember)
+{
+  const Noise           truth = usual_noise();
+  std::mt19937_64       random(3);
+  std::vector<Contrast> contrasts;
+  for (unsigned int i = 0; i < 10; ++i)
+    {
+      Contrast contrast;
+      contrast.series              = {series_of(200, 0.001)};
+      contrast.series[0].row_share = 1.;
+      contrast.series[0].row_decay = 0.8;
+      contrast.level               = 0.11;
+      contrast.values =
+        sample_noise(contrast.series, contrast.level, truth, random);
+      contrast.series[0].row_decay = 0.65;
+      contrasts.push_back(contrast);
+    }
+  const NoiseEstimate found = estimate_noise(contrasts, usual_noise());
+  EXPECT_NEAR(contrasts[0].series[0].row_kept(found.noise), 0.8, 0.05);
+  EXPECT_NEAR(found.noise.row_memory,
+              std::log(0.65) / std::log(0.8),
+              3. * found.noise.row_memory * std::sqrt(found.covariance(6, 6)));
 }

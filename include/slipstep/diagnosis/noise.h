@@ -32,11 +32,14 @@ namespace SlipStep
     double gain       = 0.;
     double offset     = 0.;
     double slope      = 0.; ///< of a straight line, from first to last row
+    /// Over so many times the rows that the series say, rows that hang together
+    /// forget each other.
+    double row_memory = 1.;
     /// Of a longer test the share is less by this power of its duration: 0 if
     /// the drift goes with the test, 1 if it forgets within the same seconds.
     double by_seconds = 0.;
 
-    static constexpr std::size_t n_components = 7;
+    static constexpr std::size_t n_components = 8;
 
     /// The last of them is no logarithm, but by_seconds itself.
     using Logarithms = Eigen::Matrix<double, n_components, 1>;
@@ -66,6 +69,9 @@ namespace SlipStep
 
     /// Over which drift forgets, a share of the test's own duration.
     double drift_time(const Noise &noise) const;
+
+    /// What is left in the next row of what rows have in common.
+    double row_kept(const Noise &noise) const;
   };
 
   /// Turns noise into independent numbers of variance one, and back, for one
