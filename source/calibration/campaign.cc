@@ -246,6 +246,7 @@ namespace SlipStep
     // A replay of the same motion is taken as it is.
     CampaignTest prepare(const MeasuredTest &measured,
                          const Parameters   &parameters,
+                         const double        rounding,
                          const Replay       *of_same_motion)
     {
       // Stairs or noise of more make the contact stick and slip in each row;
@@ -253,10 +254,10 @@ namespace SlipStep
       constexpr double stick_share = 0.1;
 
       MeasuredTest test = measured;
-      double       step = rounding_of_motion(test);
+      double       step = rounding_of_motion(test, rounding);
       const double felt = stick_share * elastic_slip(test, parameters);
       if (step > 0. && step > felt)
-        undo_rounding_of_motion(test);
+        undo_rounding_of_motion(test, rounding);
       else
         {
           step = 0.;
@@ -281,7 +282,8 @@ namespace SlipStep
       std::sort(distances.begin(), distances.end());
       const double    row_distance = distances[distances.size() / 20];
       ResampleOptions options;
-      options.motion_step = step;
+      // Rows farther from each other tell when rests begin.
+      options.motion_step = step > 0. ? rounding_of_motion(measured) : 0.;
       CampaignTest result{test,
                           0.,
                           false,
@@ -337,6 +339,9 @@ namespace SlipStep
         measured.push_back(read_measured_test(file));
     check_conditions(measured);
     warn_of_oddities(measured);
+    double rounding = 0.;
+    for (const MeasuredTest &test : measured)
+      rounding = std::max(rounding, rounding_of_motion(test));
     std::vector<CampaignTest>           tests;
     std::map<std::size_t, CampaignTest> leaders;
     std::set<fs::path>                  files;
@@ -346,12 +351,12 @@ namespace SlipStep
           parameters.reject(tests_key, test.file.string() + " is listed twice");
         const std::size_t leader = leader_of_motion(measured, tests.size());
         if (leaders.count(leader) == 0)
-          leaders.emplace(leader,
-                          prepare(measured[leader], parameters, nullptr));
+          leaders.emplace(
+            leader, prepare(measured[leader], parameters, rounding, nullptr));
         tests.push_back(
           leader == tests.size() ?
             leaders.at(leader) :
-            prepare(test, parameters, &leaders.at(leader).replay));
+            prepare(test, parameters, rounding, &leaders.at(leader).replay));
       }
     keep_noise_visible(tests);
     return tests;

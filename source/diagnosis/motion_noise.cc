@@ -43,12 +43,26 @@ namespace SlipStep
             ++end;
           if (i > 0 && way[i] == way[i - 1])
             continue; // at rest
-          const auto [least, most] =
-            std::minmax_element(friction + begin, friction + end);
+          double least = *std::min_element(friction + begin, friction + end);
+          double most  = *std::max_element(friction + begin, friction + end);
+          // Rows may be farther from each other than a step.
+          const auto include = [&](const std::size_t in,
+                                   const std::size_t out) {
+            const double value =
+              friction[in] + (friction[out] - friction[in]) *
+                               (0.5 * step - std::abs(way[in] - way[i])) /
+                               std::abs(way[out] - way[in]);
+            least = std::min(least, value);
+            most  = std::max(most, value);
+          };
+          if (begin > 0)
+            include(begin, begin - 1);
+          if (end < way.size())
+            include(end - 1, end);
           unsigned int n = 1;
           for (std::size_t j = begin + 1; j < end; ++j)
             n += way[j] > way[j - 1];
-          result[i] = (*most - *least) * std::sqrt(n / 12.);
+          result[i] = (most - least) * std::sqrt(n / 12.);
         }
     }
   } // namespace

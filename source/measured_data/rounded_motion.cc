@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 
 namespace SlipStep
@@ -96,12 +97,12 @@ namespace SlipStep
 
 
     // From the middle towards the value before it to that towards the next
-    // one; or it comes to rest at the value, and leaves it again, as fast as in
-    // the stairs beside it.
+    // one; or it turns there; or it comes to rest at the value, and leaves it
+    // again, as fast as in the stairs beside it.
     void StairMotion::fill(const std::size_t    s,
                            std::vector<double> &values) const
     {
-      constexpr double much_longer = 3.;
+      constexpr double much_longer = 3., there_and_back = 2.;
 
       const Stair &stair = stairs[s];
       if (!stair.is_long() || stairs.size() < 2)
@@ -114,10 +115,13 @@ namespace SlipStep
       const double before = is_first ? unknown : time_per_step(s - 1);
       const double after  = is_last ? unknown : time_per_step(s + 1);
       const double usual  = std::min(before, after);
-      const bool passes  = from * to < 0. && end - begin <= much_longer * usual;
-      const auto half_of = [&](const double duration) {
-        return 0.5 *
-               std::min(end - begin, duration < unknown ? duration : usual);
+      const bool passes = from * to < 0. && end - begin <= much_longer * usual;
+      const bool turns =
+        from * to > 0. && end - begin <= there_and_back * usual;
+      // The first and the last one have but one end.
+      const double longest = (is_first || is_last ? 1. : 0.5) * (end - begin);
+      const auto   half_of = [&](const double duration) {
+        return std::min(longest, 0.5 * (duration < unknown ? duration : usual));
       };
       const double stops  = begin + half_of(before);
       const double starts = end - half_of(after);
@@ -127,6 +131,8 @@ namespace SlipStep
           double       off = 0.;
           if (passes)
             off = from + (to - from) * (t - begin) / (end - begin);
+          else if (turns)
+            off = from * (1. - 2. * std::min(t - begin, end - t) / usual);
           else if (!is_first && t < stops)
             off = from * (stops - t) / (stops - begin);
           else if (!is_last && t > starts)
@@ -195,24 +201,116 @@ namespace SlipStep
 
 
 
-  double rounding_of_motion(const MeasuredTest &test)
+  namespace
   {
-    return std::max(rounding_of_motion(test.displacement),
-                    rounding_of_motion(test.displacement_y));
+    bool are_multiples(const std::vector<double> &values, const double step)
+    {
+      constexpr double unlike = 1e-3;
+
+      return step > 0. &&
+             std::all_of(values.begin(), values.end(), [&](const double value) {
+               const double ratio = value / step;
+               return std::abs(ratio - std::round(ratio)) < unlike;
+             });
+    }
+
+
+
+    // Of one axis: that seen in its stairs, or that of other records.
+    double rounding_of_axis(const std::vector<double> &values,
+                            const double               of_others)
+    {
+      const double own = rounding_of_motion(values);
+      return own == 0. && are_multiples(values, of_others) ? of_others : own;
+    }
+  } // namespace
+
+
+
+  double rounding_of_motion(const MeasuredTest &test, const double of_others)
+  {
+    return std::max(rounding_of_axis(test.displacement, of_others),
+                    test.displacement_y.empty() ?
+                      0. :
+                      rounding_of_axis(test.displacement_y, of_others));
   }
 
 
 
-  void undo_rounding_of_motion(MeasuredTest &test)
+  namespace
   {
-    double largest = 0.;
+    /// The straight line of least squares through places in the plane.
+    class StraightLine
+    {
+    public:
+      StraightLine(const std::vector<double> &x, const std::vector<double> &y)
+        : middle_x(std::accumulate(x.begin(), x.end(), 0.) / x.size())
+        , middle_y(std::accumulate(y.begin(), y.end(), 0.) / y.size())
+      {
+        double xx = 0., xy = 0., yy = 0.;
+        for (std::size_t i = 0; i < x.size(); ++i)
+          {
+            const double dx = x[i] - middle_x, dy = y[i] - middle_y;
+            xx += dx * dx;
+            xy += dx * dy;
+            yy += dy * dy;
+          }
+        const double angle = 0.5 * std::atan2(2. * xy, xx - yy);
+        cosine             = std::cos(angle);
+        sine               = std::sin(angle);
+      }
+
+      // Whether it passes all places rounded to this step, nearly.
+      bool passes(const std::vector<double> &x,
+                  const std::vector<double> &y,
+                  const double               step) const
+      {
+        constexpr double nearly = 1.2;
+
+        const double most =
+          0.5 * nearly * step * (std::abs(cosine) + std::abs(sine));
+        for (std::size_t i = 0; i < x.size(); ++i)
+          if (std::abs((y[i] - middle_y) * cosine - (x[i] - middle_x) * sine) >
+              most)
+            return false;
+        return true;
+      }
+
+      void project(double &x, double &y) const
+      {
+        const double along = (x - middle_x) * cosine + (y - middle_y) * sine;
+        x                  = middle_x + along * cosine;
+        y                  = middle_y + along * sine;
+      }
+
+    private:
+      const double middle_x, middle_y;
+      double       cosine = 1., sine = 0.;
+    };
+  } // namespace
+
+
+
+  void undo_rounding_of_motion(MeasuredTest &test, const double of_others)
+  {
+    const std::vector<double> recorded   = test.displacement;
+    const std::vector<double> recorded_y = test.displacement_y;
+    double                    largest    = 0.;
     for (std::vector<double> *values :
          {&test.displacement, &test.displacement_y})
       {
-        const double step = rounding_of_motion(*values);
-        largest           = std::max(largest, step);
+        const double step =
+          values->empty() ? 0. : rounding_of_axis(*values, of_others);
+        largest = std::max(largest, step);
         if (step > 0.)
           *values = without_stairs(test.time, *values, step);
+      }
+    if (largest > 0. && !recorded_y.empty())
+      {
+        const StraightLine line(recorded, recorded_y);
+        if (line.passes(recorded, recorded_y, largest))
+          for (std::size_t i = 0; i < test.time.size(); ++i)
+            line.project(test.displacement[i], test.displacement_y[i]);
       }
     if (largest > 0.)
       test.warnings.push_back(

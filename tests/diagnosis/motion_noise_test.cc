@@ -43,11 +43,26 @@ TEST(MotionNoise, IsThatOfTheFlanks)
   const Eigen::VectorXd           noise =
     motion_noise(comparison, tests, comparison.measured);
   ASSERT_EQ(noise.size(), 400);
-  const double on_flank = slope * 10. * row_step * std::sqrt(11. / 12.);
+  const double on_flank = slope * q * std::sqrt(11. / 12.);
   for (unsigned int i = 7; i < 15; ++i)
     EXPECT_NEAR(noise(i), on_flank, 1e-12) << i;
   // At the end of the flank half of it.
   EXPECT_NEAR(noise(20), 0.5 * on_flank, 1e-12);
   EXPECT_EQ(noise.segment(27, 200 - 27).norm(), 0.);
   EXPECT_EQ(noise.tail(200).norm(), 0.);
+}
+
+
+
+// Rows twice as far from each other as a step: half a step to either side.
+TEST(MotionNoise, IsSeenBetweenRowsThatAreFarFromEachOther)
+{
+  const double                    step  = 0.5 * row_step;
+  const std::vector<CampaignTest> tests = {flank_and_rest(step)};
+  const Comparison                comparison(tests);
+  const Eigen::VectorXd           noise =
+    motion_noise(comparison, tests, comparison.measured);
+  for (unsigned int i = 1; i < 20; ++i)
+    EXPECT_NEAR(noise(i), slope * step / std::sqrt(12.), 1e-12) << i;
+  EXPECT_EQ(noise.tail(200 - 22).norm(), 0.);
 }

@@ -126,3 +126,81 @@ TEST(RoundedMotion, IsTold)
   EXPECT_EQ(test.displacement, record.exact);
   EXPECT_TRUE(test.warnings.empty());
 }
+
+
+
+// A slide at 30 degrees: the stairs of its axes end at different times, but its
+// direction is that of the line. One that turns off is on no line.
+TEST(RoundedMotion, KeepsTheDirectionOfALine)
+{
+  for (const bool turns_off : {false, true})
+    {
+      const Record record(0.1);
+      MeasuredTest test;
+      test.time             = record.time;
+      std::vector<double> x = record.exact, y(record.exact.size());
+      for (std::size_t i = 0; i < x.size(); ++i)
+        {
+          y[i] = x[i] * std::tan(0.5);
+          if (turns_off && test.time[i] > 45.)
+            y[i] = 2.4 * std::tan(0.5);
+          test.displacement.push_back(step * std::round(x[i] / step));
+          test.displacement_y.push_back(step * std::round(y[i] / step));
+        }
+      undo_rounding_of_motion(test);
+      double farthest = 0.;
+      for (std::size_t i = 1; i < x.size() && test.time[i] < 45.; ++i)
+        {
+          const double dx = test.displacement[i] - test.displacement[i - 1];
+          const double dy = test.displacement_y[i] - test.displacement_y[i - 1];
+          if (std::hypot(dx, dy) > 1e-4)
+            farthest = std::max(farthest, std::abs(std::atan2(dy, dx) - 0.5));
+        }
+      EXPECT_EQ(farthest < 0.02, !turns_off) << farthest;
+      EXPECT_LT(largest_difference(test.displacement, x), step);
+      EXPECT_LT(largest_difference(test.displacement_y, y), step);
+    }
+}
+
+
+
+// Where it turns, the motion does not come to rest; and it may begin within a
+// stair.
+TEST(RoundedMotion, TurnsWithoutRest)
+{
+  constexpr double speed = 0.02, interval = 0.1;
+  for (const double turn : {0.999, 1.001, 1.003, 1.0045})
+    {
+      std::vector<double> time, exact, rounded;
+      for (double t = 0.; t < 2. * turn / speed; t += interval)
+        {
+          time.push_back(t);
+          exact.push_back(turn - std::abs(turn - speed * t));
+          rounded.push_back(step * std::round(exact.back() / step));
+        }
+      const std::vector<double> found = without_stairs(time, rounded, step);
+      EXPECT_LT(largest_difference(found, exact), 0.6 * speed * interval)
+        << turn;
+    }
+}
+
+
+
+// Rows farther from each other than the step, but for two of the same value,
+// where the contact would stick.
+TEST(RoundedMotion, IsThatOfOtherRecords)
+{
+  MeasuredTest test;
+  for (unsigned int i = 0; i < 40; ++i)
+    {
+      test.time.push_back(0.1 * i);
+      test.displacement.push_back(step * std::round(0.0091 * i / step));
+    }
+  EXPECT_EQ(rounding_of_motion(test), 0.);
+  EXPECT_EQ(rounding_of_motion(test, step), step);
+  EXPECT_EQ(rounding_of_motion(test, 0.003), 0.);
+  undo_rounding_of_motion(test, step);
+  EXPECT_EQ(test.warnings.size(), 1);
+  for (unsigned int i = 1; i < 39; ++i)
+    EXPECT_GT(test.displacement[i] - test.displacement[i - 1], 0.0025) << i;
+}

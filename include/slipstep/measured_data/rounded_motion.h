@@ -22,10 +22,17 @@ namespace SlipStep
                                      const double               step);
 
   /// The larger step of both axes of a test.
-  double rounding_of_motion(const MeasuredTest &test);
+  /// @param of_others to which other records of the same machine were rounded:
+  ///   rows far from each other make no stairs, but an axis all of whose values
+  ///   are multiples of it was rounded to it, too
+  double rounding_of_motion(const MeasuredTest &test,
+                            const double        of_others = 0.);
 
   /// Take the stairs out of both axes of a test, and say so in its warnings.
-  void undo_rounding_of_motion(MeasuredTest &test);
+  /// Where all places are on a straight line, as far as the rounding tells, so
+  /// is the motion: stairs of two axes do not end together, and friction would
+  /// turn to and fro.
+  void undo_rounding_of_motion(MeasuredTest &test, const double of_others = 0.);
 } // namespace SlipStep
 
 #endif
