@@ -448,7 +448,8 @@ namespace SlipStep
       return find_effect(FrictionLaw(parameters).effects(),
                          [&](const EffectInfo &info) {
                            return info.heeds_position &&
-                                  info.heeds_position(parameters);
+                                  info.heeds_position(
+                                    info.section_of(parameters));
                          }) != nullptr;
     }
   } // namespace

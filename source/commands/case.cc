@@ -252,8 +252,8 @@ namespace SlipStep
   {
     const FrictionLaw law(parameters);
     for (const std::string &effect : law.effects())
-      if (const auto &check = effect_registry().at(effect).check)
-        check(parameters);
+      if (const EffectInfo &info = effect_registry().at(effect); info.check)
+        info.check(info.section_of(parameters));
     const Programme       programme = parse_programme(parameters);
     const BlockParameters block(parameters, programme);
     const StepControl     control(parameters, programme, law);

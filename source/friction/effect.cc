@@ -17,23 +17,42 @@ namespace SlipStep
 
 
 
-  EffectParameter::EffectParameter(const std::string &key,
-                                   const std::string &symbol,
-                                   const std::string &default_value,
-                                   const dealii::Patterns::PatternBase &pattern,
-                                   const std::string                   &meaning)
+  EffectKey::EffectKey(const std::string                   &key,
+                       const std::string                   &symbol,
+                       const std::string                   &default_value,
+                       const dealii::Patterns::PatternBase &pattern)
     : key(key)
     , symbol(symbol)
     , default_value(default_value)
     , pattern(pattern.clone())
-    , meaning(meaning)
   {}
+
+
+
+  Quantity positive(const Dimension dimension, const double maximum)
+  {
+    return Quantity(dimension, 0., maximum, true);
+  }
+
+
+
+  dealii::Patterns::Selection one_of(const std::string &words)
+  {
+    return dealii::Patterns::Selection(words);
+  }
 
 
 
   std::string EffectInfo::section() const
   {
     return "Friction/" + name + "/";
+  }
+
+
+
+  EffectSection EffectInfo::section_of(const Parameters &parameters) const
+  {
+    return {parameters, section()};
   }
 
 
@@ -79,8 +98,12 @@ namespace SlipStep
 
 
 
-  RegisterEffect::RegisterEffect(const EffectInfo &info)
+  RegisterEffect::RegisterEffect(EffectInfo info)
   {
+    if (info.neutral.empty() && !info.neutral_settings.empty())
+      info.neutral = info.neutral_settings[0].first + " = " +
+                     info.neutral_settings[0].second;
+    info.search.complete_paths(info.section());
     const bool is_new = mutable_registry().emplace(info.name, info).second;
     Assert(is_new,
            dealii::ExcMessage("Two effects are named '" + info.name + "'."));

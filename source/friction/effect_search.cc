@@ -23,9 +23,7 @@ namespace SlipStep
 
 
 
-  TrialFormula TrialFormula::state_of_contacts(const std::string &growth,
-                                               const std::string &time,
-                                               const std::string &length,
+  TrialFormula TrialFormula::state_of_contacts(const std::string &length,
                                                const TestedRange &range)
   {
     const double path    = range.longest_path;
@@ -36,19 +34,30 @@ namespace SlipStep
     TrialFormula formula;
     formula.is_one_sided = true;
     formula.parameters   = {
-        {growth, 0., 1., false},
-        {time, 1e-6 * path / fastest, path / slowest, true, true, true},
+        {"Growth", 0., 1., false},
+        {"Time", 1e-6 * path / fastest, path / slowest, true, true, true},
         {length, 1e-5 * path, 0.3 * path, true}};
     // Younger than contacts are at the fastest: its share of the age is felt
     // everywhere.
     for (const double L : ladder(3e-3 * path, 0.1 * path, 4))
-      formula.shapes.push_back([=](const double strength) {
-        return Values{{growth,
-                       std::clamp(just_noticed * strength / ages, 1e-6, 0.9)},
-                      {time, 0.1 * L / fastest},
-                      {length, L}};
-      });
+      formula.add_shape(
+        "Growth", 1e-6, 0.9, {{"Time", 0.1 * L / fastest}, {length, L}}, ages);
     return formula;
+  }
+
+
+
+  void TrialFormula::add_shape(const std::string &path,
+                               const double       lower,
+                               const double       upper,
+                               const Values      &others,
+                               const double       felt)
+  {
+    shapes.push_back([=](const double strength) {
+      Values values = others;
+      values[path]  = std::clamp(just_noticed * strength / felt, lower, upper);
+      return values;
+    });
   }
 
 
@@ -67,6 +76,40 @@ namespace SlipStep
         {path,
          std::clamp(just_noticed * strength * unit, least, upper - margin)}};
     }};
+  }
+
+
+
+  void EffectSearch::complete_paths(const std::string &section)
+  {
+    const auto whole = [section](const std::string &path) {
+      return path.find('/') == std::string::npos ? section + path : path;
+    };
+    const auto all_whole = [whole](const auto &of_keys) {
+      auto of_paths = of_keys;
+      of_paths.clear();
+      for (const auto &[key, value] : of_keys)
+        of_paths[whole(key)] = value;
+      return of_paths;
+    };
+    const auto complete = [=](Form &form) {
+      if (form)
+        form = [=, relative = form](const Circumstances &now) {
+          TrialFormula result = relative(now);
+          for (CandidateParameter &parameter : result.parameters)
+            parameter.path = whole(parameter.path);
+          result.settings = all_whole(result.settings);
+          result.texts    = all_whole(result.texts);
+          for (TrialFormula::Shape &shape : result.shapes)
+            shape = [=, of_keys = shape](const double strength) {
+              return all_whole(of_keys(strength));
+            };
+          return result;
+        };
+    };
+    complete(formula);
+    complete(beside_formula);
+    std::for_each(other_forms.begin(), other_forms.end(), complete);
   }
 
 

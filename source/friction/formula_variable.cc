@@ -57,7 +57,7 @@ namespace SlipStep
                 return x;
               },
               [memory](const ContactState &state) { return state[memory]; },
-              memory};
+              {memory}};
     }
 
 
@@ -76,7 +76,7 @@ namespace SlipStep
                 return Strength{age.value, age.derivative, 0., {}};
               },
               {},
-              memory};
+              {memory}};
     }
 
 

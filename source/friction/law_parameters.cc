@@ -156,7 +156,7 @@ namespace SlipStep
           const EffectInfo &info = effect_registry().at(names[i]);
           if ((info.slot == ExclusiveSlot::overstress) != flow_rule)
             continue;
-          active[i]             = info.create(parameters, basis);
+          active[i] = info.create(info.section_of(parameters), basis);
           const Effect *created = active[i].get();
           if (info.slot == ExclusiveSlot::overstress)
             flow = created;
@@ -231,7 +231,7 @@ namespace SlipStep
       if (std::any_of(active.begin(),
                       active.end(),
                       [&memory](const auto &effect) {
-                        const auto written = effect->memories();
+                        const auto &written = effect->memories();
                         return std::any_of(written.begin(),
                                            written.end(),
                                            [&](const ContactMemory &other) {

@@ -168,33 +168,29 @@ namespace SlipStep
 
   namespace
   {
-    ParsedFormula read_formula(const Parameters  &parameters,
-                               const std::string &key)
+    ParsedFormula read_formula(const EffectSection &section)
     {
       try
         {
-          return ParsedFormula(parameters.text(key), "x");
+          return ParsedFormula(section.text("Formula"), "x");
         }
       catch (const InputError &error)
         {
-          parameters.reject(key, error.what());
+          section.reject("Formula", error.what());
         }
     }
 
 
 
     // The value at x, if it is allowed.
-    std::function<double(double)> checked_formula(const Parameters  &parameters,
-                                                  const std::string &key)
+    std::function<double(double)> checked_formula(const EffectSection &section)
     {
-      const ParsedFormula formula = read_formula(parameters, key);
-      return [&parameters, key, formula](const double x) {
+      return [section, formula = read_formula(section)](const double x) {
         const double result = formula(x);
         if (!(result >= 1e-6 && result <= 1e6))
-          parameters.reject(key,
-                            "its value " + rounded_text(result, 6) +
-                              " at x = " + rounded_text(x, 6) +
-                              " is not between 1e-6 and 1e6");
+          section.reject("Formula",
+                         "its value " + rounded_text(result, 6) + " at x = " +
+                           rounded_text(x, 6) + " is not between 1e-6 and 1e6");
         return result;
       };
     }
@@ -202,37 +198,30 @@ namespace SlipStep
 
 
 
-  SampledFunction SampledFunction::of_section(const Parameters  &parameters,
-                                              const std::string &section)
+  SampledFunction SampledFunction::of_section(const EffectSection &section)
   {
-    const double from = parameters.number(section + "From");
-    const double to   = parameters.number(section + "To");
+    const double from = section.number("From"), to = section.number("To");
     if (!(from < to))
-      parameters.reject(section + "To", "must be greater than From");
-    const auto sampled =
-      of(checked_formula(parameters, section + "Formula"), from, to);
+      section.reject("To", "must be greater than From");
+    const auto sampled = of(checked_formula(section), from, to);
     if (!sampled.has_value())
-      parameters.reject(section + "Formula",
-                        "it varies too quickly between From and To: more than "
-                        "64000 samples would be needed; state the range that "
-                        "the tests or the programme reach");
+      section.reject("Formula",
+                     "it varies too quickly between From and To: more than "
+                     "64000 samples would be needed; state the range that "
+                     "the tests or the programme reach");
     return *sampled;
   }
 
 
 
-  void SampledFunction::check_section(const Parameters  &parameters,
-                                      const std::string &section)
+  void SampledFunction::check_section(const EffectSection &section)
   {
-    const std::string key = section + "Formula";
-    const auto        missed =
-      of_section(parameters, section).missed(checked_formula(parameters, key));
+    const auto missed = of_section(section).missed(checked_formula(section));
     if (missed.has_value())
-      parameters.reject(key,
-                        "it changes within much less than From to To, near x "
-                        "= " +
-                          rounded_text(*missed, 6) +
-                          "; state the range that the tests or the programme "
-                          "reach");
+      section.reject("Formula",
+                     "it changes within much less than From to To, near x = " +
+                       rounded_text(*missed, 6) +
+                       "; state the range that the tests or the programme "
+                       "reach");
   }
 } // namespace SlipStep

@@ -167,7 +167,7 @@ TEST_P(EveryEffect, tells_the_derivatives_of_its_strength)
   for (const auto &setting :
        settings_of(info.name, info.typical_settings, companions(info.name)))
     parameters.set("Friction/" + setting.first, setting.second, "test");
-  const auto effect   = info.create(parameters, {0.1, 1.});
+  const auto effect   = info.create(info.section_of(parameters), {0.1, 1.});
   const auto strength = dynamic_cast<const StrengthEffect *>(effect.get());
   if (strength == nullptr)
     GTEST_SKIP() << "It leaves the strength alone.";

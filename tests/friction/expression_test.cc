@@ -185,7 +185,8 @@ TEST(Expression, is_refused_where_a_feature_is_narrow)
     parameters.set("Friction/expression/From", from, "test");
     try
       {
-        effect_registry().at("expression").check(parameters);
+        const EffectInfo &info = effect_registry().at("expression");
+        info.check(info.section_of(parameters));
       }
     catch (const InputError &refusal)
       {

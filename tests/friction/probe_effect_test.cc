@@ -14,7 +14,7 @@ namespace SlipStep
     class Probe : public StrengthEffect
     {
     public:
-      Probe(const Parameters &, const CoefficientBasis &)
+      Probe(const EffectSection &, const CoefficientBasis &)
       {}
 
       static EffectInfo info()

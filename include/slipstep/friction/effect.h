@@ -137,7 +137,17 @@ namespace SlipStep
   class Effect
   {
   public:
+    /// @param memories that the effect writes, so that they are shown
+    explicit Effect(const std::vector<ContactMemory> &memories = {})
+      : memories_written(memories)
+    {}
+
     virtual ~Effect() = default;
+
+    const std::vector<ContactMemory> &memories() const
+    {
+      return memories_written;
+    }
 
     /// Evolution of mu with slip, d mu / d lambda [1/mm].
     virtual Rate coefficient_rate_per_slip(const double /*coefficient*/) const
@@ -210,12 +220,6 @@ namespace SlipStep
                                ContactState & /*state*/) const
     {}
 
-    /// The memories that the effect writes, so that they are shown.
-    virtual std::vector<ContactMemory> memories() const
-    {
-      return {};
-    }
-
     /// Exclusive slot `overstress`: the flow rule. Neutral: r = r_s, whatever
     /// the rate.
     virtual FlowResidual flow_residual(const double ratio,
@@ -252,12 +256,17 @@ namespace SlipStep
     {
       return 1.;
     }
+
+  private:
+    const std::vector<ContactMemory> memories_written;
   };
 
   /// An effect that changes the yield level.
   class StrengthEffect : public Effect
   {
   public:
+    using Effect::Effect;
+
     /// Factor G of the strength f_n mu.
     virtual Strength strength_factor(const SlipStepData & /*step*/) const
     {
@@ -302,23 +311,56 @@ namespace SlipStep
   /// Keys of an effect's section, with values.
   using EffectSettings = std::vector<std::pair<std::string, std::string>>;
 
-  /// A parameter of an effect, in its section.
-  struct EffectParameter
+  /// A key of an effect's section.
+  struct EffectKey
   {
     /// @param symbol as in the formula; may be ""
     /// @param pattern range and unit
-    /// @param meaning without what the others say
-    EffectParameter(const std::string                   &key,
-                    const std::string                   &symbol,
-                    const std::string                   &default_value,
-                    const dealii::Patterns::PatternBase &pattern,
-                    const std::string                   &meaning);
+    EffectKey(const std::string                   &key,
+              const std::string                   &symbol,
+              const std::string                   &default_value,
+              const dealii::Patterns::PatternBase &pattern);
 
     std::string                                          key;
     std::string                                          symbol;
     std::string                                          default_value;
     std::shared_ptr<const dealii::Patterns::PatternBase> pattern;
-    std::string                                          meaning;
+  };
+
+  /// A parameter of an effect.
+  struct EffectParameter : EffectKey
+  {
+    std::string meaning; ///< without what the key says
+  };
+
+  /// Pattern of a parameter that is more than 0.
+  Quantity positive(const Dimension dimension, const double maximum = 1e30);
+
+  /// Pattern of a parameter that is one of some words, "cot|log".
+  dealii::Patterns::Selection one_of(const std::string &words);
+
+  /// The section of an effect in a case.
+  struct EffectSection
+  {
+    const Parameters &all;
+    const std::string path; ///< "Friction/<name>/"
+
+    double number(const std::string &key) const
+    {
+      return all.number(path + key);
+    }
+
+    std::string text(const std::string &key) const
+    {
+      return all.text(path + key);
+    }
+
+    /// @throws InputError
+    [[noreturn]] void reject(const std::string &key,
+                             const std::string &why) const
+    {
+      all.reject(path + key, why);
+    }
   };
 
   /// All that is known of an effect.
@@ -330,7 +372,8 @@ namespace SlipStep
     std::string   formula; ///< one line of text
     std::string   latex;   ///< the same
     std::string   source;  ///< paper and equation
-    std::string   neutral; ///< parameter value for which it does nothing
+    /// Where it does nothing; that of neutral_settings if it is not set.
+    std::string neutral;
 
     std::vector<EffectParameter> parameters;
 
@@ -345,7 +388,7 @@ namespace SlipStep
     bool is_sudden = false;
 
     /// Whether the place on the plane matters; may be empty.
-    std::function<bool(const Parameters &)> heeds_position = {};
+    std::function<bool(const EffectSection &)> heeds_position = {};
 
     /// Keys of its section for the number of the test that is made, and for the
     /// first and the last one that it knows; "" if that does not matter.
@@ -354,14 +397,16 @@ namespace SlipStep
     /// What is looked at once, before a case is run, and not whenever a law is
     /// made. May be empty.
     /// @throws InputError
-    std::function<void(const Parameters &)> check = {};
+    std::function<void(const EffectSection &)> check = {};
 
-    std::function<std::unique_ptr<Effect>(const Parameters &,
+    std::function<std::unique_ptr<Effect>(const EffectSection &,
                                           const CoefficientBasis &)>
       create;
 
     /// "Friction/<name>/"
     std::string section() const;
+
+    EffectSection section_of(const Parameters &parameters) const;
 
     void declare(Parameters &parameters) const;
   };
@@ -381,7 +426,7 @@ namespace SlipStep
   /// A global object of this type registers an effect.
   struct RegisterEffect
   {
-    explicit RegisterEffect(const EffectInfo &info);
+    explicit RegisterEffect(EffectInfo info);
   };
 
   /// The same for a class with a static member info().
@@ -389,9 +434,9 @@ namespace SlipStep
   RegisterEffect register_effect()
   {
     EffectInfo info = EffectType::info();
-    info.create     = [](const Parameters       &parameters,
+    info.create     = [](const EffectSection    &section,
                      const CoefficientBasis &basis) {
-      return std::make_unique<EffectType>(parameters, basis);
+      return std::make_unique<EffectType>(section, basis);
     };
     return RegisterEffect(info);
   }

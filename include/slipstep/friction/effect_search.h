@@ -58,7 +58,8 @@ namespace SlipStep
     }
   };
 
-  /// A number of the case that is to be fitted with an effect. Base units.
+  /// A number of the case that is to be fitted with an effect. Base units. An
+  /// effect may leave its own section out of paths, here and in a TrialFormula.
   struct CandidateParameter
   {
     std::string path;
@@ -97,10 +98,18 @@ namespace SlipStep
 
     /// Strength that grows with the logarithm of an age, which in steady
     /// sliding is a length over the speed: theta = L / V.
-    static TrialFormula state_of_contacts(const std::string &growth,
-                                          const std::string &time,
-                                          const std::string &length,
+    /// @param length key of L, beside Growth and Time
+    static TrialFormula state_of_contacts(const std::string &length,
                                           const TestedRange &range);
+
+    /// Add a shape: one parameter is in proportion to the strength, within
+    /// bounds, others stay.
+    /// @param felt change of friction by 1 of it
+    void add_shape(const std::string &path,
+                   const double       lower,
+                   const double       upper,
+                   const Values      &others,
+                   const double       felt = 1.);
 
     /// Let one parameter be in proportion to the strength, @p unit of it
     /// changing friction by its own size.
@@ -113,10 +122,12 @@ namespace SlipStep
   /// How an effect is looked for in measured tests.
   struct EffectSearch
   {
+    using Form = std::function<TrialFormula(const Circumstances &)>;
+
     /// How it shows, beside other effects.
     std::string signature;
 
-    std::function<TrialFormula(const Circumstances &)> formula = {};
+    Form formula = {};
 
     /// The effect of which this one is but another formula, "" if none.
     std::string candidate = "";
@@ -129,8 +140,7 @@ namespace SlipStep
     std::string why_not = "";
 
     /// The same for other forms of the effect that are looked for, too.
-    std::vector<std::function<TrialFormula(const Circumstances &)>>
-      other_forms = {};
+    std::vector<Form> other_forms = {};
 
     /// What its formula is a function of, as effect expression calls it; "" if
     /// of nothing that it knows. Along it, a formula may be not quite right.
@@ -142,8 +152,12 @@ namespace SlipStep
     std::string beside = "";
 
     /// How it shows, and how it is looked for, where the model has that effect.
-    std::string                                        beside_signature = "";
-    std::function<TrialFormula(const Circumstances &)> beside_formula   = {};
+    std::string beside_signature = "";
+    Form        beside_formula   = {};
+
+    /// Let all formulas have whole paths: those without a "/" are keys of this
+    /// section.
+    void complete_paths(const std::string &section);
   };
 
   /// A change of friction by one per cent, the size of all trial strengths.

@@ -5,7 +5,6 @@
 #include <slipstep/friction/effect.h>
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,7 @@ namespace SlipStep
     std::function<double(const ContactState &)> reached = {};
 
     /// What has to be remembered: the value at the end of the last step.
-    std::optional<ContactMemory> memory = {};
+    std::vector<ContactMemory> memories = {};
 
     /// The effect without which there is none; "" if there is always one.
     std::string of_effect = "";

@@ -3,7 +3,6 @@
 #define slipstep_friction_sampled_function_h
 
 #include <slipstep/friction/effect.h>
-#include <slipstep/utilities/parameters.h>
 
 #include <math.h> // for the next, which forgets it
 
@@ -50,15 +49,12 @@ namespace SlipStep
 
     /// The key Formula of a section, of x between its keys From and To, with
     /// values between 1e-6 and 1e6.
-    /// @param section "Friction/expression/"
     /// @throws InputError
-    static SampledFunction of_section(const Parameters  &parameters,
-                                      const std::string &section);
+    static SampledFunction of_section(const EffectSection &section);
 
     /// Whether the samples of that have missed something narrow.
     /// @throws InputError
-    static void check_section(const Parameters  &parameters,
-                              const std::string &section);
+    static void check_section(const EffectSection &section);
 
   private:
     SampledFunction(std::vector<double> x, std::vector<double> samples);

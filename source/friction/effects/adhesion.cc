@@ -5,15 +5,33 @@ namespace SlipStep
 {
   namespace
   {
-    /// Bonds that need no pressure add to the strength of a closed contact:
-    /// \f[ \tau_y = f_n \mu\,G_1 G_2 \cdots + c. \f]
-    /// Bowden and Tabor (1950), The Friction and Lubrication of Solids; the
-    /// linear law with a constant is Derjaguin's (1934), Z. Phys. 88, 661.
+    /// Bonds that need no pressure add to the strength of a closed contact; the
+    /// linear law with a constant is Derjaguin's.
     class Adhesion : public StrengthEffect
     {
     public:
-      Adhesion(const Parameters &parameters, const CoefficientBasis &)
-        : c(parameters.number("Friction/adhesion/Strength"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name    = "adhesion";
+        info.words   = "surfaces that stick even without pressure";
+        info.formula = "tau_y = f_n mu G_1 G_2 ... + c";
+        info.latex   = R"(\tau_y = f_n \mu\,G_1 G_2 \cdots + c)";
+        info.source =
+          "Bowden and Tabor (1950); Derjaguin (1934), Z. Phys. 88, 661-675";
+        info.parameters = {
+          {{"Strength", "c", "0.01", Quantity(Dimension::stress, 0.)},
+           "shear strength of the adhesive bonds, lost when "
+           "the contact opens"}};
+        info.neutral_settings = {{"Strength", "0 MPa"}};
+        info.typical_settings = {{"Strength", "0.3"}};
+        info.search           = {"only low pressures rise, as 1/p", search};
+        info.search.along     = "pressure";
+        return info;
+      }
+
+      Adhesion(const EffectSection &section, const CoefficientBasis &)
+        : c(section.number("Strength"))
       {}
 
       virtual Strength additive_strength(const SlipStepData &) const override
@@ -23,39 +41,13 @@ namespace SlipStep
         return strength;
       }
 
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name    = "adhesion";
-        info.words   = "surfaces that stick even without pressure";
-        info.formula = "tau_y = f_n mu G_1 G_2 ... + c";
-        info.latex   = "\\tau_y = f_n \\mu\\,G_1 G_2 \\cdots + c";
-        info.source =
-          "Bowden and Tabor (1950); Derjaguin (1934), Z. Phys. 88, 661-675";
-        info.neutral          = "Strength = 0 MPa";
-        info.parameters       = {{"Strength",
-                                  "c",
-                                  "0.01",
-                                  Quantity(Dimension::stress, 0.),
-                                  "shear strength of the adhesive bonds, lost when "
-                                        "the contact opens"}};
-        info.neutral_settings = {{"Strength", "0"}};
-        info.typical_settings = {{"Strength", "0.3"}};
-        info.search           = {"only low pressures rise, as 1/p", search};
-        info.search.along     = "pressure";
-        return info;
-      }
-
     private:
       static TrialFormula search(const Circumstances &now)
       {
         const double unit = now.friction() * now.range.lowest;
         TrialFormula formula;
         formula.is_one_sided = true;
-        formula.set_proportional("Friction/adhesion/Strength",
-                                 unit,
-                                 0.,
-                                 2. * unit);
+        formula.set_proportional("Strength", unit, 0., 2. * unit);
         return formula;
       }
 

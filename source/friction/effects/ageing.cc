@@ -2,7 +2,6 @@
 #include <slipstep/friction/contact_age.h>
 #include <slipstep/friction/effect.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -13,14 +12,10 @@ namespace SlipStep
     const ContactMemory contact_age = register_memory({"contact_age_s"});
 
     /// Contacts grow stronger with the logarithm of their age, and slip renews
-    /// them:
-    /// \f[ G = 1 + b_{age} \ln\left(1 + \frac{\theta}{t_0}\right), \qquad
-    ///     \frac{d\theta}{dt} = 1 - \frac{\lambda\theta}{L}. \f]
-    /// Other than by effect healing, the peak after a rest fades on a slip
-    /// length of its own. Dieterich (1979), J. Geophys. Res. 84, 2161. In
-    /// steady sliding \f$\theta = L/\lambda\f$: friction falls with speed below
-    /// \f$L/t_0\f$, and sliding on a soft spring is unstable there unless an
-    /// overstress outweighs it.
+    /// them. Other than by effect healing, the peak after a rest fades on a
+    /// slip length of its own. In steady sliding \f$\theta = L/\lambda\f$:
+    /// friction falls with speed below \f$L/t_0\f$, and sliding on a soft
+    /// spring is unstable there unless an overstress outweighs it.
     ///
     /// With an overstress this is Dieterich's ageing law of rate and state: his
     /// state evolves as \f$\theta\f$ does, and his parameters follow from those
@@ -32,10 +27,45 @@ namespace SlipStep
     class Ageing : public StrengthEffect
     {
     public:
-      Ageing(const Parameters &parameters, const CoefficientBasis &)
-        : b_age(parameters.number("Friction/ageing/Growth"))
-        , t_0(parameters.number("Friction/ageing/Time"))
-        , L(parameters.number("Friction/ageing/Renewal length"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name  = "ageing";
+        info.words = "contacts that strengthen with their age";
+        info.formula =
+          "G = 1 + b_age ln(1 + theta/t_0), d theta/dt = 1 - lambda theta/L";
+        info.latex =
+          R"(G = 1 + b_{age} \ln\left(1 + \frac{\theta}{t_0}\right), )"
+          R"(\quad \dot\theta = 1 - \frac{\lambda\theta}{L})";
+        info.source     = "Dieterich (1979), J. Geophys. Res. 84, 2161-2168";
+        info.parameters = {
+          {{"Growth", "b_age", "0", Quantity(Dimension::number, 0.)},
+           "growth of the strength per e-fold of the contact's age"},
+          {{"Time", "t_0", "1", positive(Dimension::time)},
+           "age from which the contact grows with the logarithm of its age"},
+          {{"Renewal length", "L", "0.1", positive(Dimension::length)},
+           "slip that renews the contacts"}};
+        info.neutral_settings = {{"Growth", "0"}};
+        info.typical_settings = {{"Growth", "0.1"},
+                                 {"Time", "0.05 s"},
+                                 {"Renewal length", "0.02 mm"}};
+        info.search           = {"", search, "healing", "Growth"};
+        info.search.along     = "hold time";
+        info.search.beside    = "overstress";
+        info.search.beside_signature =
+          "friction that falls over some slip after a step up in speed, and "
+          "rises after one down";
+        info.search.beside_formula = [](const Circumstances &now) {
+          return TrialFormula::state_of_contacts("Renewal length", now.range);
+        };
+        return info;
+      }
+
+      Ageing(const EffectSection &section, const CoefficientBasis &)
+        : StrengthEffect({contact_age})
+        , b_age(section.number("Growth"))
+        , t_0(section.number("Time"))
+        , L(section.number("Renewal length"))
       {}
 
       virtual Strength strength_factor(const SlipStepData &step) const override
@@ -56,97 +86,33 @@ namespace SlipStep
             0.;
       }
 
-      virtual std::vector<ContactMemory> memories() const override
-      {
-        return {contact_age};
-      }
-
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name  = "ageing";
-        info.words = "contacts that strengthen with their age";
-        info.formula =
-          "G = 1 + b_age ln(1 + theta/t_0), d theta/dt = 1 - lambda theta/L";
-        info.latex      = "G = 1 + b_{age} \\ln\\left(1 + \\frac{\\theta}{t_0}"
-                          "\\right), \\quad \\dot\\theta = 1 - \\frac{\\lambda"
-                          "\\theta}{L}";
-        info.source     = "Dieterich (1979), J. Geophys. Res. 84, 2161-2168";
-        info.neutral    = "Growth = 0";
-        info.parameters = {
-          {"Growth",
-           "b_age",
-           "0",
-           Quantity(Dimension::number, 0.),
-           "growth of the strength per e-fold of the contact's age"},
-          {"Time",
-           "t_0",
-           "1",
-           Quantity(Dimension::time, 0., 1e30, true),
-           "age from which the contact grows with the logarithm of its age"},
-          {"Renewal length",
-           "L",
-           "0.1",
-           Quantity(Dimension::length, 0., 1e30, true),
-           "slip that renews the contacts"}};
-        info.neutral_settings = {{"Growth", "0"}};
-        info.typical_settings = {{"Growth", "0.1"},
-                                 {"Time", "0.05 s"},
-                                 {"Renewal length", "0.02 mm"}};
-        info.search           = {"", search, "healing", "Growth"};
-        info.search.along     = "hold time";
-        info.search.beside    = "overstress";
-        info.search.beside_signature =
-          "friction that falls over some slip after "
-          "a step up in speed, and rises after "
-          "one down";
-        info.search.beside_formula = search_beside_overstress;
-        return info;
-      }
-
     private:
       // The peak after a rest fades on a length of its own, which is not longer
       // than what touches: otherwise it is a drift, which has other names.
       static TrialFormula search(const Circumstances &now)
       {
-        constexpr double  shortest = 1e-4, longest = 1.; // [mm]
-        const std::string growth = "Friction/ageing/Growth";
-        const std::string time   = "Friction/ageing/Time";
-        const std::string length = "Friction/ageing/Renewal length";
-        const double      rest   = now.range.longest_rest;
-        TrialFormula      formula;
+        constexpr double shortest = 1e-4, longest = 1.; // [mm]
+        const double     rest = now.range.longest_rest;
+        TrialFormula     formula;
         // Without rests it is an effect of the speed, which has other names.
         if (rest == 0.)
           return TrialFormula::none("nothing rested");
         formula.is_one_sided = true;
-        formula.parameters   = {{growth, 0., 1., false},
-                                {time, 1e-4 * rest, 10. * rest, true, true, true},
-                                {length, shortest, longest, true}};
+        formula.parameters   = {
+            {"Growth", 0., 1., false},
+            {"Time", 1e-4 * rest, 10. * rest, true, true, true},
+            {"Renewal length", shortest, longest, true}};
         for (const double t_0 : {0.01 * rest, 0.3 * rest})
           for (const double L : ladder(0.01, 0.5, 3))
-            formula.shapes.push_back([=](const double strength) {
-              return Values{{growth,
-                             std::clamp(just_noticed * strength /
-                                          std::log1p(rest / t_0),
-                                        1e-6,
-                                        0.9)},
-                            {time, t_0},
-                            {length, L}};
-            });
+            formula.add_shape("Growth",
+                              1e-6,
+                              0.9,
+                              {{"Time", t_0}, {"Renewal length", L}},
+                              std::log1p(rest / t_0));
         return formula;
       }
 
-      static TrialFormula search_beside_overstress(const Circumstances &now)
-      {
-        return TrialFormula::state_of_contacts("Friction/ageing/Growth",
-                                               "Friction/ageing/Time",
-                                               "Friction/ageing/Renewal length",
-                                               now.range);
-      }
-
-      const double b_age;
-      const double t_0;
-      const double L;
+      const double b_age, t_0, L;
     };
 
     const RegisterEffect ageing_registration = register_effect<Ageing>();

@@ -75,22 +75,6 @@ namespace SlipStep
     class Anisotropy
     {
     public:
-      static std::unique_ptr<Effect> create(const Parameters &parameters,
-                                            const CoefficientBasis &)
-      {
-        const double rho   = parameters.number("Friction/anisotropy/Ratio");
-        const double angle = parameters.number("Friction/anisotropy/Angle");
-        dealii::Tensor<1, 2> first, second;
-        first[0] = second[1] = std::cos(angle);
-        first[1]             = std::sin(angle);
-        second[0]            = -first[1];
-        const dealii::Tensor<2, 2> ellipse =
-          outer_product(first, first) + rho * outer_product(second, second);
-        if (parameters.text("Friction/anisotropy/Form") == "opposite")
-          return std::make_unique<OppositeAnisotropy>(ellipse);
-        return std::make_unique<AssociatedAnisotropy>(ellipse);
-      }
-
       static EffectInfo info()
       {
         EffectInfo info;
@@ -100,29 +84,19 @@ namespace SlipStep
         info.formula =
           "|f_t| = sqrt(f_1^2 + (f_2 / rho)^2), slip normal to the ellipse or "
           "along f_t";
-        info.latex = "|f_t|^2 = f_1^2 + \\left(\\frac{f_2}{\\varrho}\\right)^2";
-        info.source  = "Michalowski and Mroz (1978), Arch. Mech. 30, 259-276; "
-                       "Zmitrowicz (1981), Wear 73, 9-39";
-        info.neutral = "Ratio = 1";
+        info.latex  = R"(|f_t|^2 = f_1^2 + \left(\frac{f_2}{\varrho}\right)^2)";
+        info.source = "Michalowski and Mroz (1978), Arch. Mech. 30, 259-276; "
+                      "Zmitrowicz (1981), Wear 73, 9-39";
         info.parameters = {
-          {"Form",
-           "",
-           "associated",
-           dealii::Patterns::Selection("associated|opposite"),
+          {{"Form", "", "associated", one_of("associated|opposite")},
            "'associated': slip is normal to the ellipse, and what depends on "
            "the slip rate has that of the isotropic law, |P V|, which is rho "
            "times V along the second axis; 'opposite': friction is as the "
            "ellipse says in the direction of slip, and opposite to it"},
-          {"Ratio",
-           "rho",
-           "0.8",
-           Quantity(Dimension::number, 0.01, 100.),
+          {{"Ratio", "rho", "0.8", Quantity(Dimension::number, 0.01, 100.)},
            "ratio of the coefficient along the second axis to that along the "
            "first, which is mu"},
-          {"Angle",
-           "",
-           "0",
-           Quantity(Dimension::angle, -360., 360.),
+          {{"Angle", "", "0", Quantity(Dimension::angle, -360., 360.)},
            "angle from the first axis of the contact plane to the first axis "
            "of the ellipse"}};
         info.neutral_settings   = {{"Ratio", "1"}};
@@ -131,7 +105,7 @@ namespace SlipStep
         info.search.other_forms = {[](const Circumstances &now) {
           TrialFormula formula = search(now);
           if (formula.why_not.empty())
-            formula.texts = {{"Friction/anisotropy/Form", "opposite"}};
+            formula.texts = {{"Form", "opposite"}};
           return formula;
         }};
         info.search.along       = "angle";
@@ -139,22 +113,36 @@ namespace SlipStep
         return info;
       }
 
+      static std::unique_ptr<Effect> create(const EffectSection &section,
+                                            const CoefficientBasis &)
+      {
+        const double         rho   = section.number("Ratio");
+        const double         angle = section.number("Angle");
+        dealii::Tensor<1, 2> first, second;
+        first[0] = second[1] = std::cos(angle);
+        first[1]             = std::sin(angle);
+        second[0]            = -first[1];
+        const dealii::Tensor<2, 2> ellipse =
+          outer_product(first, first) + rho * outer_product(second, second);
+        if (section.text("Form") == "opposite")
+          return std::make_unique<OppositeAnisotropy>(ellipse);
+        return std::make_unique<AssociatedAnisotropy>(ellipse);
+      }
+
     private:
       static TrialFormula search(const Circumstances &now)
       {
         if (now.range.widest_angle < 0.1 && !now.range.has_two_axes)
           return TrialFormula::none("all tests move along one line");
-        const std::string ratio   = "Friction/anisotropy/Ratio";
-        const std::string angle   = "Friction/anisotropy/Angle";
-        const double      quarter = dealii::numbers::PI / 4.;
-        TrialFormula      formula;
-        formula.parameters = {{ratio, 0.3, 3., true},
-                              {angle, -quarter, quarter, false, true, true}};
+        const double quarter = dealii::numbers::PI / 4.;
+        TrialFormula formula;
+        formula.parameters = {{"Ratio", 0.3, 3., true},
+                              {"Angle", -quarter, quarter, false, true, true}};
         for (const double phi : {0., 0.9 * quarter})
           formula.shapes.push_back([=](const double strength) {
-            return Values{{ratio,
+            return Values{{"Ratio",
                            std::clamp(1. + just_noticed * strength, 0.35, 2.9)},
-                          {angle, phi}};
+                          {"Angle", phi}};
           });
         return formula;
       }

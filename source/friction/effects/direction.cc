@@ -9,26 +9,55 @@ namespace SlipStep
   namespace
   {
     /// Friction against a preferred direction n of the surface differs from
-    /// friction along it:
-    /// \f[ G = 1 + d\,\frac{1 - \cos\varphi}{2}, \f]
-    /// where \f$\varphi\f$ is the angle between slip and n: 1 forward, 1 + d in
-    /// reverse strokes, halfway across. The form 'reversed' acts on slip
-    /// against n only,
-    /// \f[ G = 1 + d \max(0, -\cos\varphi)^2, \f]
-    /// and leaves slip along n and across as it is; its derivative is
-    /// continuous. Chosen, for laid or combed surfaces.
+    /// friction along it: G is 1 forward, 1 + d in reverse strokes, halfway
+    /// across. The form 'reversed' acts on slip against n only and leaves slip
+    /// along n and across as it is; its derivative is continuous. For laid or
+    /// combed surfaces.
     class Direction : public StrengthEffect
     {
     public:
-      Direction(const Parameters &parameters, const CoefficientBasis &)
-        : d(parameters.number("Friction/direction/Change"))
-        , only_reversed(parameters.text("Friction/direction/Form") ==
-                        "reversed")
+      static EffectInfo info()
       {
-        const double angle =
-          parameters.number("Friction/direction/Forward angle");
-        n[0] = std::cos(angle);
-        n[1] = std::sin(angle);
+        EffectInfo info;
+        info.name  = "direction";
+        info.words = "friction that differs between forward and back strokes";
+        info.formula =
+          "G = 1 + d (1 - cos(phi)) / 2 or 1 + d max(0, -cos(phi))^2, phi: from "
+          "the forward angle to slip";
+        info.latex =
+          R"(G = 1 + d\,\frac{1 - \cos\varphi}{2} \quad\text{or}\quad )"
+          R"(1 + d \max(0, -\cos\varphi)^2)";
+        info.source     = "chosen";
+        info.parameters = {
+          {{"Change", "d", "0.1", Quantity(Dimension::number, -0.99, 100.)},
+           "share by which the strength differs in reverse strokes, negative "
+           "if it is less"},
+          {{"Forward angle", "", "0", Quantity(Dimension::angle, -360., 360.)},
+           "angle of the forward direction n in the contact plane, from its "
+           "first axis to its second"},
+          {{"Form", "G", "cosine", one_of("cosine|reversed")},
+           "'cosine' changes with every angle, half of it across; 'reversed' "
+           "acts on slip against the forward direction only"}};
+        info.neutral_settings   = {{"Change", "0"}};
+        info.typical_settings   = {{"Change", "0.5"},
+                                   {"Forward angle", "20 deg"}};
+        info.search             = {"an offset on reverse strokes", search};
+        info.search.other_forms = {[](const Circumstances &now) {
+          TrialFormula formula = search(now);
+          formula.texts        = {{"Form", "reversed"}};
+          return formula;
+        }};
+        info.search.along       = "angle";
+        return info;
+      }
+
+      Direction(const EffectSection &section, const CoefficientBasis &)
+        : d(section.number("Change"))
+        , only_reversed(section.text("Form") == "reversed")
+      {
+        const double angle = section.number("Forward angle");
+        n[0]               = std::cos(angle);
+        n[1]               = std::sin(angle);
       }
 
       virtual Strength strength_factor(const SlipStepData &step) const override
@@ -46,56 +75,11 @@ namespace SlipStep
         return factor;
       }
 
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name  = "direction";
-        info.words = "friction that differs between forward and back strokes";
-        info.formula =
-          "G = 1 + d (1 - cos(phi)) / 2 or 1 + d max(0, -cos(phi))^2, phi: from "
-          "the forward angle to slip";
-        info.latex      = "G = 1 + d\\,\\frac{1 - \\cos\\varphi}{2} "
-                          "\\quad\\text{or}\\quad 1 + d \\max(0, "
-                          "-\\cos\\varphi)^2";
-        info.source     = "chosen";
-        info.neutral    = "Change = 0";
-        info.parameters = {
-          {"Change",
-           "d",
-           "0.1",
-           Quantity(Dimension::number, -0.99, 100.),
-           "share by which the strength differs in reverse strokes, negative "
-           "if it is less"},
-          {"Forward angle",
-           "",
-           "0",
-           Quantity(Dimension::angle, -360., 360.),
-           "angle of the forward direction n in the contact plane, from its "
-           "first axis to its second"},
-          {"Form",
-           "G",
-           "cosine",
-           dealii::Patterns::Selection("cosine|reversed"),
-           "'cosine' changes with every angle, half of it across; 'reversed' "
-           "acts on slip against the forward direction only"}};
-        info.neutral_settings   = {{"Change", "0"}};
-        info.typical_settings   = {{"Change", "0.5"},
-                                   {"Forward angle", "20 deg"}};
-        info.search             = {"an offset on reverse strokes", search};
-        info.search.other_forms = {[](const Circumstances &now) {
-          TrialFormula formula = search(now);
-          formula.texts        = {{"Friction/direction/Form", "reversed"}};
-          return formula;
-        }};
-        info.search.along       = "angle";
-        return info;
-      }
-
     private:
       static TrialFormula search(const Circumstances &)
       {
         TrialFormula formula;
-        formula.set_proportional("Friction/direction/Change", 1., -0.8, 3.);
+        formula.set_proportional("Change", 1., -0.8, 3.);
         return formula;
       }
 

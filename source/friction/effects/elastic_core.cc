@@ -15,14 +15,11 @@ namespace SlipStep
       {"core_energy_MPa_mm", 0., -std::numeric_limits<double>::infinity()});
 
     /// The point from which the subloading surface grows follows the slip, so
-    /// that small load cycles close instead of ratcheting for ever: \f[
-    ///     \frac{dc}{d\lambda} = C\,(\chi\,n - c), \qquad
-    ///     \frac{f_t}{\tau_y} = (1 - r_s)\,c + r\,n, \qquad |n| = 1. \f]
-    /// The extended subloading surface of metals and soils: Hashiguchi (1989),
-    /// Int. J. Solids Struct. 25, 917; the rate of the centre in this form,
-    /// with its limit \f$\chi < 1\f$, as in Hashiguchi, Elastoplasticity Theory
-    /// (2014). That friction has it is chosen, and what follows is derived
-    /// here.
+    /// that small load cycles close instead of ratcheting for ever: the
+    /// extended subloading surface of metals and soils. The rate of the centre
+    /// in this form, with its limit \f$\chi < 1\f$, is in Hashiguchi,
+    /// Elastoplasticity Theory (2014). That friction has it is chosen, and what
+    /// follows is derived here.
     ///
     /// Slip is along n, which is normal to the surface through the traction. It
     /// may go back while the traction is still forward, else a loop between two
@@ -45,9 +42,38 @@ namespace SlipStep
     class ElasticCoreEffect : public Effect
     {
     public:
-      ElasticCoreEffect(const Parameters &parameters, const CoefficientBasis &)
-        : C(parameters.number("Friction/elastic_core/Rate"))
-        , chi(parameters.number("Friction/elastic_core/Limit"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name  = "elastic_core";
+        info.slot  = ExclusiveSlot::elastic_core;
+        info.words = "load cycles that close instead of creeping on for ever";
+        info.formula =
+          "f_t/tau_y = (1 - r_s) c + r n, dc/d lambda = C (chi n - "
+          "c), slip along n";
+        info.latex  = R"(\frac{f_t}{\tau_y} = (1 - r_s)\,c + r\,n, \quad )"
+                      R"(\frac{dc}{d\lambda} = C\,(\chi\,n - c), \quad |n| = 1)";
+        info.source = "Hashiguchi (1989), Int. J. Solids Struct. 25, 917-945, "
+                      "for metals and soils; derived here for friction";
+        info.parameters = {
+          {{"Rate", "C", "1000", Quantity(Dimension::per_length, 0., 1e30)},
+           "rate at which the core follows the slip: it is there after a few "
+           "1/C. Cycles close the sooner the larger it is, next to the Rate "
+           "of subloading"},
+          {{"Limit", "chi", "0.9", Quantity(Dimension::number, 0., 0.99, true)},
+           "distance of the core from zero after long slip, as a share of the "
+           "strength; cycles below a load of about this can close"}};
+        info.neutral_settings = {{"Rate", "0"}};
+        info.typical_settings = {{"Rate", "300"}, {"Limit", "0.7"}};
+        info.search.why_not   = "it shows in many small load cycles, which "
+                                "measured tests seldom have";
+        return info;
+      }
+
+      ElasticCoreEffect(const EffectSection &section, const CoefficientBasis &)
+        : Effect({core_1, core_2, core_energy})
+        , C(section.number("Rate"))
+        , chi(section.number("Limit"))
       {}
 
       virtual CoreEvolution core_after_slip(const double slip) const override
@@ -86,50 +112,8 @@ namespace SlipStep
         state[core_energy] = core.energy;
       }
 
-      virtual std::vector<ContactMemory> memories() const override
-      {
-        return {core_1, core_2, core_energy};
-      }
-
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name  = "elastic_core";
-        info.slot  = ExclusiveSlot::elastic_core;
-        info.words = "load cycles that close instead of creeping on for ever";
-        info.formula =
-          "f_t/tau_y = (1 - r_s) c + r n, dc/d lambda = C (chi n - "
-          "c), slip along n";
-        info.latex =
-          "\\frac{f_t}{\\tau_y} = (1 - r_s)\\,c + r\\,n, \\quad "
-          "\\frac{dc}{d\\lambda} = C\\,(\\chi\\,n - c), \\quad |n| = 1";
-        info.source  = "Hashiguchi (1989), Int. J. Solids Struct. 25, 917-945, "
-                       "for metals and soils; derived here for friction";
-        info.neutral = "Rate = 0";
-        info.parameters = {
-          {"Rate",
-           "C",
-           "1000",
-           Quantity(Dimension::per_length, 0., 1e30),
-           "rate at which the core follows the slip: it is there after a few "
-           "1/C. Cycles close the sooner the larger it is, next to the Rate "
-           "of subloading"},
-          {"Limit",
-           "chi",
-           "0.9",
-           Quantity(Dimension::number, 0., 0.99, true),
-           "distance of the core from zero after long slip, as a share of the "
-           "strength; cycles below a load of about this can close"}};
-        info.neutral_settings = {{"Rate", "0"}};
-        info.typical_settings = {{"Rate", "300"}, {"Limit", "0.7"}};
-        info.search.why_not   = "it shows in many small load cycles, which "
-                                "measured tests seldom have";
-        return info;
-      }
-
     private:
-      const double C;
-      const double chi;
+      const double C, chi;
     };
 
     const RegisterEffect elastic_core_registration =

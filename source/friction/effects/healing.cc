@@ -8,18 +8,42 @@ namespace SlipStep
 {
   namespace
   {
-    /// The coefficient recovers towards the static one with time:
-    /// \f[ \frac{d\mu}{dt} = \xi \left(e^{b(\mu_s-\mu)} - 1\right). \f]
-    /// At rest the closed form is
-    /// \f$\mu(t) = \mu_s + \frac1b \ln\left[1 - \left(1 -
+    /// The coefficient recovers towards the static one with time. At rest the
+    /// closed form is \f$\mu(t) = \mu_s + \frac1b \ln\left[1 - \left(1 -
     /// e^{-b(\mu_s-\mu_0)}\right) e^{-b\xi t}\right]\f$.
-    /// Eq. 2 of the source paper, second term.
     class Healing : public Effect
     {
     public:
-      Healing(const Parameters &parameters, const CoefficientBasis &basis)
-        : xi(parameters.number("Friction/healing/Rate"))
-        , b(parameters.number("Friction/healing/Steepness"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name = "healing";
+        info.words =
+          "contacts that strengthen at rest: a peak after every hold";
+        info.formula = "d mu/dt = xi (exp(b (mu_s - mu)) - 1)";
+        info.latex   = R"(\dot\mu = \xi \left(e^{b(\mu_s - \mu)} - 1\right))";
+        info.source  = "source paper, eq. 2, second term";
+        info.parameters = {
+          {{"Rate", "xi", "0", Quantity(Dimension::per_time, 0.)},
+           "rate of recovery with time (eq. 2 of the source paper)"},
+          {{"Steepness", "b", "1", positive(Dimension::number, 1e4)},
+           "steepness of recovery in terms of mu (eq. 2 of the source paper): a "
+           "large value makes the coefficient grow with the logarithm of the "
+           "time at rest"}};
+        info.neutral_settings = {{"Rate", "0 1/s"}};
+        info.typical_settings = {{"Rate", "1e-3"}, {"Steepness", "100"}};
+        info.search           = {"a peak after a hold that grows with the "
+                                           "logarithm of its time, gone after some slip",
+                                 search,
+                                 "",
+                                 "Rate"};
+        info.search.along     = "hold time";
+        return info;
+      }
+
+      Healing(const EffectSection &section, const CoefficientBasis &basis)
+        : xi(section.number("Rate"))
+        , b(section.number("Steepness"))
         , mu_s(basis.static_coefficient)
       {}
 
@@ -29,40 +53,6 @@ namespace SlipStep
         const double growth =
           std::expm1(std::min(b * (mu_s - coefficient), largest_exponent));
         return {xi * growth, -xi * b * (growth + 1.)};
-      }
-
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name = "healing";
-        info.words =
-          "contacts that strengthen at rest: a peak after every hold";
-        info.formula = "d mu/dt = xi (exp(b (mu_s - mu)) - 1)";
-        info.latex = "\\dot\\mu = \\xi \\left(e^{b(\\mu_s - \\mu)} - 1\\right)";
-        info.source     = "source paper, eq. 2, second term";
-        info.neutral    = "Rate = 0 1/s";
-        info.parameters = {
-          {"Rate",
-           "xi",
-           "0",
-           Quantity(Dimension::per_time, 0.),
-           "rate of recovery with time (eq. 2 of the source paper)"},
-          {"Steepness",
-           "b",
-           "1",
-           Quantity(Dimension::number, 0., 1e4, true),
-           "steepness of recovery in terms of mu (eq. 2 of the source paper): a "
-           "large value makes the coefficient grow with the logarithm of the "
-           "time at rest"}};
-        info.neutral_settings = {{"Rate", "0"}};
-        info.typical_settings = {{"Rate", "1e-3"}, {"Steepness", "100"}};
-        info.search           = {"a peak after a hold that grows with the "
-                                           "logarithm of its time, gone after some slip",
-                                 search,
-                                 "",
-                                 "Rate"};
-        info.search.along     = "hold time";
-        return info;
       }
 
     private:
@@ -82,10 +72,8 @@ namespace SlipStep
       {
         if (!now.has("softening"))
           return TrialFormula::none("without softening nothing can recover");
-        const std::string rate      = "Friction/healing/Rate";
-        const std::string steepness = "Friction/healing/Steepness";
-        const double      mu_s      = now.number("Friction/Static coefficient");
-        const double      fall =
+        const double mu_s = now.number("Friction/Static coefficient");
+        const double fall =
           std::max(mu_s - now.number("Friction/softening/Kinetic coefficient"),
                    0.01 * mu_s);
         const double rest = now.range.longest_rest > 0. ?
@@ -94,18 +82,18 @@ namespace SlipStep
         TrialFormula formula;
         formula.is_one_sided = true;
         formula.parameters   = {
-            {rate, 1e-14, 1e2, true},
-            {steepness, 0.3 / fall, 25. / fall, true, true, true}};
+            {"Rate", 1e-14, 1e2, true},
+            {"Steepness", 0.3 / fall, 25. / fall, true, true, true}};
         for (const double x : {0.5, 3., 8.})
           for (const double share : {0.1, 0.5})
             formula.shapes.push_back([=](const double strength) {
               return Values{
-                {rate,
+                {"Rate",
                  rate_of(fall,
                          x / fall,
                          rest,
                          std::clamp(share * strength, 0.003, 0.97))},
-                {steepness, x / fall}};
+                {"Steepness", x / fall}};
             });
         return formula;
       }
@@ -113,9 +101,7 @@ namespace SlipStep
       // Beyond, a product with no slip or no time would not be 0.
       static constexpr double largest_exponent = 500.;
 
-      const double xi;
-      const double b;
-      const double mu_s;
+      const double xi, b, mu_s;
     };
 
     const RegisterEffect healing_registration = register_effect<Healing>();

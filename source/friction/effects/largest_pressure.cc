@@ -12,18 +12,35 @@ namespace SlipStep
       register_memory({"largest_pressure_MPa"});
 
     /// Asperities that were flattened stay so: below the largest pressure so
-    /// far the true area of contact is larger than that pressure would make it,
-    /// \f[ G = 1 + a \left(1 - \frac{f_n}{f_{max}}\right), \qquad
-    ///     f_{max}(t) = \max_{t' \le t} f_n(t'). \f]
-    /// That areas do not go back is in Bowden and Tabor, The Friction and
-    /// Lubrication of Solids (1950), chapter I; that friction follows in
-    /// proportion is chosen. It is 1 as long as the pressure grows; a < 0 is
-    /// a surface that heavy loads smooth.
+    /// far the true area of contact is larger than that pressure would make it.
+    /// That areas do not go back is in chapter I of the source; that friction
+    /// follows in proportion is chosen. G is 1 as long as the pressure grows; a
+    /// < 0 is a surface that heavy loads smooth.
     class LargestPressure : public StrengthEffect
     {
     public:
-      LargestPressure(const Parameters &parameters, const CoefficientBasis &)
-        : a(parameters.number("Friction/largest_pressure/Change"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name    = "largest_pressure";
+        info.words   = "a memory of the largest pressure that the contact met";
+        info.formula = "G = 1 + a (1 - f_n / f_max), f_max: largest f_n so far";
+        info.latex   = R"(G = 1 + a \left(1 - \frac{f_n}{f_{max}}\right))";
+        info.source  = "area of contact as in Bowden and Tabor (1950), The "
+                       "Friction and Lubrication of Solids; form chosen";
+        info.parameters = {
+          {{"Change", "a", "0.1", Quantity(Dimension::number, -0.99, 100.)},
+           "share by which the strength per pressure is higher after the load "
+           "is gone, negative if it is less"}};
+        info.neutral_settings = {{"Change", "0"}};
+        info.typical_settings = {{"Change", "0.5"}};
+        info.search = {"differs after a higher pressure, never before", search};
+        return info;
+      }
+
+      LargestPressure(const EffectSection &section, const CoefficientBasis &)
+        : StrengthEffect({largest_pressure})
+        , a(section.number("Change"))
       {}
 
       virtual Strength strength_factor(const SlipStepData &step) const override
@@ -46,44 +63,13 @@ namespace SlipStep
           std::max(step.start[largest_pressure], step.normal_traction);
       }
 
-      virtual std::vector<ContactMemory> memories() const override
-      {
-        return {largest_pressure};
-      }
-
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name    = "largest_pressure";
-        info.words   = "a memory of the largest pressure that the contact met";
-        info.formula = "G = 1 + a (1 - f_n / f_max), f_max: largest f_n so far";
-        info.latex   = "G = 1 + a \\left(1 - \\frac{f_n}{f_{max}}\\right)";
-        info.source  = "area of contact as in Bowden and Tabor (1950), The "
-                       "Friction and Lubrication of Solids; form chosen";
-        info.neutral = "Change = 0";
-        info.parameters = {
-          {"Change",
-           "a",
-           "0.1",
-           Quantity(Dimension::number, -0.99, 100.),
-           "share by which the strength per pressure is higher after the load "
-           "is gone, negative if it is less"}};
-        info.neutral_settings = {{"Change", "0"}};
-        info.typical_settings = {{"Change", "0.5"}};
-        info.search = {"differs after a higher pressure, never before", search};
-        return info;
-      }
-
     private:
       static TrialFormula search(const Circumstances &now)
       {
         if (!(now.range.highest > 1.1 * now.range.lowest))
           return TrialFormula::none("the pressure hardly varies");
         TrialFormula formula;
-        formula.set_proportional("Friction/largest_pressure/Change",
-                                 1.,
-                                 -0.9,
-                                 3.);
+        formula.set_proportional("Change", 1., -0.9, 3.);
         return formula;
       }
 

@@ -13,31 +13,55 @@ namespace SlipStep
       register_memory({"adapted_rate_mm_per_s"});
 
     /// Friction grows with the logarithm of speed, but follows it only over a
-    /// slip length:
-    /// \f[ G = 1 + a \ln\left(1 + \frac{V_m}{V_0}\right), \qquad
-    ///     \frac{dV_m}{d\lambda} = \frac{\lambda' - V_m}{L} \f]
-    /// with the slip rate \f$\lambda'\f$. After a step of speed from V_1 to V_2
-    /// there is no jump, and \f$V_m = V_2 + (V_1 - V_2) e^{-\lambda/L}\f$; at
-    /// rest V_m stays. Or V_m takes the place of the slip rate in the flow rule
-    /// (overstress, perzyna), whose jump then spreads over the length: r after
-    /// a step of speed is that of steady sliding at V_m. Memory of the slip
-    /// rate over a slip length is in Ruina (1983), J. Geophys. Res. 88, 10359,
-    /// for the evolution of a state; that the direct effect has it, and both
-    /// forms, are chosen.
+    /// slip length. After a step of speed from V_1 to V_2 there is no jump, and
+    /// \f$V_m = V_2 + (V_1 - V_2) e^{-\lambda/L}\f$; at rest V_m stays. Or V_m
+    /// takes the place of the slip rate in the flow rule (overstress, perzyna),
+    /// whose jump then spreads over the length: r after a step of speed is that
+    /// of steady sliding at V_m. Ruina has the memory for the evolution of a
+    /// state; that the direct effect has it, and both forms, are chosen.
     class MemoryLength : public StrengthEffect
     {
     public:
-      MemoryLength(const Parameters &parameters, const CoefficientBasis &)
-        : a(parameters.number("Friction/memory_length/Growth"))
-        , V_0(parameters.number("Friction/memory_length/Speed"))
-        , L(parameters.number("Friction/memory_length/Slip length"))
-        , is_in_flow_rule(parameters.text("Friction/memory_length/Form") ==
-                          "flow")
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name    = "memory_length";
+        info.words   = "friction that follows the speed over a slip length";
+        info.formula = "G = 1 + a ln(1 + V_m/V_0), d V_m/d lambda = (slip rate "
+                       "- V_m)/L; or V_m in the flow rule";
+        info.latex  = R"(G = 1 + a \ln\left(1 + \frac{V_m}{V_0}\right), \quad )"
+                      R"(\frac{dV_m}{d\lambda} = \frac{\dot\lambda - V_m}{L})";
+        info.source = "chosen; memory by slip as in Ruina (1983), J. Geophys. "
+                      "Res. 88, 10359-10370";
+        info.parameters = {
+          {{"Form", "", "factor", one_of("factor|flow")},
+           "'factor' is G; 'flow' has no G, but the flow rule (overstress or "
+           "perzyna) feels V_m instead of the slip rate"},
+          {{"Growth", "a", "0", Quantity(Dimension::number, 0.)},
+           "growth of the strength per e-fold of the speed"},
+          {{"Speed", "V_0", "1", positive(Dimension::speed)},
+           "speed from which the strength grows with its logarithm"},
+          {{"Slip length", "L", "0.1", positive(Dimension::length)},
+           "slip over which friction follows the speed"}};
+        info.neutral_settings = {{"Growth", "0"}};
+        info.typical_settings = {{"Growth", "0.3"},
+                                 {"Speed", "0.1 mm/s"},
+                                 {"Slip length", "0.02 mm"}};
+        info.search = {"jumps of speed spread over a slip length", search};
+        return info;
+      }
+
+      MemoryLength(const EffectSection &section, const CoefficientBasis &)
+        : StrengthEffect({adapted_rate})
+        , a(section.number("Growth"))
+        , V_0(section.number("Speed"))
+        , L(section.number("Slip length"))
+        , is_in_flow_rule(section.text("Form") == "flow")
       {
         if (is_in_flow_rule && a > 0.)
-          parameters.reject("Friction/memory_length/Growth",
-                            "with Form = flow it is the flow rule that says "
-                            "how friction grows: must be 0");
+          section.reject("Growth",
+                         "with Form = flow it is the flow rule that says "
+                         "how friction grows: must be 0");
       }
 
       virtual bool remembers_rate() const override
@@ -72,61 +96,12 @@ namespace SlipStep
             0.;
       }
 
-      virtual std::vector<ContactMemory> memories() const override
-      {
-        return {adapted_rate};
-      }
-
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name    = "memory_length";
-        info.words   = "friction that follows the speed over a slip length";
-        info.formula = "G = 1 + a ln(1 + V_m/V_0), d V_m/d lambda = (slip rate "
-                       "- V_m)/L; or V_m in the flow rule";
-        info.latex   = "G = 1 + a \\ln\\left(1 + \\frac{V_m}{V_0}\\right), "
-                       "\\quad \\frac{dV_m}{d\\lambda} = \\frac{\\dot\\lambda - "
-                       "V_m}{L}";
-        info.source  = "chosen; memory by slip as in Ruina (1983), J. Geophys. "
-                       "Res. 88, 10359-10370";
-        info.neutral = "Growth = 0";
-        info.parameters = {
-          {"Form",
-           "",
-           "factor",
-           dealii::Patterns::Selection("factor|flow"),
-           "'factor' is G; 'flow' has no G, but the flow rule (overstress or "
-           "perzyna) feels V_m instead of the slip rate"},
-          {"Growth",
-           "a",
-           "0",
-           Quantity(Dimension::number, 0.),
-           "growth of the strength per e-fold of the speed"},
-          {"Speed",
-           "V_0",
-           "1",
-           Quantity(Dimension::speed, 0., 1e30, true),
-           "speed from which the strength grows with its logarithm"},
-          {"Slip length",
-           "L",
-           "0.1",
-           Quantity(Dimension::length, 0., 1e30, true),
-           "slip over which friction follows the speed"}};
-        info.neutral_settings = {{"Growth", "0"}};
-        info.typical_settings = {{"Growth", "0.3"},
-                                 {"Speed", "0.1 mm/s"},
-                                 {"Slip length", "0.02 mm"}};
-        info.search = {"jumps of speed spread over a slip length", search};
-        return info;
-      }
-
     private:
       // By its slip length: Form = factor, without one, is the overstress by
       // another formula.
       static TrialFormula search(const Circumstances &now)
       {
-        const std::string length = "Friction/memory_length/Slip length";
-        const double      path   = now.range.longest_path;
+        const double path = now.range.longest_path;
         if (!now.has("overstress") && !now.has("perzyna"))
           return TrialFormula::none(
             "there is no effect of speed that could spread");
@@ -134,11 +109,11 @@ namespace SlipStep
           return TrialFormula::none("the speed hardly varies");
         TrialFormula formula;
         formula.is_one_sided = true;
-        formula.texts        = {{"Friction/memory_length/Form", "flow"}};
-        formula.parameters   = {{length, 1e-5 * path, 0.3 * path, true}};
+        formula.texts        = {{"Form", "flow"}};
+        formula.parameters   = {{"Slip length", 1e-5 * path, 0.3 * path, true}};
         formula.shapes       = {[=](const double strength) {
           return Values{
-            {length, std::clamp(1e-3 * strength, 1.1e-5, 0.29) * path}};
+            {"Slip length", std::clamp(1e-3 * strength, 1.1e-5, 0.29) * path}};
         }};
         return formula;
       }
@@ -157,9 +132,7 @@ namespace SlipStep
                 share / time_step + (now - before) * decay / L};
       }
 
-      const double a;
-      const double V_0;
-      const double L;
+      const double a, V_0, L;
       const bool   is_in_flow_rule;
     };
 

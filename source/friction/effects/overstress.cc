@@ -11,19 +11,49 @@ namespace SlipStep
   namespace
   {
     /// The slip rate grows exponentially with the overstress r - r_s, and
-    /// without bound as r approaches r_m:
-    /// \f[ \lambda = \frac1{\eta_v}\,
-    ///     \frac{e^{n(r-r_s)} - 1}{r_m - r}\quad (r > r_s). \f]
-    /// Eq. 3 of the source paper. The residual is the logarithm of this,
-    /// \f$\ln(1 + \eta_v\lambda(r_m - r)) - n(r - r_s)\f$, in which Newton's
-    /// method converges quickly from far away.
+    /// without bound as r approaches r_m. The residual is the logarithm of the
+    /// formula, \f$\ln(1 + \eta_v\lambda(r_m - r)) - n(r - r_s)\f$, in which
+    /// Newton's method converges quickly from far away.
     class Overstress : public Effect
     {
     public:
-      Overstress(const Parameters &parameters, const CoefficientBasis &)
-        : eta(parameters.number("Friction/overstress/Viscosity"))
-        , n(parameters.number("Friction/overstress/Exponent"))
-        , r_m(parameters.number("Friction/overstress/Maximum ratio"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name  = "overstress";
+        info.slot  = ExclusiveSlot::overstress;
+        info.words = "friction that rises with sliding speed";
+        info.formula =
+          "lambda = (exp(n (r - r_s)) - 1) / (eta_v (r_m - r)) for r > r_s";
+        info.latex =
+          R"(\lambda = \frac{1}{\eta_v}\,\frac{e^{n(r-r_s)} - 1}{r_m - r} )"
+          R"(\quad (r > r_s))";
+        info.source     = "source paper, eq. 3 and Table 3";
+        info.neutral    = "Viscosity -> 0 s/mm; switch the effect off instead";
+        info.parameters = {
+          {{"Viscosity", "eta_v", "1.15e4", positive(Dimension::viscosity)},
+           "viscosity of the overstress (eq. 3 of the source paper; its Table 3 "
+           "prints 1.15e7 ms/mm)"},
+          {{"Exponent", "n", "16.52", positive(Dimension::number, 1e4)},
+           "exponent of the overstress (eq. 3 of the source paper)"},
+          {{"Maximum ratio",
+            "r_m",
+            "1.8",
+            Quantity(Dimension::number, 1., 1e6, true)},
+           "upper limit of the dynamic-loading ratio, approached at infinite "
+           "speed (eq. 3 of the source paper)"}};
+        info.neutral_settings = {{"Viscosity", "1e-12"}};
+        info.search           = {
+                    "the same step in every phase, linear in ln V, the same both ways",
+                    search};
+        info.search.along = "log10 speed";
+        return info;
+      }
+
+      Overstress(const EffectSection &section, const CoefficientBasis &)
+        : eta(section.number("Viscosity"))
+        , n(section.number("Exponent"))
+        , r_m(section.number("Maximum ratio"))
       {}
 
       virtual FlowResidual flow_residual(const double ratio,
@@ -62,59 +92,19 @@ namespace SlipStep
         return r_m;
       }
 
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name  = "overstress";
-        info.slot  = ExclusiveSlot::overstress;
-        info.words = "friction that rises with sliding speed";
-        info.formula =
-          "lambda = (exp(n (r - r_s)) - 1) / (eta_v (r_m - r)) for r > r_s";
-        info.latex   = "\\lambda = \\frac{1}{\\eta_v}\\,\\frac{e^{n(r-r_s)} - "
-                       "1}{r_m - r} \\quad (r > r_s)";
-        info.source  = "source paper, eq. 3 and Table 3";
-        info.neutral = "Viscosity -> 0 s/mm; switch the effect off instead";
-        info.parameters = {
-          {"Viscosity",
-           "eta_v",
-           "1.15e4",
-           Quantity(Dimension::viscosity, 0., 1e30, true),
-           "viscosity of the overstress (eq. 3 of the source paper; its Table 3 "
-           "prints 1.15e7 ms/mm)"},
-          {"Exponent",
-           "n",
-           "16.52",
-           Quantity(Dimension::number, 0., 1e4, true),
-           "exponent of the overstress (eq. 3 of the source paper)"},
-          {"Maximum ratio",
-           "r_m",
-           "1.8",
-           Quantity(Dimension::number, 1., 1e6, true),
-           "upper limit of the dynamic-loading ratio, approached at infinite "
-           "speed (eq. 3 of the source paper)"}};
-        info.neutral_settings = {{"Viscosity", "1e-12"}};
-        info.search           = {
-                    "the same step in every phase, linear in ln V, the same both ways",
-                    search};
-        info.search.along = "log10 speed";
-        return info;
-      }
-
     private:
       // r - r_s is about ln(1 + eta_v V (r_m - r)) / n.
       static TrialFormula search(const Circumstances &now)
       {
-        const std::string viscosity = "Friction/overstress/Viscosity";
-        const std::string exponent  = "Friction/overstress/Exponent";
-        TrialFormula      formula;
+        TrialFormula formula;
         formula.is_one_sided = true;
-        formula.parameters   = {{viscosity,
+        formula.parameters   = {{"Viscosity",
                                  1e-2 / now.range.fastest,
                                  1e6 / now.range.slowest,
                                  true,
                                  true,
                                  true},
-                                {exponent, 2., 1e4, true}};
+                                {"Exponent", 2., 1e4, true}};
         for (const double eta :
              ladder(0.3 / now.range.fastest, 1e4 / now.range.slowest, 5))
           {
@@ -122,17 +112,15 @@ namespace SlipStep
               std::log1p(eta * now.range.fastest * 0.8) / just_noticed;
             formula.shapes.push_back([=](const double strength) {
               return Values{
-                {viscosity, eta},
-                {exponent,
+                {"Viscosity", eta},
+                {"Exponent",
                  std::clamp(rise / std::max(strength, 1e-3), 2.5, 9e3)}};
             });
           }
         return formula;
       }
 
-      const double eta;
-      const double n;
-      const double r_m;
+      const double eta, n, r_m;
     };
 
     const RegisterEffect overstress_registration =

@@ -9,17 +9,35 @@ namespace SlipStep
 {
   namespace
   {
-    /// The slip rate is a power of the overstress, without an upper limit of
-    /// r:
-    /// \f[ \lambda = \frac1{\eta}\left<r - r_s\right>^{n}. \f]
-    /// Perzyna, Quart. Appl. Math. 20 (1963) 321, for a friction surface. The
-    /// residual is \f$(\eta\lambda)^{1/n} - (r - r_s)\f$.
+    /// The slip rate is a power of the overstress, without an upper limit of r.
+    /// The residual is \f$(\eta\lambda)^{1/n} - (r - r_s)\f$.
     class Perzyna : public Effect
     {
     public:
-      Perzyna(const Parameters &parameters, const CoefficientBasis &)
-        : eta(parameters.number("Friction/perzyna/Viscosity"))
-        , n(parameters.number("Friction/perzyna/Exponent"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name    = "perzyna";
+        info.slot    = ExclusiveSlot::overstress;
+        info.words   = "friction that rises with a power of the sliding speed";
+        info.formula = "lambda = <r - r_s>^n / eta";
+        info.latex   = R"(\lambda = \frac{1}{\eta}\left<r - r_s\right>^{n})";
+        info.source  = "Perzyna (1963), Quart. Appl. Math. 20, 321-332";
+        info.neutral = "Viscosity -> 0 s/mm; switch the effect off instead";
+        info.parameters = {
+          {{"Viscosity", "eta", "100", positive(Dimension::viscosity)},
+           "viscosity of the power-law overstress"},
+          {{"Exponent", "n", "4", Quantity(Dimension::number, 1., 1e3)},
+           "exponent of the power-law overstress"}};
+        info.neutral_settings = {{"Viscosity", "1e-40"}};
+        info.search           = {"", search, "overstress"};
+        info.search.along     = "log10 speed";
+        return info;
+      }
+
+      Perzyna(const EffectSection &section, const CoefficientBasis &)
+        : eta(section.number("Viscosity"))
+        , n(section.number("Exponent"))
       {}
 
       virtual FlowResidual flow_residual(const double ratio,
@@ -44,48 +62,20 @@ namespace SlipStep
         return std::numeric_limits<double>::infinity();
       }
 
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name    = "perzyna";
-        info.slot    = ExclusiveSlot::overstress;
-        info.words   = "friction that rises with a power of the sliding speed";
-        info.formula = "lambda = <r - r_s>^n / eta";
-        info.latex   = "\\lambda = \\frac{1}{\\eta}\\left<r - r_s\\right>^{n}";
-        info.source  = "Perzyna (1963), Quart. Appl. Math. 20, 321-332";
-        info.neutral = "Viscosity -> 0 s/mm; switch the effect off instead";
-        info.parameters       = {{"Viscosity",
-                                  "eta",
-                                  "100",
-                                  Quantity(Dimension::viscosity, 0., 1e30, true),
-                                  "viscosity of the power-law overstress"},
-                                 {"Exponent",
-                                  "n",
-                                  "4",
-                                  Quantity(Dimension::number, 1., 1e3),
-                                  "exponent of the power-law overstress"}};
-        info.neutral_settings = {{"Viscosity", "1e-40"}};
-        info.search           = {"", search, "overstress"};
-        info.search.along     = "log10 speed";
-        return info;
-      }
-
     private:
       // r - r_s = (eta V)^(1/n).
       static TrialFormula search(const Circumstances &now)
       {
-        const std::string viscosity = "Friction/perzyna/Viscosity";
-        const std::string exponent  = "Friction/perzyna/Exponent";
-        const double      speed     = now.range.fastest;
-        TrialFormula      formula;
+        const double speed = now.range.fastest;
+        TrialFormula formula;
         formula.is_one_sided = true;
-        formula.parameters   = {{viscosity, 1e-30 / speed, 1e6 / speed, true},
-                                {exponent, 2., 16., true, true, true}};
+        formula.parameters   = {{"Viscosity", 1e-30 / speed, 1e6 / speed, true},
+                                {"Exponent", 2., 16., true, true, true}};
         for (const double n : {2., 4., 8.})
           formula.shapes.push_back([=](const double strength) {
             const double rise = std::clamp(just_noticed * strength, 1e-3, 3.);
-            return Values{{viscosity, std::pow(rise, n) / speed},
-                          {exponent, n}};
+            return Values{{"Viscosity", std::pow(rise, n) / speed},
+                          {"Exponent", n}};
           });
         return formula;
       }
@@ -95,8 +85,7 @@ namespace SlipStep
         return std::pow(eta * std::max(slip_rate, 0.), 1. / n);
       }
 
-      const double eta;
-      const double n;
+      const double eta, n;
     };
 
     const RegisterEffect perzyna_registration = register_effect<Perzyna>();

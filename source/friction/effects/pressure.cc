@@ -7,18 +7,37 @@ namespace SlipStep
 {
   namespace
   {
-    /// Friction grows less than in proportion to the pressure (gamma > 0),
-    /// or more (gamma < 0):
-    /// \f[ G = \left(\frac{f_n}{p_0}\right)^{-\gamma}. \f]
-    /// Elastic asperities on each other give gamma = 1/3 when alone and less
-    /// when they carry smaller ones: Archard (1957), Proc. R. Soc. Lond. A 243,
-    /// 190.
+    /// Friction grows less than in proportion to the pressure (gamma > 0), or
+    /// more (gamma < 0). Elastic asperities on each other give gamma = 1/3 when
+    /// alone and less when they carry smaller ones.
     class Pressure : public StrengthEffect
     {
     public:
-      Pressure(const Parameters &parameters, const CoefficientBasis &)
-        : gamma(parameters.number("Friction/pressure/Exponent"))
-        , p_0(parameters.number("Friction/pressure/Reference pressure"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name       = "pressure";
+        info.words      = "a friction coefficient that changes with pressure";
+        info.formula    = "G = (f_n / p_0)^-gamma";
+        info.latex      = R"(G = \left(\frac{f_n}{p_0}\right)^{-\gamma})";
+        info.source     = "Archard (1957), Proc. R. Soc. Lond. A 243, 190-205";
+        info.parameters = {
+          {{"Exponent", "gamma", "0.1", Quantity(Dimension::number, -1., 0.9)},
+           "exponent of the pressure, negative if the coefficient grows with "
+           "it"},
+          {{"Reference pressure", "p_0", "5.8", positive(Dimension::stress)},
+           "pressure at which the coefficients were measured"}};
+        info.neutral_settings = {{"Exponent", "0"}};
+        info.typical_settings = {{"Exponent", "0.3"},
+                                 {"Reference pressure", "3"}};
+        info.search           = {"straight in ln p only", search};
+        info.search.along     = "pressure";
+        return info;
+      }
+
+      Pressure(const EffectSection &section, const CoefficientBasis &)
+        : gamma(section.number("Exponent"))
+        , p_0(section.number("Reference pressure"))
       {}
 
       virtual Strength strength_factor(const SlipStepData &step) const override
@@ -29,47 +48,17 @@ namespace SlipStep
         return factor;
       }
 
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name       = "pressure";
-        info.words      = "a friction coefficient that changes with pressure";
-        info.formula    = "G = (f_n / p_0)^-gamma";
-        info.latex      = "G = \\left(\\frac{f_n}{p_0}\\right)^{-\\gamma}";
-        info.source     = "Archard (1957), Proc. R. Soc. Lond. A 243, 190-205";
-        info.neutral    = "Exponent = 0";
-        info.parameters = {
-          {"Exponent",
-           "gamma",
-           "0.1",
-           Quantity(Dimension::number, -1., 0.9),
-           "exponent of the pressure, negative if the coefficient grows with "
-           "it"},
-          {"Reference pressure",
-           "p_0",
-           "5.8",
-           Quantity(Dimension::stress, 0., 1e30, true),
-           "pressure at which the coefficients were measured"}};
-        info.neutral_settings = {{"Exponent", "0"}};
-        info.typical_settings = {{"Exponent", "0.3"},
-                                 {"Reference pressure", "3"}};
-        info.search           = {"straight in ln p only", search};
-        info.search.along     = "pressure";
-        return info;
-      }
-
     private:
       static TrialFormula search(const Circumstances &now)
       {
         TrialFormula formula;
-        formula.settings = {{"Friction/pressure/Reference pressure",
+        formula.settings = {{"Reference pressure",
                              std::sqrt(now.range.lowest * now.range.highest)}};
-        formula.set_proportional("Friction/pressure/Exponent", 1., -0.8, 0.8);
+        formula.set_proportional("Exponent", 1., -0.8, 0.8);
         return formula;
       }
 
-      const double gamma;
-      const double p_0;
+      const double gamma, p_0;
     };
 
     const RegisterEffect pressure_registration = register_effect<Pressure>();

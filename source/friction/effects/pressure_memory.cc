@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/effect.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -16,32 +15,56 @@ namespace SlipStep
       register_memory({"adapted_share", 0., 0., 1.});
 
     /// A change of pressure acts on the coefficient of friction at once, and
-    /// slip makes it forgotten:
-    /// \f[ G = \left(\frac{p_m}{f_n}\right)^{\alpha v}, \qquad
-    ///     \frac{d \ln p_m}{d\lambda} = \frac{\ln f_n - \ln p_m}{w L}, \qquad
-    ///     \frac{d w}{d\lambda} = \frac{1 - w}{L}, \f]
-    /// \f$w = 1 - e^{-s/L}\f$ after slip s since the contact closed: a fresh
-    /// one has adapted to the pressure at which it first slips, whatever it was
-    /// pressed from, and \f$v = 1 - (1 - w)^{20}\f$: what it
-    /// remembers grows within a twentieth of L, or friction of one that slips
-    /// while it is pressed from nothing would have no beginning. Slipped some L
-    /// it has v = w = 1: Linker and Dieterich (1992), J. Geophys. Res. 97,
-    /// 4923: a change of normal stress changes the state of rate-and-state
-    /// friction by \f$d\theta = -\alpha_{LD}\theta/(b f_n)\,df_n\f$. With the
-    /// slip law, d ln theta/d lambda = -ln(lambda theta/D_c)/D_c, that is
-    /// linear in ln theta, so what pressure adds to the state has the equation
-    /// of its own above, with w = 1, \f$b\,\Delta\ln\theta =
-    /// -\alpha_{LD}\ln(f_n/p_m)\f$, with L = D_c and \f$\alpha_{LD} = \alpha\f$
-    /// times the coefficient of friction. The power instead of \f$1 -
-    /// \alpha\ln(f_n/p_m)\f$, its first two terms, is chosen: it is positive
-    /// for every pressure. \f$\alpha < 1\f$: the strength grows with pressure
-    /// at once, by \f$f_n^{1-\alpha}\f$.
+    /// slip makes it forgotten. A fresh contact has adapted to the pressure at
+    /// which it first slips, whatever it was pressed from, and what it
+    /// remembers, v, grows within a twentieth of L, or friction of one that
+    /// slips while it is pressed from nothing would have no beginning. Slipped
+    /// some L it has v = w = 1: as Linker and Dieterich have it, a change of
+    /// normal stress changes the state of rate-and-state friction by \f$d\theta
+    /// = -\alpha_{LD}\theta/(b f_n)\,df_n\f$. With the slip law, d ln theta/d
+    /// lambda = -ln(lambda theta/D_c)/D_c, that is linear in ln theta, so what
+    /// pressure adds to the state has the equation of its own of p_m, with w =
+    /// 1, \f$b\,\Delta\ln\theta = -\alpha_{LD}\ln(f_n/p_m)\f$, with L = D_c and
+    /// \f$\alpha_{LD} = \alpha\f$ times the coefficient of friction. The power
+    /// instead of \f$1 - \alpha\ln(f_n/p_m)\f$, its first two terms, is chosen:
+    /// it is positive for every pressure. \f$\alpha < 1\f$: the strength grows
+    /// with pressure at once, by \f$f_n^{1-\alpha}\f$.
     class PressureMemory : public StrengthEffect
     {
     public:
-      PressureMemory(const Parameters &parameters, const CoefficientBasis &)
-        : alpha(parameters.number("Friction/pressure_memory/Change"))
-        , L(parameters.number("Friction/pressure_memory/Slip length"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name  = "pressure_memory";
+        info.words = "a change of pressure to which friction adapts by slip";
+        info.formula =
+          "G = (p_m/f_n)^(alpha v), d ln(p_m)/d lambda = (ln(f_n) - "
+          "ln(p_m))/(w L), w = 1 - exp(-s/L), v = 1 - exp(-20 s/L), s: slip "
+          "since closing";
+        info.latex =
+          R"(G = \left(\frac{p_m}{f_n}\right)^{\alpha v}, \quad )"
+          R"(\frac{d \ln p_m}{d\lambda} = \frac{\ln f_n - \ln p_m}{w L}, )"
+          R"(\quad w = 1 - e^{-s/L}, \quad v = 1 - e^{-20 s/L})";
+        info.source     = "Linker and Dieterich (1992), J. Geophys. Res. 97, "
+                          "4923-4940; power chosen";
+        info.parameters = {
+          {{"Change", "alpha", "0", Quantity(Dimension::number, -0.99, 0.99)},
+           "fall of the coefficient per e-fold of the pressure, in shares of "
+           "it, before slip; negative if it rises"},
+          {{"Slip length", "L", "0.1", positive(Dimension::length)},
+           "slip over which a change of pressure is forgotten"}};
+        info.neutral_settings = {{"Change", "0"}};
+        info.typical_settings = {{"Change", "0.5"}, {"Slip length", "0.02 mm"}};
+        info.search           = {
+                    "a jump with every change of pressure that some slip takes back",
+                    search};
+        return info;
+      }
+
+      PressureMemory(const EffectSection &section, const CoefficientBasis &)
+        : StrengthEffect({adapted_pressure, adapted_share})
+        , alpha(section.number("Change"))
+        , L(section.number("Slip length"))
       {}
 
       virtual Strength strength_factor(const SlipStepData &step) const override
@@ -72,66 +95,19 @@ namespace SlipStep
                         0.;
       }
 
-      virtual std::vector<ContactMemory> memories() const override
-      {
-        return {adapted_pressure, adapted_share};
-      }
-
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name  = "pressure_memory";
-        info.words = "a change of pressure to which friction adapts by slip";
-        info.formula =
-          "G = (p_m/f_n)^(alpha v), d ln(p_m)/d lambda = (ln(f_n) - "
-          "ln(p_m))/(w L), w = 1 - exp(-s/L), v = 1 - exp(-20 s/L), s: slip "
-          "since closing";
-        info.latex =
-          "G = \\left(\\frac{p_m}{f_n}\\right)^{\\alpha v}, \\quad "
-          "\\frac{d \\ln p_m}{d\\lambda} = \\frac{\\ln f_n - \\ln p_m}{w L}, "
-          "\\quad w = 1 - e^{-s/L}, \\quad v = 1 - e^{-20 s/L}";
-        info.source     = "Linker and Dieterich (1992), J. Geophys. Res. 97, "
-                          "4923-4940; power chosen";
-        info.neutral    = "Change = 0";
-        info.parameters = {
-          {"Change",
-           "alpha",
-           "0",
-           Quantity(Dimension::number, -0.99, 0.99),
-           "fall of the coefficient per e-fold of the pressure, in shares of "
-           "it, before slip; negative if it rises"},
-          {"Slip length",
-           "L",
-           "0.1",
-           Quantity(Dimension::length, 0., 1e30, true),
-           "slip over which a change of pressure is forgotten"}};
-        info.neutral_settings = {{"Change", "0"}};
-        info.typical_settings = {{"Change", "0.5"}, {"Slip length", "0.02 mm"}};
-        info.search           = {
-                    "a jump with every change of pressure that some slip takes back",
-                    search};
-        return info;
-      }
-
     private:
       static TrialFormula search(const Circumstances &now)
       {
-        const std::string  change = "Friction/pressure_memory/Change";
-        const std::string  length = "Friction/pressure_memory/Slip length";
-        const TestedRange &range  = now.range;
+        const TestedRange &range = now.range;
         if (range.highest < 1.05 * range.lowest)
           return TrialFormula::none("the pressure hardly varies");
         TrialFormula formula;
         const double path  = range.longest_path;
         const double folds = std::log(range.highest / range.lowest);
-        formula.parameters = {{change, -0.95, 0.95, false},
-                              {length, 1e-3 * path, path, true}};
+        formula.parameters = {{"Change", -0.95, 0.95, false},
+                              {"Slip length", 1e-3 * path, path, true}};
         for (const double L : ladder(0.01 * path, 0.3 * path, 4))
-          formula.shapes.push_back([=](const double strength) {
-            return Values{
-              {change, std::clamp(just_noticed * strength / folds, -0.9, 0.9)},
-              {length, L}};
-          });
+          formula.add_shape("Change", -0.9, 0.9, {{"Slip length", L}}, folds);
         return formula;
       }
 
@@ -161,8 +137,7 @@ namespace SlipStep
       }
 
       static constexpr double beginning = 20.; // L over it
-      const double            alpha;
-      const double            L;
+      const double            alpha, L;
     };
 
     const RegisterEffect pressure_memory_registration =

@@ -1,30 +1,52 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/effect.h>
 
-#include <algorithm>
-#include <cmath>
 
 namespace SlipStep
 {
   namespace
   {
     /// Asperities that pass with the slip rate excite a damped oscillator, the
-    /// tool or a layer of the surface; what it absorbs is friction:
-    /// \f[ G = 1 + \frac{s}{1 + Q^2 \left(x - \frac1x\right)^2}, \qquad
-    ///     x = \frac{\lambda}{V_r}, \f]
-    /// the power that a driven oscillator of quality Q takes at x times its own
-    /// frequency: a bump over the logarithm of speed, 1/Q wide at half its
-    /// height where that is narrow. Landau and Lifshitz, Mechanics, section 26.
-    /// That the rise of friction is in proportion to that power is chosen.
-    /// Beyond the bump friction falls with speed: where by more than overstress
-    /// and stiffness hold against, sliding is unstable there.
+    /// tool or a layer of the surface; what it absorbs is friction: the power
+    /// that a driven oscillator of quality Q takes at x times its own
+    /// frequency, a bump over the logarithm of speed, 1/Q wide at half its
+    /// height where that is narrow. That the rise of friction is in proportion
+    /// to that power is chosen. Beyond the bump friction falls with speed:
+    /// where by more than overstress and stiffness hold against, sliding is
+    /// unstable there.
     class Resonance : public StrengthEffect
     {
     public:
-      Resonance(const Parameters &parameters, const CoefficientBasis &)
-        : s(parameters.number("Friction/resonance/Rise"))
-        , V_r(parameters.number("Friction/resonance/Speed"))
-        , Q(parameters.number("Friction/resonance/Quality"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name    = "resonance";
+        info.words   = "higher friction about one speed, that of a resonance";
+        info.formula = "G = 1 + s / (1 + Q^2 (x - 1/x)^2), x = lambda / V_r";
+        info.latex = R"(G = 1 + \frac{s}{1 + Q^2 \left(x - \frac1x\right)^2}, )"
+                     R"(\quad x = \frac{\lambda}{V_r})";
+        info.source     = "Landau and Lifshitz, Mechanics, section 26; use for "
+                          "friction chosen";
+        info.parameters = {
+          {{"Rise", "s", "0.05", Quantity(Dimension::number, 0., 100.)},
+           "share by which the strength is higher at the resonance"},
+          {{"Speed", "V_r", "0.5 mm/s", positive(Dimension::speed)},
+           "slip rate of the resonance"},
+          {{"Quality", "Q", "1", Quantity(Dimension::number, 0.1, 1000.)},
+           "quality of the oscillator: the larger, the narrower is the bump"}};
+        info.neutral_settings = {{"Rise", "0"}};
+        info.typical_settings = {{"Rise", "0.3"},
+                                 {"Speed", "0.2 mm/s"},
+                                 {"Quality", "1.5"}};
+        info.search = {"one speed high, slower and faster ones not", search};
+        info.search.along = "log10 speed";
+        return info;
+      }
+
+      Resonance(const EffectSection &section, const CoefficientBasis &)
+        : s(section.number("Rise"))
+        , V_r(section.number("Speed"))
+        , Q(section.number("Quality"))
       {}
 
       virtual bool depends_on_rate() const override
@@ -46,49 +68,9 @@ namespace SlipStep
         return factor;
       }
 
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name    = "resonance";
-        info.words   = "higher friction about one speed, that of a resonance";
-        info.formula = "G = 1 + s / (1 + Q^2 (x - 1/x)^2), x = lambda / V_r";
-        info.latex   = "G = 1 + \\frac{s}{1 + Q^2 \\left(x - "
-                       "\\frac1x\\right)^2}, \\quad x = "
-                       "\\frac{\\lambda}{V_r}";
-        info.source  = "Landau and Lifshitz, Mechanics, section 26; use for "
-                       "friction chosen";
-        info.neutral = "Rise = 0";
-        info.parameters = {
-          {"Rise",
-           "s",
-           "0.05",
-           Quantity(Dimension::number, 0., 100.),
-           "share by which the strength is higher at the resonance"},
-          {"Speed",
-           "V_r",
-           "0.5 mm/s",
-           Quantity(Dimension::speed, 0., 1e30, true),
-           "slip rate of the resonance"},
-          {"Quality",
-           "Q",
-           "1",
-           Quantity(Dimension::number, 0.1, 1000.),
-           "quality of the oscillator: the larger, the narrower is the bump"}};
-        info.neutral_settings = {{"Rise", "0"}};
-        info.typical_settings = {{"Rise", "0.3"},
-                                 {"Speed", "0.2 mm/s"},
-                                 {"Quality", "1.5"}};
-        info.search = {"one speed high, slower and faster ones not", search};
-        info.search.along = "log10 speed";
-        return info;
-      }
-
     private:
       static TrialFormula search(const Circumstances &now)
       {
-        const std::string rise    = "Friction/resonance/Rise";
-        const std::string speed   = "Friction/resonance/Speed";
-        const std::string quality = "Friction/resonance/Quality";
         const double slowest = now.range.slowest, fastest = now.range.fastest;
         // Within less it is any other function of speed.
         if (!(fastest > 10. * slowest))
@@ -96,22 +78,18 @@ namespace SlipStep
         TrialFormula formula;
         formula.is_one_sided = true;
         // A resonance outside of what was tested is a slope of another name.
-        formula.parameters = {{rise, 0., 3., false},
-                              {speed, slowest, fastest, true},
-                              {quality, 0.3, 10., true}};
+        formula.parameters = {{"Rise", 0., 3., false},
+                              {"Speed", slowest, fastest, true},
+                              {"Quality", 0.3, 10., true}};
         for (const double V : ladder(2. * slowest, 0.5 * fastest, 5))
-          formula.shapes.push_back([=](const double strength) {
-            return Values{{rise,
-                           std::clamp(just_noticed * strength, 1e-4, 2.9)},
-                          {speed, V},
-                          {quality, 0.7}};
-          });
+          formula.add_shape("Rise",
+                            1e-4,
+                            2.9,
+                            {{"Speed", V}, {"Quality", 0.7}});
         return formula;
       }
 
-      const double s;
-      const double V_r;
-      const double Q;
+      const double s, V_r, Q;
     };
 
     const RegisterEffect resonance_registration = register_effect<Resonance>();

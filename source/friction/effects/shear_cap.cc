@@ -17,8 +17,29 @@ namespace SlipStep
     class ShearCap : public StrengthEffect
     {
     public:
-      ShearCap(const Parameters &parameters, const CoefficientBasis &)
-        : tau_c(parameters.number("Friction/shear_cap/Shear limit"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name    = "shear_cap";
+        info.words   = "a limit of the shear stress at high pressure";
+        info.formula = "f_n mu -> tau_c tanh(f_n mu / tau_c)";
+        info.latex   = R"(f_n \mu \to \tau_c \tanh\frac{f_n \mu}{\tau_c})";
+        info.source =
+          "Wanheim, Bay and Petersen (1974), Wear 28, 251-258; form chosen";
+        info.neutral    = "Shear limit -> infinity";
+        info.parameters = {
+          {{"Shear limit", "tau_c", "100", positive(Dimension::stress)},
+           "shear traction that f_n mu tends to under high pressure, about the "
+           "yield stress in shear of the softer body"}};
+        info.neutral_settings = {{"Shear limit", "1e12"}};
+        info.typical_settings = {{"Shear limit", "0.7"}};
+        info.search           = {"only high pressures bend", search};
+        info.search.along     = "pressure";
+        return info;
+      }
+
+      ShearCap(const EffectSection &section, const CoefficientBasis &)
+        : tau_c(section.number("Shear limit"))
       {}
 
       virtual Strength strength_factor(const SlipStepData &step) const override
@@ -38,42 +59,18 @@ namespace SlipStep
         return factor;
       }
 
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name    = "shear_cap";
-        info.words   = "a limit of the shear stress at high pressure";
-        info.formula = "f_n mu -> tau_c tanh(f_n mu / tau_c)";
-        info.latex   = "f_n \\mu \\to \\tau_c \\tanh\\frac{f_n \\mu}{\\tau_c}";
-        info.source =
-          "Wanheim, Bay and Petersen (1974), Wear 28, 251-258; form chosen";
-        info.neutral    = "Shear limit -> infinity";
-        info.parameters = {
-          {"Shear limit",
-           "tau_c",
-           "100",
-           Quantity(Dimension::stress, 0., 1e30, true),
-           "shear traction that f_n mu tends to under high pressure, about the "
-           "yield stress in shear of the softer body"}};
-        info.neutral_settings = {{"Shear limit", "1e12"}};
-        info.typical_settings = {{"Shear limit", "0.7"}};
-        info.search           = {"only high pressures bend", search};
-        info.search.along     = "pressure";
-        return info;
-      }
-
     private:
       // tanh(x) / x is about 1 - x^2 / 3.
       static TrialFormula search(const Circumstances &now)
       {
-        const std::string limit   = "Friction/shear_cap/Shear limit";
-        const double      largest = now.friction() * now.range.highest;
-        TrialFormula      formula;
+        const double largest = now.friction() * now.range.highest;
+        TrialFormula formula;
         formula.is_one_sided = true;
-        formula.parameters   = {{limit, 0.2 * largest, 100. * largest, true}};
+        formula.parameters   = {
+            {"Shear limit", 0.2 * largest, 100. * largest, true}};
         formula.shapes.push_back([=](const double strength) {
           const double fall = just_noticed * std::max(strength, 1e-3);
-          return Values{{limit,
+          return Values{{"Shear limit",
                          std::clamp(largest / std::sqrt(3. * fall),
                                     0.25 * largest,
                                     90. * largest)}};

@@ -10,17 +10,13 @@ namespace SlipStep
     /// State of the slip law; 0 until the contact has closed.
     const ContactMemory slip_law_state = register_memory({"slip_law_state_s"});
 
-    /// Contacts that strengthen with a state which evolves by slip alone:
-    /// \f[ G = 1 + b \ln\left(1 + \frac{\theta}{t_0}\right), \qquad
-    ///     \frac{d\theta}{dt} = -\frac{\lambda\theta}{D_c}
-    ///                           \ln\frac{\lambda\theta}{D_c}. \f]
-    /// Ruina (1983), J. Geophys. Res. 88, 10359. It has the steady state
-    /// \f$\theta = D_c/\lambda\f$ of effect ageing, but nothing heals without
-    /// slip: a rest strengthens only as far as the contact creeps meanwhile.
-    /// After a step of speed ln \f$\theta\f$ fades with
-    /// \f$e^{-\lambda t/D_c}\f$, up and down alike. For a constant slip rate
-    /// the step is integrated exactly, \f$\ln\theta = d \ln\theta_0 + (1 - d)
-    /// \ln(D_c/\lambda)\f$ with \f$d = e^{-\lambda\Delta t/D_c}\f$. That a
+    /// Contacts that strengthen with a state which evolves by slip alone. It
+    /// has the steady state \f$\theta = D_c/\lambda\f$ of effect ageing, but
+    /// nothing heals without slip: a rest strengthens only as far as the
+    /// contact creeps meanwhile. After a step of speed ln \f$\theta\f$ fades
+    /// with \f$e^{-\lambda t/D_c}\f$, up and down alike. For a constant slip
+    /// rate the step is integrated exactly, \f$\ln\theta = d \ln\theta_0 + (1 -
+    /// d) \ln(D_c/\lambda)\f$ with \f$d = e^{-\lambda\Delta t/D_c}\f$. That a
     /// contact closes with \f$\theta = t_0\f$ is chosen.
     ///
     /// With an overstress it is the slip law of rate and state, whose
@@ -29,10 +25,48 @@ namespace SlipStep
     class SlipLaw : public StrengthEffect
     {
     public:
-      SlipLaw(const Parameters &parameters, const CoefficientBasis &)
-        : b(parameters.number("Friction/slip_law/Growth"))
-        , t_0(parameters.number("Friction/slip_law/Time"))
-        , D_c(parameters.number("Friction/slip_law/Slip length"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name    = "slip_law";
+        info.words   = "contacts renewed by slip, which do not age at rest";
+        info.formula = "G = 1 + b ln(1 + theta/t_0), d theta/dt = -(lambda "
+                       "theta/D_c) ln(lambda theta/D_c)";
+        info.latex =
+          R"(G = 1 + b \ln\left(1 + \frac{\theta}{t_0}\right), \quad )"
+          R"(\dot\theta = -\frac{\lambda\theta}{D_c} )"
+          R"(\ln\frac{\lambda\theta}{D_c})";
+        info.source = "Ruina (1983), J. Geophys. Res. 88, 10359-10370; first "
+                      "state chosen";
+        info.parameters = {
+          {{"Growth", "b", "0", Quantity(Dimension::number, 0.)},
+           "growth of the strength per e-fold of the state"},
+          {{"Time", "t_0", "1", positive(Dimension::time)},
+           "state below which the strength hardly depends on it, and with "
+           "which a contact closes"},
+          {{"Slip length", "D_c", "0.1", positive(Dimension::length)},
+           "slip over which the state approaches its steady value"}};
+        info.neutral_settings = {{"Growth", "0"}};
+        info.typical_settings = {{"Growth", "0.1"},
+                                 {"Time", "0.05 s"},
+                                 {"Slip length", "0.02 mm"}};
+        info.search.why_not =
+          "by itself it looks like ageing; it is tried beside overstress";
+        info.search.beside = "overstress";
+        info.search.beside_signature =
+          "friction that falls over some slip after a step up in speed and "
+          "rises as fast after one down; rests change nothing";
+        info.search.beside_formula = [](const Circumstances &now) {
+          return TrialFormula::state_of_contacts("Slip length", now.range);
+        };
+        return info;
+      }
+
+      SlipLaw(const EffectSection &section, const CoefficientBasis &)
+        : StrengthEffect({slip_law_state})
+        , b(section.number("Growth"))
+        , t_0(section.number("Time"))
+        , D_c(section.number("Slip length"))
       {}
 
       virtual Strength strength_factor(const SlipStepData &step) const override
@@ -51,65 +85,7 @@ namespace SlipStep
           step.normal_traction > 0. ? state_after(step).value : 0.;
       }
 
-      virtual std::vector<ContactMemory> memories() const override
-      {
-        return {slip_law_state};
-      }
-
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name    = "slip_law";
-        info.words   = "contacts renewed by slip, which do not age at rest";
-        info.formula = "G = 1 + b ln(1 + theta/t_0), d theta/dt = -(lambda "
-                       "theta/D_c) ln(lambda theta/D_c)";
-        info.latex   = "G = 1 + b \\ln\\left(1 + \\frac{\\theta}{t_0}\\right), "
-                       "\\quad \\dot\\theta = -\\frac{\\lambda\\theta}{D_c} "
-                       "\\ln\\frac{\\lambda\\theta}{D_c}";
-        info.source  = "Ruina (1983), J. Geophys. Res. 88, 10359-10370; first "
-                       "state chosen";
-        info.neutral = "Growth = 0";
-        info.parameters = {
-          {"Growth",
-           "b",
-           "0",
-           Quantity(Dimension::number, 0.),
-           "growth of the strength per e-fold of the state"},
-          {"Time",
-           "t_0",
-           "1",
-           Quantity(Dimension::time, 0., 1e30, true),
-           "state below which the strength hardly depends on it, and with "
-           "which a contact closes"},
-          {"Slip length",
-           "D_c",
-           "0.1",
-           Quantity(Dimension::length, 0., 1e30, true),
-           "slip over which the state approaches its steady value"}};
-        info.neutral_settings = {{"Growth", "0"}};
-        info.typical_settings = {{"Growth", "0.1"},
-                                 {"Time", "0.05 s"},
-                                 {"Slip length", "0.02 mm"}};
-        info.search.why_not =
-          "by itself it looks like ageing; it is tried beside overstress";
-        info.search.beside = "overstress";
-        info.search.beside_signature =
-          "friction that falls over some slip after "
-          "a step up in speed and rises as fast "
-          "after one down; rests change nothing";
-        info.search.beside_formula = search_beside_overstress;
-        return info;
-      }
-
     private:
-      static TrialFormula search_beside_overstress(const Circumstances &now)
-      {
-        return TrialFormula::state_of_contacts("Friction/slip_law/Growth",
-                                               "Friction/slip_law/Time",
-                                               "Friction/slip_law/Slip length",
-                                               now.range);
-      }
-
       // theta at the end, and its derivative with respect to slip, the time
       // step being kept.
       Rate state_after(const SlipStepData &step) const
@@ -126,9 +102,7 @@ namespace SlipStep
         return {value, -value * (decay * away + share / x) / D_c};
       }
 
-      const double b;
-      const double t_0;
-      const double D_c;
+      const double b, t_0, D_c;
     };
 
     const RegisterEffect slip_law_registration = register_effect<SlipLaw>();

@@ -1,27 +1,53 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/effect.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
 {
   namespace
   {
-    /// Slow surfaces touch, fast ones are borne by the lubricant:
-    /// \f[ G = 1 + s\,e^{-(\lambda/V_s)^q}. \f]
-    /// Stribeck (1902), Z. VDI 46, 1341; the exponential is from Bo and
-    /// Pavelescu (1982), Wear 82, 277. Where friction falls with speed by more
-    /// than the overstress and the viscous effect let it rise, sliding is
+    /// Slow surfaces touch, fast ones are borne by the lubricant; the
+    /// exponential is Bo and Pavelescu's. Where friction falls with speed by
+    /// more than the overstress and the viscous effect let it rise, sliding is
     /// unstable: then a step may end sticking or sliding, and the answer
     /// depends on the steps taken.
     class Stribeck : public StrengthEffect
     {
     public:
-      Stribeck(const Parameters &parameters, const CoefficientBasis &)
-        : s(parameters.number("Friction/stribeck/Rise"))
-        , V_s(parameters.number("Friction/stribeck/Speed"))
-        , q(parameters.number("Friction/stribeck/Exponent"))
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name       = "stribeck";
+        info.words      = "higher friction at slow speeds, as with a lubricant";
+        info.formula    = "G = 1 + s exp(-(lambda / V_s)^q)";
+        info.latex      = R"(G = 1 + s\,e^{-(\lambda/V_s)^q})";
+        info.source     = "Stribeck (1902), Z. VDI 46, 1341; Bo and Pavelescu "
+                          "(1982), Wear 82, 277";
+        info.parameters = {
+          {{"Rise", "s", "0.05", Quantity(Dimension::number, 0., 100.)},
+           "share by which the strength at rest exceeds that at high speed"},
+          {{"Speed",
+            "V_s",
+            "0.5 mm/s",
+            Quantity(Dimension::speed, 0., 1e30, true, true)},
+           "speed at which the rise has fallen to 37 %"},
+          {{"Exponent", "q", "1", Quantity(Dimension::number, 1., 10.)},
+           "exponent of the speed; less than 1 would fall infinitely fast from "
+           "rest"}};
+        info.neutral_settings = {{"Rise", "0"}};
+        info.typical_settings = {{"Rise", "0.1"},
+                                 {"Speed", "2 mm/s"},
+                                 {"Exponent", "1.5"}};
+        info.search       = {"slow speeds high, no memory of holds", search};
+        info.search.along = "log10 speed";
+        return info;
+      }
+
+      Stribeck(const EffectSection &section, const CoefficientBasis &)
+        : s(section.number("Rise"))
+        , V_s(section.number("Speed"))
+        , q(section.number("Exponent"))
       {}
 
       virtual bool depends_on_rate() const override
@@ -44,67 +70,24 @@ namespace SlipStep
         return factor;
       }
 
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name       = "stribeck";
-        info.words      = "higher friction at slow speeds, as with a lubricant";
-        info.formula    = "G = 1 + s exp(-(lambda / V_s)^q)";
-        info.latex      = "G = 1 + s\\,e^{-(\\lambda/V_s)^q}";
-        info.source     = "Stribeck (1902), Z. VDI 46, 1341; Bo and Pavelescu "
-                          "(1982), Wear 82, 277";
-        info.neutral    = "Rise = 0";
-        info.parameters = {
-          {"Rise",
-           "s",
-           "0.05",
-           Quantity(Dimension::number, 0., 100.),
-           "share by which the strength at rest exceeds that at high speed"},
-          {"Speed",
-           "V_s",
-           "0.5 mm/s",
-           Quantity(Dimension::speed, 0., 1e30, true, true),
-           "speed at which the rise has fallen to 37 %"},
-          {"Exponent",
-           "q",
-           "1",
-           Quantity(Dimension::number, 1., 10.),
-           "exponent of the speed; less than 1 would fall infinitely fast from "
-           "rest"}};
-        info.neutral_settings = {{"Rise", "0"}};
-        info.typical_settings = {{"Rise", "0.1"},
-                                 {"Speed", "2 mm/s"},
-                                 {"Exponent", "1.5"}};
-        info.search       = {"slow speeds high, no memory of holds", search};
-        info.search.along = "log10 speed";
-        return info;
-      }
-
     private:
       static TrialFormula search(const Circumstances &now)
       {
-        const std::string rise     = "Friction/stribeck/Rise";
-        const std::string speed    = "Friction/stribeck/Speed";
-        const std::string exponent = "Friction/stribeck/Exponent";
         const double slowest = now.range.slowest, fastest = now.range.fastest;
         TrialFormula formula;
         formula.is_one_sided = true;
-        formula.parameters   = {{rise, 0., 3., false},
-                                {speed, 0.1 * slowest, 10. * fastest, true},
-                                {exponent, 1., 3., false, true, false}};
+        formula.parameters   = {{"Rise", 0., 3., false},
+                                {"Speed", 0.1 * slowest, 10. * fastest, true},
+                                {"Exponent", 1., 3., false, true, false}};
         for (const double V : ladder(0.7 * slowest, 1.5 * fastest, 6))
-          formula.shapes.push_back([=](const double strength) {
-            return Values{{rise,
-                           std::clamp(just_noticed * strength, 1e-4, 2.9)},
-                          {speed, V},
-                          {exponent, 1.2}};
-          });
+          formula.add_shape("Rise",
+                            1e-4,
+                            2.9,
+                            {{"Speed", V}, {"Exponent", 1.2}});
         return formula;
       }
 
-      const double s;
-      const double V_s;
-      const double q;
+      const double s, V_s, q;
     };
 
     const RegisterEffect stribeck_registration = register_effect<Stribeck>();

@@ -18,23 +18,49 @@ namespace SlipStep
     using dealii::numbers::PI_2;
 
     /// The normal ratio grows with slip, ever slower towards 1, so that
-    /// sticking goes over into sliding smoothly: \f[ \frac{dr_s}{d\lambda} =
-    /// U(r_s), \qquad
-    ///     U = u \cot(\pi r_s/2) \quad\text{or}\quad U = -u \ln r_s. \f]
-    /// Hashiguchi, Ozaki and Okayasu (2005), Int. J. Solids Struct. 42, 1705.
-    /// Both forms are integrated exactly over a step: the first gives
-    /// \f$\cos(\pi r_s/2) = \cos(\pi r_{s0}/2)\,e^{-\pi u\lambda/2}\f$, the
-    /// second \f$E_1(-\ln r_s) = E_1(-\ln r_{s0}) + u\lambda\f$. With an
-    /// elastic range r_e nothing slips below r_s = r_e, and \f$(r_s -
-    /// r_e)/(1 - r_e)\f$ takes the place of r_s in U: the material constant R_e
-    /// of Hashiguchi, Elastoplasticity Theory (2014).
+    /// sticking goes over into sliding smoothly. Both forms are integrated
+    /// exactly over a step: the first gives \f$\cos(\pi R/2) = \cos(\pi
+    /// R_0/2)\,e^{-\pi u\lambda/2}\f$, the second \f$E_1(-\ln R) = E_1(-\ln
+    /// R_0) + u\lambda\f$, with \f$\lambda/(1 - r_e)\f$ for the slip. Nothing
+    /// slips below the elastic range r_e, the material constant R_e of
+    /// Hashiguchi, Elastoplasticity Theory (2014).
     class Subloading : public Effect
     {
     public:
-      Subloading(const Parameters &parameters, const CoefficientBasis &)
-        : u(parameters.number("Friction/subloading/Rate"))
-        , r_e(parameters.number("Friction/subloading/Elastic range"))
-        , is_logarithmic(parameters.text("Friction/subloading/Form") == "log")
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name  = "subloading";
+        info.slot  = ExclusiveSlot::normal_ratio;
+        info.words = "slip that begins little by little before full friction";
+        info.formula =
+          "d r_s/d lambda = u cot(pi R/2) or -u ln(R), R = (r_s - r_e)/(1 - "
+          "r_e); r_s <= r";
+        info.latex =
+          R"(\frac{dr_s}{d\lambda} = u \cot\frac{\pi R}{2} )"
+          R"(\quad\text{or}\quad -u \ln R, \qquad R = )"
+          R"(\left<\frac{r_s - r_e}{1 - r_e}\right>, \qquad r_s \le r)";
+        info.source  = "Hashiguchi, Ozaki and Okayasu (2005), Int. J. Solids "
+                       "Struct. 42, 1705-1727";
+        info.neutral = "Rate -> infinity; switch the effect off instead";
+        info.parameters = {
+          {{"Form", "U", "cot", one_of("cot|log")},
+           "evolution function of the normal ratio: 'cot' is u cot(pi R/2), "
+           "'log' is -u ln(R), with R = r_s without an elastic range"},
+          {{"Rate", "u", "200", positive(Dimension::per_length)},
+           "rate at which the normal ratio grows with slip: sliding is fully "
+           "developed after a slip of a few 1/u; infinity is Coulomb's law"},
+          {{"Elastic range", "r_e", "0", Quantity(Dimension::number, 0., 0.99)},
+           "normal ratio below which nothing slips"}};
+        info.neutral_settings = {{"Rate", "1e12"}};
+        info.search           = {"rounded flanks before every peak", search};
+        return info;
+      }
+
+      Subloading(const EffectSection &section, const CoefficientBasis &)
+        : u(section.number("Rate"))
+        , r_e(section.number("Elastic range"))
+        , is_logarithmic(section.text("Form") == "log")
       {}
 
       virtual double virgin_normal_ratio() const override
@@ -65,57 +91,17 @@ namespace SlipStep
         return result;
       }
 
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name  = "subloading";
-        info.slot  = ExclusiveSlot::normal_ratio;
-        info.words = "slip that begins little by little before full friction";
-        info.formula =
-          "d r_s/d lambda = u cot(pi R/2) or -u ln(R), R = (r_s - r_e)/(1 - "
-          "r_e); r_s <= r";
-        info.latex =
-          "\\frac{dr_s}{d\\lambda} = u \\cot\\frac{\\pi R}{2} "
-          "\\quad\\text{or}\\quad -u \\ln R, \\qquad R = "
-          "\\left<\\frac{r_s - r_e}{1 - r_e}\\right>, \\qquad r_s \\le r";
-        info.source  = "Hashiguchi, Ozaki and Okayasu (2005), Int. J. Solids "
-                       "Struct. 42, 1705-1727";
-        info.neutral = "Rate -> infinity; switch the effect off instead";
-        info.parameters = {
-          {"Form",
-           "U",
-           "cot",
-           dealii::Patterns::Selection("cot|log"),
-           "evolution function of the normal ratio: 'cot' is u cot(pi R/2), "
-           "'log' is -u ln(R), with R = r_s without an elastic range"},
-          {"Rate",
-           "u",
-           "200",
-           Quantity(Dimension::per_length, 0., 1e30, true),
-           "rate at which the normal ratio grows with slip: sliding is fully "
-           "developed after a slip of a few 1/u; infinity is Coulomb's law"},
-          {"Elastic range",
-           "r_e",
-           "0",
-           Quantity(Dimension::number, 0., 0.99),
-           "normal ratio below which nothing slips"}};
-        info.neutral_settings = {{"Rate", "1e12"}};
-        info.search           = {"rounded flanks before every peak", search};
-        return info;
-      }
-
     private:
       // The smooth onset of slip.
       static TrialFormula search(const Circumstances &now)
       {
-        const std::string rate = "Friction/subloading/Rate";
-        const double      unit = 100. / now.range.longest_path;
-        TrialFormula      formula;
+        const double unit = 100. / now.range.longest_path;
+        TrialFormula formula;
         formula.is_one_sided = true;
-        formula.parameters   = {{rate, 0.01 * unit, 1e5 * unit, true}};
+        formula.parameters   = {{"Rate", 0.01 * unit, 1e5 * unit, true}};
         for (const double u : {1., 30.})
           formula.shapes.push_back([=](const double strength) {
-            return Values{{rate,
+            return Values{{"Rate",
                            std::clamp(u * unit / std::max(strength, 1e-3),
                                       0.011 * unit,
                                       9e4 * unit)}};
@@ -170,8 +156,7 @@ namespace SlipStep
         return {std::exp(-y), u * y, y / y0};
       }
 
-      const double u;
-      const double r_e;
+      const double u, r_e;
       const bool   is_logarithmic;
     };
 

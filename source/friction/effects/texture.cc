@@ -22,36 +22,90 @@ namespace SlipStep
       {"track_2_mm", 0., -std::numeric_limits<double>::infinity()});
 
     /// A pattern of the surface, of grooves, of a bent slide or of a screw that
-    /// is not round, with two harmonics that give its waves a shape:
-    /// \f[ G = 1 + w \left(\sin\theta + s_2 \sin 2\theta + c_2 \cos 2\theta +
-    ///     s_3 \sin 3\theta + c_3 \cos 3\theta\right), \quad
-    ///     \theta = \frac{2\pi\,e \cdot x}{\Lambda} + \varphi, \f]
-    /// where e is the unit vector across the grooves and x where slip has
-    /// brought the contact, or its block while it is off the plane: forth and
-    /// back are the same places, unlike the slip path. Chosen.
+    /// is not round, with two harmonics that give its waves a shape: e is the
+    /// unit vector across the grooves and x where slip has brought the contact,
+    /// or its block while it is off the plane. Forth and back are the same
+    /// places, unlike the slip path.
     class Texture : public StrengthEffect
     {
     public:
-      Texture(const Parameters &parameters, const CoefficientBasis &)
-        : w(parameters.number(amplitude_key))
-        , wave_number(2. * PI / parameters.number(wavelength_key))
-        , phase(parameters.number(phase_key))
+      static EffectInfo info()
+      {
+        const Quantity share(Dimension::number, -100., 100.);
+        EffectInfo     info;
+        info.name  = "texture";
+        info.words = "a pattern along the track, the same forth and back";
+        info.formula =
+          "G = 1 + w (sin(theta) + s_2 sin(2 theta) + c_2 cos(2 theta) + s_3 "
+          "sin(3 theta) + c_3 cos(3 theta)), theta = 2 pi e.x / Lambda + phi, x: "
+          "where the contact has got to over the plane";
+        info.latex =
+          R"(G = 1 + w \left(\sin\theta + s_2 \sin 2\theta + c_2 \cos )"
+          R"(2\theta + s_3 \sin 3\theta + c_3 \cos 3\theta\right), )"
+          R"(\quad \theta = \frac{2\pi\,e \cdot x}{\Lambda} + \varphi)";
+        info.source     = "chosen";
+        info.parameters = {
+          {{"Amplitude", "w", "0.05", Quantity(Dimension::number, 0., 0.99)},
+           "share by which the strength goes up and down"},
+          {{"Wavelength", "Lambda", "2", positive(Dimension::length)},
+           "length of a wave across the grooves"},
+          {{"Phase", "phi", "0", Quantity(Dimension::angle, -720., 720.)},
+           "phase where the contact was first loaded"},
+          {{"Angle", "", "0", Quantity(Dimension::angle, -360., 360.)},
+           "angle in the contact plane, from its first axis to the direction e "
+           "across the grooves"},
+          {{"Second sine", "s_2", "0", share},
+           "share of the amplitude that a wave of half the length has"},
+          {{"Second cosine", "c_2", "0", share},
+           "the same, a quarter of it ahead"},
+          {{"Third sine", "s_3", "0", share},
+           "share of the amplitude that a wave of a third of the length has"},
+          {{"Third cosine", "c_3", "0", share},
+           "the same, a quarter of it ahead"}};
+        info.neutral_settings   = {{"Amplitude", "0"}};
+        info.typical_settings   = {{"Amplitude", "0.3"},
+                                   {"Wavelength", "0.1 mm"},
+                                   {"Phase", "40 deg"},
+                                   {"Angle", "30 deg"},
+                                   {"Second sine", "-0.4"},
+                                   {"Second cosine", "0.3"},
+                                   {"Third sine", "0.2"},
+                                   {"Third cosine", "-0.1"}};
+        info.search             = {"waves along the track", search};
+        info.search.other_forms = {search_oblique};
+        for (const bool is_second : {false, true})
+          for (const auto even : {search, search_oblique})
+            info.search.other_forms.push_back(
+              [is_second, even](const Circumstances &now) {
+                return uneven(even(now), is_second);
+              });
+        info.search.along   = "position";
+        info.is_sudden      = true;
+        info.heeds_position = [](const EffectSection &) { return true; };
+        return info;
+      }
+
+      Texture(const EffectSection &section, const CoefficientBasis &)
+        : StrengthEffect({track_1, track_2})
+        , w(section.number("Amplitude"))
+        , wave_number(2. * PI / section.number("Wavelength"))
+        , phase(section.number("Phase"))
       {
         for (unsigned int i = 0; i < shape_keys.size(); ++i)
-          waves[i] = parameters.number(shape_keys[i]);
+          waves[i] = section.number(shape_keys[i]);
         const double largest =
           1. + std::hypot(waves[0], waves[1]) + std::hypot(waves[2], waves[3]);
         if (w * largest >= 1.)
-          parameters.reject(amplitude_key,
-                            "with its harmonics, which make it up to " +
-                              short_text(largest) +
-                              " times as large, it must be less than 1, or "
-                              "friction could vanish");
+          section.reject("Amplitude",
+                         "with its harmonics, which make it up to " +
+                           short_text(largest) +
+                           " times as large, it must be less than 1, or "
+                           "friction could vanish");
         swing              = w * largest;
         shortest           = waves[2] != 0. || waves[3] != 0. ? 3. :
                              waves[0] != 0. || waves[1] != 0. ? 2. :
                                                                 1.;
-        const double angle = parameters.number("Friction/texture/Angle");
+        const double angle = section.number("Angle");
         across[0]          = std::cos(angle);
         across[1]          = std::sin(angle);
       }
@@ -95,91 +149,6 @@ namespace SlipStep
         end[track_2] = step.start[track_2] + step.way()[1];
       }
 
-      virtual std::vector<ContactMemory> memories() const override
-      {
-        return {track_1, track_2};
-      }
-
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name  = "texture";
-        info.words = "a pattern along the track, the same forth and back";
-        info.formula =
-          "G = 1 + w (sin(theta) + s_2 sin(2 theta) + c_2 cos(2 theta) + s_3 "
-          "sin(3 theta) + c_3 cos(3 theta)), theta = 2 pi e.x / Lambda + phi, x: "
-          "where the contact has got to over the plane";
-        info.latex =
-          "G = 1 + w \\left(\\sin\\theta + s_2 \\sin 2\\theta + c_2 \\cos "
-          "2\\theta + s_3 \\sin 3\\theta + c_3 \\cos 3\\theta\\right), \\quad "
-          "\\theta = \\frac{2\\pi\\,e \\cdot x}{\\Lambda} + \\varphi";
-        info.source     = "chosen";
-        info.neutral    = "Amplitude = 0";
-        info.parameters = {
-          {"Amplitude",
-           "w",
-           "0.05",
-           Quantity(Dimension::number, 0., 0.99),
-           "share by which the strength goes up and down"},
-          {"Wavelength",
-           "Lambda",
-           "2",
-           Quantity(Dimension::length, 0., 1e30, true),
-           "length of a wave across the grooves"},
-          {"Phase",
-           "phi",
-           "0",
-           Quantity(Dimension::angle, -720., 720.),
-           "phase where the contact was first loaded"},
-          {"Angle",
-           "",
-           "0",
-           Quantity(Dimension::angle, -360., 360.),
-           "angle in the contact plane, from its first axis to the direction e "
-           "across the grooves"},
-          {"Second sine",
-           "s_2",
-           "0",
-           Quantity(Dimension::number, -100., 100.),
-           "share of the amplitude that a wave of half the length has"},
-          {"Second cosine",
-           "c_2",
-           "0",
-           Quantity(Dimension::number, -100., 100.),
-           "the same, a quarter of it ahead"},
-          {"Third sine",
-           "s_3",
-           "0",
-           Quantity(Dimension::number, -100., 100.),
-           "share of the amplitude that a wave of a third of the length has"},
-          {"Third cosine",
-           "c_3",
-           "0",
-           Quantity(Dimension::number, -100., 100.),
-           "the same, a quarter of it ahead"}};
-        info.neutral_settings   = {{"Amplitude", "0"}};
-        info.typical_settings   = {{"Amplitude", "0.3"},
-                                   {"Wavelength", "0.1 mm"},
-                                   {"Phase", "40 deg"},
-                                   {"Angle", "30 deg"},
-                                   {"Second sine", "-0.4"},
-                                   {"Second cosine", "0.3"},
-                                   {"Third sine", "0.2"},
-                                   {"Third cosine", "-0.1"}};
-        info.search             = {"waves along the track", search};
-        info.search.other_forms = {search_oblique};
-        for (const bool is_second : {false, true})
-          for (const auto even : {search, search_oblique})
-            info.search.other_forms.push_back(
-              [is_second, even](const Circumstances &now) {
-                return uneven(even(now), is_second);
-              });
-        info.search.along   = "position";
-        info.is_sudden      = true;
-        info.heeds_position = [](const Parameters &) { return true; };
-        return info;
-      }
-
     private:
       static TrialFormula search(const Circumstances &now)
       {
@@ -193,7 +162,7 @@ namespace SlipStep
         for (const char *const key : shape_keys)
           formula.parameters.push_back({key, -5., 5., false});
         for (CandidateParameter &parameter : formula.parameters)
-          if (parameter.path == wavelength_key && is_second)
+          if (parameter.path == "Wavelength" && is_second)
             {
               parameter.lower *= 2.;
               parameter.upper *= 2.;
@@ -206,10 +175,10 @@ namespace SlipStep
             if (is_second)
               {
                 constexpr double times_the_first = 3.;
-                values[amplitude_key] /= 1. + times_the_first;
+                values["Amplitude"] /= 1. + times_the_first;
                 values[shape_keys[0]] = times_the_first;
-                values[wavelength_key] *= 2.;
-                values[phase_key] /= 2.;
+                values["Wavelength"] *= 2.;
+                values["Phase"] /= 2.;
               }
             return values;
           };
@@ -223,8 +192,7 @@ namespace SlipStep
         if (formula.why_not.empty() && now.range.widest_angle < 0.1)
           return TrialFormula::none("all tests move along one line");
         if (formula.why_not.empty())
-          formula.parameters.push_back(
-            {"Friction/texture/Angle", -0.45 * PI, 0.45 * PI, false});
+          formula.parameters.push_back({"Angle", -0.45 * PI, 0.45 * PI, false});
         return formula;
       }
 
@@ -236,39 +204,29 @@ namespace SlipStep
         const double along = now.range.track_wave;
         if (!(along > 0.))
           return TrialFormula::none("there is no clear wave along the track");
-        const std::string amplitude  = amplitude_key,
-                          wavelength = wavelength_key, phase = phase_key;
         TrialFormula formula;
-        formula.parameters = {{amplitude, 0., 0.9, false},
-                              {wavelength, 0.5 * along, 1.5 * along, true},
-                              {phase, -2. * PI, 2. * PI, false}};
+        formula.parameters = {{"Amplitude", 0., 0.9, false},
+                              {"Wavelength", 0.5 * along, 1.5 * along, true},
+                              {"Phase", -2. * PI, 2. * PI, false}};
         for (const double angle : angles)
           for (const double shift : {0., PI / 2.})
             formula.shapes.push_back([=](const double strength) {
               Values values = {
-                {amplitude,
+                {"Amplitude",
                  std::clamp(just_noticed * std::abs(strength), 1e-4, 0.8)},
-                {wavelength, along * std::cos(angle)},
-                {phase, strength < 0. ? shift - PI : shift}};
+                {"Wavelength", along * std::cos(angle)},
+                {"Phase", strength < 0. ? shift - PI : shift}};
               if (angle != 0.)
-                values["Friction/texture/Angle"] = angle;
+                values["Angle"] = angle;
               return values;
             });
         return formula;
       }
 
-      static constexpr auto amplitude_key  = "Friction/texture/Amplitude";
-      static constexpr auto wavelength_key = "Friction/texture/Wavelength";
-      static constexpr auto phase_key      = "Friction/texture/Phase";
       static constexpr std::array<const char *, 4> shape_keys = {
-        {"Friction/texture/Second sine",
-         "Friction/texture/Second cosine",
-         "Friction/texture/Third sine",
-         "Friction/texture/Third cosine"}};
+        {"Second sine", "Second cosine", "Third sine", "Third cosine"}};
 
-      const double          w;
-      const double          wave_number;
-      const double          phase;
+      const double          w, wave_number, phase;
       std::array<double, 4> waves;    ///< s_2, c_2, s_3, c_3
       double                swing;    ///< largest departure from 1
       double                shortest; ///< number of the shortest wave

@@ -8,17 +8,36 @@ namespace SlipStep
     /// Depth of the material that is gone.
     const ContactMemory worn_depth = register_memory({"worn_depth_mm"});
 
-    /// The block loses material where it is pressed and slides:
-    /// \f[ \frac{dw}{d\lambda} = k f_n. \f]
-    /// Archard (1953), J. Appl. Phys. 24, 981: the volume worn is load times
-    /// path times k, hardness and probability in one. The strength stays; what
-    /// changes is the contact face of a block, see ContactFace::respond().
+    /// The block loses material where it is pressed and slides: the volume worn
+    /// is load times path times k, hardness and probability in one. The
+    /// strength stays; what changes is the contact face of a block, see
+    /// ContactFace::respond().
     class Wear : public StrengthEffect
     {
     public:
-      Wear(const Parameters &parameters, const CoefficientBasis &)
+      static EffectInfo info()
+      {
+        EffectInfo info;
+        info.name       = "wear";
+        info.words      = "material that is lost under pressure and slip";
+        info.formula    = "dw/d lambda = k f_n, k in mm^3/(N m)";
+        info.latex      = R"(\frac{dw}{d\lambda} = k f_n)";
+        info.source     = "Archard (1953), J. Appl. Phys. 24, 981-988";
+        info.parameters = {
+          {{"Specific rate", "k", "0", Quantity(Dimension::number, 0., 1e6)},
+           "volume worn per load and slip path, in mm^3/(N m); 1e-6 is mild, "
+           "1e-3 severe. On one contact point only the depth is counted"}};
+        info.neutral_settings = {{"Specific rate", "0"}};
+        info.typical_settings = {{"Specific rate", "1"}};
+        info.search.why_not =
+          "it changes the pressure within a face, not the friction of a point";
+        return info;
+      }
+
+      Wear(const EffectSection &section, const CoefficientBasis &)
+        : StrengthEffect({worn_depth})
         // mm^3/(N m) = 1e-3 mm^2/N
-        : k(1e-3 * parameters.number("Friction/wear/Specific rate"))
+        , k(1e-3 * section.number("Specific rate"))
       {}
 
       virtual double wear_rate() const override
@@ -31,34 +50,6 @@ namespace SlipStep
       {
         end[worn_depth] =
           step.start[worn_depth] + k * step.normal_traction * step.path;
-      }
-
-      virtual std::vector<ContactMemory> memories() const override
-      {
-        return {worn_depth};
-      }
-
-      static EffectInfo info()
-      {
-        EffectInfo info;
-        info.name       = "wear";
-        info.words      = "material that is lost under pressure and slip";
-        info.formula    = "dw/d lambda = k f_n, k in mm^3/(N m)";
-        info.latex      = "\\frac{dw}{d\\lambda} = k f_n";
-        info.source     = "Archard (1953), J. Appl. Phys. 24, 981-988";
-        info.neutral    = "Specific rate = 0";
-        info.parameters = {
-          {"Specific rate",
-           "k",
-           "0",
-           Quantity(Dimension::number, 0., 1e6),
-           "volume worn per load and slip path, in mm^3/(N m); 1e-6 is mild, "
-           "1e-3 severe. On one contact point only the depth is counted"}};
-        info.neutral_settings = {{"Specific rate", "0"}};
-        info.typical_settings = {{"Specific rate", "1"}};
-        info.search.why_not =
-          "it changes the pressure within a face, not the friction of a point";
-        return info;
       }
 
     private:
