@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/convergence.h>
 
-#include <boost/math/tools/roots.hpp>
+#include <slipstep/utilities/roots.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,14 +39,7 @@ namespace SlipStep
     };
     if (!(excess(least_order) < 0. && excess(largest_order) > 0.))
       return none;
-    std::uintmax_t n_iterations = 200;
-    const auto     bracket      = boost::math::tools::toms748_solve(
-      excess,
-      least_order,
-      largest_order,
-      boost::math::tools::eps_tolerance<double>(45),
-      n_iterations);
-    const double p = (bracket.first + bracket.second) / 2.;
+    const double p = root_between(excess, least_order, largest_order, 45);
     return {values[n - 1] - d2 / (std::pow(x2, p) - 1.), p};
   }
 

@@ -3,9 +3,8 @@
 #include <slipstep/experiment/contact_under_load.h>
 #include <slipstep/utilities/pattern_words.h>
 
+#include <slipstep/utilities/roots.h>
 #include <slipstep/utilities/units.h>
-
-#include <boost/math/tools/roots.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -199,14 +198,10 @@ namespace SlipStep
             power < 0 ? 1. - std::exp2(power) : std::exp2(-1 - power);
           if (excess(lower) > 0.)
             {
-              boost::uintmax_t iterations = 200;
-              const auto       bracket    = boost::math::tools::toms748_solve(
-                [this](const double share) { return excess(share); },
-                lower,
-                upper,
-                boost::math::tools::eps_tolerance<double>(51),
-                iterations);
-              upper = (bracket.first + bracket.second) / 2.;
+              const auto excess_at = [this](const double share) {
+                return excess(share);
+              };
+              upper = root_between(excess_at, lower, upper, 51);
               break;
             }
           upper = lower;

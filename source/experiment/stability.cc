@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/stability.h>
+#include <slipstep/utilities/roots.h>
 #include <slipstep/utilities/text.h>
-
-#include <boost/math/tools/roots.hpp>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/lac/full_matrix.h>
@@ -258,14 +257,11 @@ namespace SlipStep
         const double next = dynamic_stiffness(omega / ratio).imag();
         if (loss * next < 0.)
           {
-            boost::uintmax_t iterations = 100;
-            const auto       bracket    = boost::math::tools::toms748_solve(
+            const double critical = root_between(
               [&](const double w) { return dynamic_stiffness(w).imag(); },
               omega / ratio,
               omega,
-              boost::math::tools::eps_tolerance<double>(30),
-              iterations);
-            const double critical = (bracket.first + bracket.second) / 2.;
+              30);
             const double stiffness =
               mass * critical * critical - dynamic_stiffness(critical).real();
             if (stiffness > result.stiffness)

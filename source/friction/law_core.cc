@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/local_system.h>
 
-#include <boost/math/tools/roots.hpp>
+#include <slipstep/utilities/roots.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,16 +75,7 @@ namespace SlipStep
     else if (slope(1.) <= 0.)
       s = 1.;
     else
-      {
-        boost::uintmax_t iterations = 200;
-        const auto       bracket    = boost::math::tools::toms748_solve(
-          slope,
-          0.,
-          1.,
-          boost::math::tools::eps_tolerance<double>(50),
-          iterations);
-        s = (bracket.first + bracket.second) / 2.;
-      }
+      s = root_between(slope, 0., 1.);
     return at(s).ratio;
   }
 

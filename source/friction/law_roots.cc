@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/local_system.h>
 
+#include <slipstep/utilities/roots.h>
+
 #include <boost/math/tools/roots.hpp>
 
 #include <algorithm>
@@ -211,13 +213,6 @@ namespace SlipStep
 
     if (!(residual(lower) > 0.) || !(residual(upper) < 0.))
       return;
-    boost::uintmax_t iterations = 200;
-    const auto       bracket    = boost::math::tools::toms748_solve(
-      residual,
-      lower,
-      upper,
-      boost::math::tools::eps_tolerance<double>(50),
-      iterations);
-    evaluate((bracket.first + bracket.second) / 2., local);
+    evaluate(root_between(residual, lower, upper), local);
   }
 } // namespace SlipStep

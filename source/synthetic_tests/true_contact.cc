@@ -2,9 +2,9 @@
 #include <slipstep/synthetic_tests/true_contact.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/roots.h>
 
 #include <boost/math/constants/constants.hpp>
-#include <boost/math/tools/roots.hpp>
 #include <boost/numeric/odeint/stepper/rosenbrock4.hpp>
 #include <boost/numeric/odeint/stepper/rosenbrock4_controller.hpp>
 
@@ -29,19 +29,6 @@ namespace SlipStep
       double growth(const double exponent)
       {
         return std::expm1(std::min(exponent, 60.));
-      }
-
-      template <typename Function>
-      double root(const Function &function, const double a, const double b)
-      {
-        boost::uintmax_t iterations = 100;
-        const auto       bracket    = boost::math::tools::toms748_solve(
-          function,
-          a,
-          b,
-          boost::math::tools::eps_tolerance<double>(46),
-          iterations);
-        return (bracket.first + bracket.second) / 2.;
       }
     } // namespace
 
@@ -69,13 +56,14 @@ namespace SlipStep
         return 1. + std::asinh(speed / base_speed) / exponent;
       if (formula == Formula::third)
         return 1. + std::log1p(speed / base_speed) / exponent;
-      return root(
+      return root_between(
         [&](const double r) {
           return viscosity * speed * (maximum_ratio - r) -
                  growth(exponent * (r - 1.));
         },
         1.,
-        maximum_ratio);
+        maximum_ratio,
+        46);
     }
 
 
@@ -302,7 +290,7 @@ namespace SlipStep
           }
         if (!(excess(lower) > 0. && excess(upper) < 0.))
           return upper;
-        const double r = root(excess, lower, upper);
+        const double r = root_between(excess, lower, upper, 46);
         now.slip_rate  = contact.flow.slip_rate(r, r_s);
         return r;
       }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/effect.h>
-
-#include <boost/math/tools/roots.hpp>
+#include <slipstep/utilities/roots.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,14 +76,11 @@ namespace SlipStep
       {
         if (slip_rate <= 0.)
           return 1.;
-        boost::uintmax_t iterations = 200;
-        const auto       bracket    = boost::math::tools::toms748_solve(
+        return root_between(
           [&](const double r) { return flow_residual(r, 1., slip_rate).value; },
           1.,
           r_m,
-          boost::math::tools::eps_tolerance<double>(52),
-          iterations);
-        return (bracket.first + bracket.second) / 2.;
+          52);
       }
 
       virtual double maximum_ratio() const override
