@@ -5,6 +5,7 @@
 #include <slipstep/calibration/fit.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/measured_data/test_set.h>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <cmath>
@@ -293,9 +294,7 @@ namespace SlipStep
       // Away from a bound; all of the direction, or it is another one.
       const auto is_outside = [&](const double step) {
         const std::vector<double> scaled = shifted(step);
-        return std::any_of(scaled.begin(), scaled.end(), [](const double x) {
-          return x < 0. || x > 1.;
-        });
+        return any_of(scaled, [](const double x) { return x < 0. || x > 1.; });
       };
       const CampaignTest &like = simulator.campaign.tests.front();
       Replay              replay(proposed.motion);
@@ -472,9 +471,7 @@ namespace SlipStep
         }
       // Where nothing was found to fit, no values are told.
       const bool has_values =
-        std::any_of(weak.change.begin(), weak.change.end(), [](const double x) {
-          return x != 0.;
-        });
+        any_of(weak.change, [](const double x) { return x != 0.; });
       if (weak.members.size() == 1)
         return names[0] + " is hardly determined by these tests" +
                (has_values ? ": " + changes[0] + " fits nearly as well" : "") +
@@ -522,13 +519,10 @@ namespace SlipStep
               weak.members.push_back(i);
           }
         // One of them has to be what is weak, and not only in company.
-        if (std::none_of(weak.members.begin(),
-                         weak.members.end(),
-                         [&](const std::size_t i) {
-                           return std::abs(deviation *
-                                           optimum.directions(i, k)) >
-                                  0.5 * weak_deviation;
-                         }))
+        if (none_of(weak.members, [&](const std::size_t i) {
+              return std::abs(deviation * optimum.directions(i, k)) >
+                     0.5 * weak_deviation;
+            }))
           continue;
         weak.words = words_of(weak, campaign) +
                      best_test(simulator, optimum, k, proposed) + ".";

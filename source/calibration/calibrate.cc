@@ -7,6 +7,7 @@
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>
 
@@ -204,11 +205,10 @@ namespace SlipStep
       if (!found[first].converged)
         result.warnings.push_back(
           "The search did not come to its end: " + found[first].message + ".");
-      std::stable_sort(result.starts.begin(),
-                       result.starts.end(),
-                       [](const StartResult &a, const StartResult &b) {
-                         return a.misfit < b.misfit;
-                       });
+      stable_sort(result.starts,
+                  [](const StartResult &a, const StartResult &b) {
+                    return a.misfit < b.misfit;
+                  });
     }
 
 
@@ -235,8 +235,7 @@ namespace SlipStep
       const std::string warning =
         "The error of the time steps moves parameters by more than a tenth of "
         "their standard deviations: take a smaller Time stepping/Tolerance.";
-      if (std::find(result.warnings.begin(), result.warnings.end(), warning) ==
-          result.warnings.end())
+      if (!holds(result.warnings, warning))
         result.warnings.push_back(warning);
     }
 
@@ -388,18 +387,11 @@ namespace SlipStep
           }
       // They tell of the surroundings of an optimum, which this is not.
       auto &weak = result.weak;
-      weak.erase(
-        std::remove_if(weak.begin(),
-                       weak.end(),
-                       [&](const WeakDirection &direction) {
-                         return std::any_of(
-                           direction.members.begin(),
-                           direction.members.end(),
-                           [&](const std::size_t i) {
-                             return !result.parameters[i].constraint.empty();
-                           });
-                       }),
-        weak.end());
+      remove_erase_if(weak, [&](const WeakDirection &direction) {
+        return any_of(direction.members, [&](const std::size_t i) {
+          return !result.parameters[i].constraint.empty();
+        });
+      });
     }
 
 
@@ -439,11 +431,9 @@ namespace SlipStep
             campaign.parameters.text("Calibration/Most time") +
             " was over before ";
       const std::size_t n_left_out =
-        std::count_if(result.starts.begin(),
-                      result.starts.end(),
-                      [](const StartResult &start) {
-                        return start.message == no_time;
-                      });
+        count_if(result.starts, [](const StartResult &start) {
+          return start.message == no_time;
+        });
       if (n_left_out > 0)
         result.warnings.push_back(over + std::to_string(n_left_out) + " of " +
                                   counted(result.starts.size(), "start") +
@@ -534,11 +524,9 @@ namespace SlipStep
 
     bool Calibrator::noise_is_stated() const
     {
-      return std::any_of(campaign.tests.begin(),
-                         campaign.tests.end(),
-                         [](const CampaignTest &test) {
-                           return test.noise_is_stated;
-                         });
+      return any_of(campaign.tests, [](const CampaignTest &test) {
+        return test.noise_is_stated;
+      });
     }
 
 

@@ -7,6 +7,7 @@
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 
 #include <boost/algorithm/string/erase.hpp>
 
@@ -428,13 +429,9 @@ namespace SlipStep
     std::string kind_of_warning(std::string text, const std::string &file)
     {
       boost::algorithm::erase_all(text, file);
-      text.erase(std::remove_if(text.begin(),
-                                text.end(),
-                                [](const char c) {
-                                  return std::string("0123456789.e+-")
-                                           .find(c) != std::string::npos;
-                                }),
-                 text.end());
+      remove_erase_if(text, [](const char c) {
+        return std::string("0123456789.e+-").find(c) != std::string::npos;
+      });
       return text;
     }
   } // namespace

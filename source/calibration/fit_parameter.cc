@@ -4,11 +4,11 @@
 #include <slipstep/calibration/fit_parameter.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/utilities/decimal_comma.h>
+#include <slipstep/utilities/lists.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <locale>
@@ -279,12 +279,9 @@ namespace SlipStep
       for (unsigned int n_parts = 1; n_parts < 4; ++n_parts)
         {
           parameter.name = last_part(parameter.path, n_parts);
-          if (std::count_if(parameters.begin(),
-                            parameters.end(),
-                            [&](const FitParameter &other) {
-                              return last_part(other.path, n_parts) ==
-                                     parameter.name;
-                            }) == 1)
+          if (count_if(parameters, [&](const FitParameter &other) {
+                return last_part(other.path, n_parts) == parameter.name;
+              }) == 1)
             break;
         }
   }

@@ -3,6 +3,7 @@
 
 #include <slipstep/calibration/simulator.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/process.h>
 
 #include <algorithm>
@@ -239,7 +240,7 @@ namespace SlipStep
                                     const std::size_t          test)
   {
     const auto is_of_test = [&](const std::vector<std::size_t> &tests) {
-      return std::find(tests.begin(), tests.end(), test) != tests.end();
+      return holds(tests, test);
     };
     const std::size_t motion =
       std::find_if(tests_of.begin(), tests_of.end(), is_of_test) -
@@ -372,7 +373,7 @@ namespace SlipStep
     side_by_side(replays.size(), [&](const std::size_t i) {
       const std::vector<std::size_t> &own = tests_of[i];
       std::optional<Simulation>       simulation;
-      if (std::any_of(own.begin(), own.end(), is_compared))
+      if (any_of(own, is_compared))
         simulation.emplace(replays[i], law, machine);
       for (const std::size_t t : own)
         if (is_compared(t))

@@ -16,6 +16,7 @@
 #include <slipstep/solid/face_probes.h>
 #include <slipstep/solid/point_lines.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/variants.h>
 
@@ -277,9 +278,8 @@ namespace SlipStep
     const Programme       programme = parse_programme(parameters);
     const BlockParameters block(parameters, programme);
     if (!Machine(parameters).is_rigid() &&
-        std::none_of(block.faces.begin(),
-                     block.faces.end(),
-                     [](const FaceConditions &face) { return face.is_driven; }))
+        none_of(block.faces,
+                [](const FaceConditions &face) { return face.is_driven; }))
       parameters.reject("Loading/Machine stiffness",
                         "the machine moves the driven faces of the block, but "
                         "no face has 'drive'");

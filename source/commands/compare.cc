@@ -55,9 +55,7 @@ namespace SlipStep
               folders.push_back(folder / variant.folder);
         }
       for (const auto &entry : fs::directory_iterator(folder))
-        if (is_run(entry.path()) &&
-            std::find(folders.begin(), folders.end(), entry.path()) ==
-              folders.end())
+        if (is_run(entry.path()) && !holds(folders, entry.path()))
           others.push_back(entry.path());
       std::sort(others.begin(), others.end());
       if (!is_sweep)
@@ -178,7 +176,7 @@ namespace SlipStep
                                   values[0],
                                   value));
           };
-          if (std::all_of(values.begin(), values.end(), is_first))
+          if (all_of(values, is_first))
             continue;
           table[0].push_back(path);
           for (std::size_t i = 0; i < runs.size(); ++i)

@@ -5,13 +5,13 @@
 #include <slipstep/friction/law.h>
 #include <slipstep/friction/state_numbers.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <slipstep_fric_source.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -27,17 +27,13 @@ namespace SlipStep
                                  const std::filesystem::path &file)
     {
       const bool is_same_law =
-        std::all_of(the_case.variants.begin(),
-                    the_case.variants.end(),
-                    [](const Variant &variant) {
-                      return std::none_of(
-                        variant.overrides.begin(),
-                        variant.overrides.end(),
-                        [](const Variant::Override &setting) {
-                          return boost::algorithm::starts_with(setting.path,
-                                                               "Friction/");
-                        });
-                    });
+        all_of(the_case.variants, [](const Variant &variant) {
+          return none_of(variant.overrides,
+                         [](const Variant::Override &setting) {
+                           return boost::algorithm::starts_with(setting.path,
+                                                                "Friction/");
+                         });
+        });
       if (!is_same_law)
         throw InputError(file.string() +
                          ": its variants have different laws; choose one with "

@@ -89,11 +89,9 @@ namespace SlipStep
           // What the study varies comes last, so that settings which mean
           // nothing to a run, as those of adaptive meshes, are not wrong.
           for (const auto &typed : line.settings)
-            if (std::none_of(run.settings.begin(),
-                             run.settings.end(),
-                             [&](const auto &setting) {
-                               return setting.first == typed.first;
-                             }))
+            if (none_of(run.settings, [&](const auto &setting) {
+                  return setting.first == typed.first;
+                }))
               job.arguments.push_back("--set=" + typed.first + "=" +
                                       typed.second);
           for (const auto &setting : run.settings)

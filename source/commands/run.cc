@@ -13,6 +13,7 @@
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/commands/case.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>
 
@@ -358,11 +359,8 @@ namespace SlipStep
         {
           const auto &overrides = the_case.variants[i].overrides;
           const auto  has_own   = [&](const std::string &path) {
-            return std::any_of(overrides.begin(),
-                               overrides.end(),
-                               [&](const auto &own) {
-                                 return own.path == path;
-                               });
+            return any_of(overrides,
+                          [&](const auto &own) { return own.path == path; });
           };
           for (const std::string &section :
                inactive_sections(the_case.complete[i]))

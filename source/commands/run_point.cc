@@ -7,9 +7,9 @@
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/experiment/stability.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/process.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -49,11 +49,9 @@ namespace SlipStep
                                          limit.stiffness,
                                          limit.frequency /
                                            (2. * dealii::numbers::PI)};
-          if (std::none_of(result.begin(),
-                           result.end(),
-                           [&](const auto &other) {
-                             return is_like(summary, other);
-                           }))
+          if (none_of(result, [&](const auto &other) {
+                return is_like(summary, other);
+              }))
             result.push_back(summary);
         }
       return result;

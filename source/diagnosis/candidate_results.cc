@@ -2,6 +2,7 @@
 #include <slipstep/diagnosis/candidate_results.h>
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/rules.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/process.h>
 
 #include <algorithm>
@@ -48,9 +49,7 @@ namespace SlipStep
           result.why      = seen.failure;
           result.standing = Standing::not_simulated;
         }
-      else if (std::count(judgement.found.lost.begin(),
-                          judgement.found.lost.end(),
-                          result.name) > 0)
+      else if (holds(judgement.found.lost, result.name))
         {
           result.why      = "no fit with it could be simulated";
           result.standing = Standing::not_simulated;
@@ -131,12 +130,11 @@ namespace SlipStep
             cheapest_test(workspace, own, seen.candidate);
         }
     });
-    std::stable_sort(results.begin(),
-                     results.end(),
-                     [](const CandidateResult &a, const CandidateResult &b) {
-                       return rank(a) != rank(b) ? rank(a) < rank(b) :
-                                                   a.score > b.score;
-                     });
+    stable_sort(results,
+                [](const CandidateResult &a, const CandidateResult &b) {
+                  return rank(a) != rank(b) ? rank(a) < rank(b) :
+                                              a.score > b.score;
+                });
     return results;
   }
 } // namespace SlipStep

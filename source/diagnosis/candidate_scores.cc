@@ -2,6 +2,7 @@
 #include <slipstep/diagnosis/candidate_scores.h>
 #include <slipstep/experiment/stability.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -234,7 +235,7 @@ namespace SlipStep
       };
       for (CandidateView &seen : view.candidates)
         {
-          std::stable_sort(seen.ways.begin(), seen.ways.end(), is_better);
+          stable_sort(seen.ways, is_better);
           if (!seen.ways.empty())
             seen.score = seen.ways.front().score;
           seen.p = scores.family_p(seen.score.value);
@@ -244,9 +245,7 @@ namespace SlipStep
           return pairing(view.candidates[directions[i].candidate].candidate,
                          view.candidates[directions[j].candidate].candidate);
         });
-      std::stable_sort(view.candidates.begin(),
-                       view.candidates.end(),
-                       is_better);
+      stable_sort(view.candidates, is_better);
       return view;
     }
   } // namespace

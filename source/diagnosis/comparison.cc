@@ -3,6 +3,7 @@
 #include <slipstep/diagnosis/least_squares.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 
 #include <boost/math/constants/constants.hpp>
 
@@ -570,9 +571,7 @@ namespace SlipStep
 
   bool Model::has(const std::string &name) const
   {
-    return std::any_of(parts.begin(), parts.end(), [&](const Part &part) {
-      return part.name == name;
-    });
+    return any_of(parts, [&](const Part &part) { return part.name == name; });
   }
 
 

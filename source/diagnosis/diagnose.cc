@@ -14,6 +14,7 @@
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/look_alike.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>
 
@@ -123,11 +124,9 @@ namespace SlipStep
       std::vector<std::size_t>   order(final_model.parts.size());
       std::iota(order.begin(), order.end(), 0);
       if (costs.size() == order.size())
-        std::stable_sort(order.begin(),
-                         order.end(),
-                         [&](const std::size_t a, const std::size_t b) {
-                           return costs[a] > costs[b];
-                         });
+        stable_sort(order, [&](const std::size_t a, const std::size_t b) {
+          return costs[a] > costs[b];
+        });
       for (const std::size_t part : order)
         if (final_model.parts[part].corrects.empty())
           result.effects.push_back(final_model.parts[part].name);
@@ -280,11 +279,9 @@ namespace SlipStep
       result.next_test =
         propose_next_test(workspace, final_model, judgement.found.rivals);
       result.n_candidates =
-        std::count_if(result.candidates.begin(),
-                      result.candidates.end(),
-                      [](const CandidateResult &candidate) {
-                        return candidate.standing != Standing::in_the_model;
-                      });
+        count_if(result.candidates, [](const CandidateResult &candidate) {
+          return candidate.standing != Standing::in_the_model;
+        });
       result.n_refits = workspace.n_refits;
     }
 
@@ -364,11 +361,10 @@ namespace SlipStep
         }
       prove();
       show();
-      const bool has_wave = std::any_of(result.where.begin(),
-                                        result.where.end(),
-                                        [](const Localisation &place) {
-                                          return place.covariate == "position";
-                                        }) ||
+      const bool has_wave = any_of(result.where,
+                                   [](const Localisation &place) {
+                                     return place.covariate == "position";
+                                   }) ||
                             final_model.has("texture");
       const std::string positions =
         has_wave ? warning_of_positions(ingested.workspace->tests) : "";

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/candidates.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/pattern_words.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -106,8 +106,7 @@ namespace SlipStep
     if (list.empty())
       parameters.reject(section + "Candidates", "name effects, or 'all'");
     for (const std::string &name : list)
-      if (std::find(known.begin(), known.end(), name) == known.end() &&
-          !(name == "all" && list.size() == 1))
+      if (!holds(known, name) && !(name == "all" && list.size() == 1))
         {
           const std::string near = nearest_name(name, known);
           std::string       all;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/element_tests.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 
-#include <algorithm>
 
 namespace SlipStep
 {
@@ -69,7 +69,7 @@ namespace SlipStep
         return result;
       }
     for (std::size_t i = 0; i < tests.size(); ++i)
-      if (std::any_of(list.begin(), list.end(), [&](const std::string &name) {
+      if (any_of(list, [&](const std::string &name) {
             return is_called(tests[i].name, tests[i].file, name);
           }))
         result.push_back(i);

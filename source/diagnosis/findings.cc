@@ -4,6 +4,7 @@
 #include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/intervals.h>
+#include <slipstep/utilities/lists.h>
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/crc.hpp>
@@ -272,11 +273,10 @@ namespace SlipStep
       diagnosis.tests.push_back(described_test(workspace, differences, t));
     for (const CampaignTest &outlier : ingested.outlier_tests)
       diagnosis.tests.push_back(described_outlier(outlier));
-    std::stable_sort(diagnosis.tests.begin(),
-                     diagnosis.tests.end(),
-                     [](const DiagnosedTest &a, const DiagnosedTest &b) {
-                       return a.name < b.name;
-                     });
+    stable_sort(diagnosis.tests,
+                [](const DiagnosedTest &a, const DiagnosedTest &b) {
+                  return a.name < b.name;
+                });
     diagnosis.shrink.left_out_before =
       relative_rms(comparison, differences.left_out_before);
     diagnosis.shrink.left_out_after =

@@ -3,6 +3,7 @@
 #include <slipstep/diagnosis/score_test.h>
 #include <slipstep/diagnosis/search.h>
 #include <slipstep/diagnosis/rules.h>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <cmath>
@@ -178,8 +179,7 @@ namespace SlipStep
       const Parameters &parameters = model.simulator->with(model.scaled);
       const std::vector<std::string> effects =
         parameters.list("Friction/Effects");
-      const bool has_texture =
-        std::find(effects.begin(), effects.end(), "texture") != effects.end();
+      const bool has_texture = holds(effects, "texture");
       // A position along the first axis is all that a factor knows.
       if (has_texture && parameters.number("Friction/texture/Angle") != 0.)
         return {};
@@ -376,8 +376,7 @@ namespace SlipStep
   {
     const std::vector<std::string> effects =
       model.simulator->with(model.scaled).list("Friction/Effects");
-    if (std::find(effects.begin(), effects.end(), "expression") !=
-        effects.end())
+    if (holds(effects, "expression"))
       return {};
     std::optional<FreeFactor> best;
     for (const KnotScale &scale : scales_of(workspace, model, covariate))

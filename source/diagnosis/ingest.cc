@@ -9,6 +9,7 @@
 #include <slipstep/diagnosis/ingest.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 
 #include <Eigen/Dense>
 
@@ -130,11 +131,9 @@ namespace SlipStep
           out << value << ' ';
         return out.str();
       };
-      std::sort(tests.begin(),
-                tests.end(),
-                [&](const CampaignTest &a, const CampaignTest &b) {
-                  return key(a) < key(b);
-                });
+      sort(tests, [&](const CampaignTest &a, const CampaignTest &b) {
+        return key(a) < key(b);
+      });
     }
 
 
@@ -555,14 +554,9 @@ namespace SlipStep
       result.warnings                 = campaign.warnings();
       std::vector<CampaignTest> tests = campaign.tests;
       make_names_unique(tests);
-      tests.erase(std::remove_if(tests.begin(),
-                                 tests.end(),
-                                 [&](const CampaignTest &test) {
-                                   return std::count(left_out.begin(),
-                                                     left_out.end(),
-                                                     test.rows.name) > 0;
-                                 }),
-                  tests.end());
+      remove_erase_if(tests, [&](const CampaignTest &test) {
+        return holds(left_out, test.rows.name);
+      });
       sort_by_content(tests);
       drop_copies(tests);
       begin(tests);

@@ -2,6 +2,7 @@
 #include <slipstep/diagnosis/basis.h>
 #include <slipstep/diagnosis/track_waves.h>
 #include <slipstep/diagnosis/localisation.h>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <cmath>
@@ -203,11 +204,9 @@ namespace SlipStep
         result.push_back(place);
       }
     add_track_wave(workspace, base, gap, result);
-    std::stable_sort(result.begin(),
-                     result.end(),
-                     [](const Localisation &a, const Localisation &b) {
-                       return a.share > b.share;
-                     });
+    stable_sort(result, [](const Localisation &a, const Localisation &b) {
+      return a.share > b.share;
+    });
     return result;
   }
 
@@ -424,11 +423,9 @@ namespace SlipStep
           return place.share;
       return 0.;
     };
-    std::stable_sort(result.begin(),
-                     result.end(),
-                     [&](const CovariatePanel &a, const CovariatePanel &b) {
-                       return share(a) > share(b);
-                     });
+    stable_sort(result, [&](const CovariatePanel &a, const CovariatePanel &b) {
+      return share(a) > share(b);
+    });
     return result;
   }
 } // namespace SlipStep

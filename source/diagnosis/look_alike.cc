@@ -3,6 +3,7 @@
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/rules.h>
 #include <slipstep/diagnosis/workspace.h>
+#include <slipstep/utilities/lists.h>
 
 #include <Eigen/QR>
 
@@ -133,9 +134,8 @@ namespace SlipStep
           paths.push_back(path);
       const auto is_not_held = [&](const std::string &path) {
         const auto has_it = [&](const auto &list, const auto name_of) {
-          return std::any_of(list.begin(), list.end(), [&](const auto &one) {
-            return name_of(one) == path;
-          });
+          return any_of(list,
+                        [&](const auto &one) { return name_of(one) == path; });
         };
         return dynamic_cast<const Quantity *>(
                  start.entry(path).pattern.get()) == nullptr ||
@@ -144,8 +144,7 @@ namespace SlipStep
                has_it(campaign.derived,
                       [](const Derived &one) { return one.name; });
       };
-      paths.erase(std::remove_if(paths.begin(), paths.end(), is_not_held),
-                  paths.end());
+      remove_erase_if(paths, is_not_held);
       return paths;
     }
 

@@ -4,6 +4,7 @@
 #include <slipstep/diagnosis/rules.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 
 #include <Eigen/Dense>
 
@@ -204,11 +205,10 @@ namespace SlipStep
         // again.
         std::vector<bool> held;
         for (const FitParameter &parameter : model.campaign->fitted)
-          held.push_back(std::any_of(formula.parameters.begin(),
-                                     formula.parameters.end(),
-                                     [&](const CandidateParameter &own) {
-                                       return own.path == parameter.path;
-                                     }));
+          held.push_back(
+            any_of(formula.parameters, [&](const CandidateParameter &own) {
+              return own.path == parameter.path;
+            }));
         if (workspace.comparison.fit(model, 1., {}, held))
           return model;
         return {};

@@ -2,6 +2,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <slipstep/diagnosis/outlier.h>
+#include <slipstep/utilities/lists.h>
 
 #include <Eigen/Dense>
 
@@ -67,7 +68,7 @@ namespace SlipStep
 
       std::vector<Contrast> others;
       for (std::size_t i = 0; i < contrasts.size(); ++i)
-        if (std::count(suspected.begin(), suspected.end(), i) == 0)
+        if (!holds(suspected, i))
           others.push_back(contrasts[i]);
       const NoiseEstimate estimate = estimate_noise(others, prior);
       const Contrast     &contrast = contrasts[which];
@@ -111,11 +112,9 @@ namespace SlipStep
       squares.push_back(slow_squares(contrast, present));
     std::vector<std::size_t> order(contrasts.size());
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(),
-              order.end(),
-              [&](const std::size_t a, const std::size_t b) {
-                return squares[a] > squares[b];
-              });
+    sort(order, [&](const std::size_t a, const std::size_t b) {
+      return squares[a] > squares[b];
+    });
     Contradiction worst;
     for (std::size_t i = 0; i < n_examined; ++i)
       {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/score_test.h>
+#include <slipstep/utilities/lists.h>
 
 #include <Eigen/Dense>
 
@@ -329,9 +330,7 @@ namespace SlipStep
     std::sort(sorted.begin(), sorted.end());
     for (Pair &pair : result)
       pair.p = share_above(sorted, pair.value);
-    std::sort(result.begin(), result.end(), [](const Pair &a, const Pair &b) {
-      return a.gain > b.gain;
-    });
+    sort(result, [](const Pair &a, const Pair &b) { return a.gain > b.gain; });
     return result;
   }
 

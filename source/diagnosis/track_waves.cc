@@ -3,6 +3,7 @@
 
 #include <slipstep/diagnosis/track_waves.h>
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,13 +60,9 @@ namespace SlipStep
         tracks.push_back(track_of(test, covariates));
       const double longest =
         tracks.empty() ? 0. : *std::max_element(tracks.begin(), tracks.end());
-      tracks.erase(std::remove_if(tracks.begin(),
-                                  tracks.end(),
-                                  [&](const double track) {
-                                    return !(track >
-                                             least_track_share * longest);
-                                  }),
-                   tracks.end());
+      remove_erase_if(tracks, [&](const double track) {
+        return !(track > least_track_share * longest);
+      });
       return tracks.empty() ? 0. : median(tracks);
     }
   } // namespace

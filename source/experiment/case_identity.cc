@@ -3,6 +3,7 @@
 
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/step_control.h>
+#include <slipstep/utilities/lists.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -23,7 +24,7 @@ namespace SlipStep
     {
       using boost::algorithm::starts_with;
       const std::vector<std::string> idle = StepControl::idle_keys(parameters);
-      if (std::find(idle.begin(), idle.end(), path) != idle.end())
+      if (holds(idle, path))
         return false;
       return starts_with(path, "Loading/") ||
              starts_with(path, "Time stepping/") ||

@@ -8,6 +8,7 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/home_folder.h>
 #include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/text.h>
@@ -44,7 +45,7 @@ namespace SlipStep
 
     bool is_keyword(const std::string &word)
     {
-      return std::count(keywords.begin(), keywords.end(), lower_case(word)) > 0;
+      return holds(keywords, lower_case(word));
     }
 
 

@@ -2,6 +2,7 @@
 #include <slipstep/experiment/quantities.h>
 
 #include <slipstep/experiment/sliding_path.h>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <array>
@@ -172,9 +173,7 @@ namespace SlipStep
     double HistoryReader::path_of_row(const std::size_t row) const
     {
       const auto &segments = programme.segments();
-      if (std::none_of(segments.begin(),
-                       segments.end(),
-                       [](const Segment &one) { return one.pushes; }))
+      if (none_of(segments, [](const Segment &one) { return one.pushes; }))
         return path.at(history[row].time);
       double sum =
         std::hypot(history[0].displacement, history[0].displacement_y);

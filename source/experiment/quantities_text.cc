@@ -6,6 +6,7 @@
 
 #include <slipstep/experiment/sliding_path.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/units.h>
@@ -73,9 +74,8 @@ namespace SlipStep
       Reader(const Parameters &parameters, const Programme &programme)
         : parameters(parameters)
         , whole_path(SlidingPath(programme).whole())
-        , pushes(std::any_of(programme.segments().begin(),
-                             programme.segments().end(),
-                             [](const Segment &one) { return one.pushes; }))
+        , pushes(any_of(programme.segments(),
+                        [](const Segment &one) { return one.pushes; }))
       {}
 
       std::vector<QuantityOfInterest> read();
@@ -262,8 +262,7 @@ namespace SlipStep
       if (text.rfind("on ", 0) != 0)
         show_example();
       quantity.face = text.substr(3);
-      if (std::find(face_names.begin(), face_names.end(), quantity.face) ==
-          face_names.end())
+      if (!holds(face_names, quantity.face))
         fail("'" + present_item + "': '" + quantity.face +
              "' is no face of the block; there are left, right, front, back, "
              "bottom, top" +

@@ -2,6 +2,7 @@
 #include <slipstep/experiment/refinement_study.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
 
@@ -350,8 +351,7 @@ namespace SlipStep
   {
     std::vector<StudyRun> result;
     const auto            add = [&result](const StudyRun &run) {
-      if (!run.label.empty() &&
-          std::none_of(result.begin(), result.end(), [&](const auto &other) {
+      if (!run.label.empty() && none_of(result, [&](const auto &other) {
             return other.folder == run.folder;
           }))
         result.push_back(run);

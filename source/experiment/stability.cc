@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/stability.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/roots.h>
 #include <slipstep/utilities/text.h>
 
@@ -285,14 +286,11 @@ namespace SlipStep
       {
         const Loading &now = segment.end;
         if (result.size() < most && now.velocity.norm() > 0. &&
-            now.pressure > 0. &&
-            std::none_of(result.begin(),
-                         result.end(),
-                         [&](const Loading &other) {
-                           return is_close(other.pressure, now.pressure) &&
-                                  (other.velocity - now.velocity).norm() <=
-                                    1e-9 * now.velocity.norm();
-                         }))
+            now.pressure > 0. && none_of(result, [&](const Loading &other) {
+              return is_close(other.pressure, now.pressure) &&
+                     (other.velocity - now.velocity).norm() <=
+                       1e-9 * now.velocity.norm();
+            }))
           result.push_back(now);
       }
     return result;

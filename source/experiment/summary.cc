@@ -2,6 +2,7 @@
 #include <slipstep/experiment/summary.h>
 
 #include <slipstep/utilities/json_file.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/units.h>
 #include <slipstep/utilities/version.h>
 
@@ -487,13 +488,10 @@ namespace SlipStep
     const auto are_close = [](const double a, const double b) {
       return std::abs(a - b) <= 1e-6 * b;
     };
-    return std::any_of(stability.begin(),
-                       stability.end(),
-                       [&](const StabilitySummary &s) {
-                         return !s.is_stable() &&
-                                are_close(slide.speed, s.speed) &&
-                                are_close(slide.pressure, s.pressure);
-                       });
+    return any_of(stability, [&](const StabilitySummary &s) {
+      return !s.is_stable() && are_close(slide.speed, s.speed) &&
+             are_close(slide.pressure, s.pressure);
+    });
   }
 
 
@@ -563,9 +561,8 @@ namespace SlipStep
     const double begin_of_motion =
       all.empty() ? history.back().time : all.front().start_time;
     summary.is_pushed =
-      std::any_of(programme.segments().begin(),
-                  programme.segments().end(),
-                  [](const Segment &segment) { return segment.pushes; });
+      any_of(programme.segments(),
+             [](const Segment &segment) { return segment.pushes; });
     bool is_first = true;
     for (const Segment &segment : programme.segments())
       if (segment.pushes && segment.push.norm() > 0. &&

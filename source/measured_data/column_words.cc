@@ -2,8 +2,8 @@
 #include <slipstep/measured_data/column_words.h>
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/measured_test.h>
+#include <slipstep/utilities/lists.h>
 
-#include <algorithm>
 #include <set>
 
 namespace SlipStep
@@ -85,7 +85,7 @@ namespace SlipStep
 
   bool has_word(const std::string &name, const std::vector<std::string> &words)
   {
-    return std::any_of(words.begin(), words.end(), [&](const auto &word) {
+    return any_of(words, [&](const auto &word) {
       return name.find(word) != std::string::npos;
     });
   }

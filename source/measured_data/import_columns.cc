@@ -3,6 +3,7 @@
 
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/measured_test.h>
+#include <slipstep/utilities/lists.h>
 
 #include <array>
 #include <cctype>
@@ -211,9 +212,7 @@ namespace SlipStep
     const std::string words = "column " + std::to_string(position + 1) +
                               " is taken " + taken + ", the file says " +
                               in_file;
-    if (std::count(contradicting_units.begin(),
-                   contradicting_units.end(),
-                   words) == 0)
+    if (!holds(contradicting_units, words))
       contradicting_units.push_back(words);
   }
 

@@ -7,6 +7,7 @@
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -46,7 +47,7 @@ namespace SlipStep
     // Without letters that a map in another encoding would not show.
     bool is_plain(const std::string &text)
     {
-      return std::all_of(text.begin(), text.end(), [](const char c) {
+      return all_of(text, [](const char c) {
         return static_cast<unsigned char>(c) < 0x7f;
       });
     }
@@ -191,8 +192,7 @@ namespace SlipStep
           if (!table.units()[i].empty())
             column.unit = table.units()[i];
           const auto &numbers = proposal.layout.numbers;
-          column.has_numbers =
-            std::find(numbers.begin(), numbers.end(), i) != numbers.end();
+          column.has_numbers  = holds(numbers, i);
           if (column.has_numbers)
             positions["column " + std::to_string(i + 1)] = i;
           proposal.columns.push_back(column);
@@ -278,12 +278,11 @@ namespace SlipStep
       const std::string &name = table.header()[column];
       const bool         is_unique =
         std::count(table.header().begin(), table.header().end(), name) == 1;
-      const bool is_plain =
-        !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-          const auto byte = static_cast<unsigned char>(c);
-          return byte >= 0x20 && byte < 0x7f && c != '#' && c != '\\' &&
-                 c != '{' && c != '}';
-        });
+      const bool is_plain = !name.empty() && all_of(name, [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte >= 0x20 && byte < 0x7f && c != '#' && c != '\\' &&
+               c != '{' && c != '}';
+      });
       return is_unique && is_plain ? name :
                                      "column " + std::to_string(column + 1);
     }
@@ -371,11 +370,10 @@ namespace SlipStep
         return best;
       const auto has_sign = [&](const double sign) {
         const auto &signal = finite[friction];
-        return 10 * std::count_if(signal.begin(),
-                                  signal.end(),
-                                  [&](const double value) {
-                                    return sign * value > 0.;
-                                  }) >
+        return 10 * count_if(signal,
+                             [&](const double value) {
+                               return sign * value > 0.;
+                             }) >
                static_cast<std::ptrdiff_t>(signal.size());
       };
       const auto share = [&](const std::size_t i) {
@@ -629,7 +627,7 @@ namespace SlipStep
 
   bool ImportProposal::is_complete() const
   {
-    return std::none_of(guesses.begin(), guesses.end(), [](const auto &guess) {
+    return none_of(guesses, [](const auto &guess) {
       return guess.is_open && guess.path != "Test/Condition";
     });
   }

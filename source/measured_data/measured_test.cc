@@ -3,6 +3,7 @@
 
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
@@ -215,9 +216,8 @@ namespace SlipStep
     void leave_out_idle_axis(MeasuredTest &test)
     {
       if (range_of(test.displacement_y) != 0. ||
-          std::any_of(test.friction_y.begin(),
-                      test.friction_y.end(),
-                      [](const double value) { return value != 0.; }))
+          any_of(test.friction_y,
+                 [](const double value) { return value != 0.; }))
         return;
       test.displacement_y.clear();
       test.friction_y.clear();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/odd_rows.h>
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -52,10 +53,7 @@ namespace SlipStep
 
     std::vector<double> without_gaps(std::vector<double> values)
     {
-      values.erase(std::remove_if(values.begin(),
-                                  values.end(),
-                                  [](const double x) { return std::isnan(x); }),
-                   values.end());
+      remove_erase_if(values, [](const double x) { return std::isnan(x); });
       return values;
     }
 
@@ -110,8 +108,7 @@ namespace SlipStep
         };
         return RepeatedValue{
           "is exactly " + rounded_text(limit, 6) + " in " +
-            std::to_string(
-              std::count_if(values.begin(), values.end(), is_at_limit)) +
+            std::to_string(count_if(values, is_at_limit)) +
             " rows and never more, while other rows scatter: was the sensor at "
             "its limit?",
           static_cast<std::size_t>(

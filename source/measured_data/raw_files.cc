@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/raw_files.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 
-#include <algorithm>
 
 namespace SlipStep
 {
@@ -82,9 +82,7 @@ namespace SlipStep
       }
     if (files.empty())
       throw InputError(pattern.string() + ": no file has a name like this");
-    std::sort(files.begin(), files.end(), [](const auto &a, const auto &b) {
-      return a.file < b.file;
-    });
+    sort(files, [](const auto &a, const auto &b) { return a.file < b.file; });
     return files;
   }
 

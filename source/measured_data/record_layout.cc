@@ -2,6 +2,7 @@
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/measured_data/record_layout.h>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <cctype>
@@ -154,17 +155,14 @@ namespace SlipStep
 
     std::size_t n_filled_in(const std::vector<std::string> &cells)
     {
-      return std::count_if(cells.begin(), cells.end(), [](const auto &cell) {
-        return !cell.empty();
-      });
+      return count_if(cells, [](const auto &cell) { return !cell.empty(); });
     }
 
     bool is_row_of(const std::vector<std::string> &cells,
                    std::size_t                    &n_numbers)
     {
-      n_numbers = std::count_if(cells.begin(), cells.end(), [](const auto &c) {
-        return marks_of(c).is_number;
-      });
+      n_numbers =
+        count_if(cells, [](const auto &c) { return marks_of(c).is_number; });
       return n_numbers >= 2 && 3 * n_numbers >= n_filled_in(cells);
     }
 
@@ -239,8 +237,7 @@ namespace SlipStep
 
     bool has_names(const std::vector<std::string> &cells)
     {
-      return n_filled_in(cells) >= 2 &&
-             std::none_of(cells.begin(), cells.end(), [](const auto &cell) {
+      return n_filled_in(cells) >= 2 && none_of(cells, [](const auto &cell) {
                return marks_of(cell).is_number;
              });
     }

@@ -3,6 +3,7 @@
 
 #include <slipstep/measured_data/record_parts.h>
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -264,7 +265,7 @@ namespace SlipStep
             throw InputError("the record has " + counted(n_parts, "part") +
                              " only");
           for (std::size_t i = first; i <= last; ++i)
-            if (std::count(chosen.begin(), chosen.end(), i) > 0)
+            if (holds(chosen, i))
               throw InputError("part " + std::to_string(i) + " is named twice");
             else
               chosen.push_back(i);

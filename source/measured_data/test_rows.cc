@@ -3,6 +3,7 @@
 #include <slipstep/measured_data/sensor_zero.h>
 #include <slipstep/measured_data/test_rows.h>
 
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -85,7 +86,7 @@ namespace SlipStep
       for (const double value : friction)
         sizes.push_back(std::abs(value));
       const double usual = median(sizes);
-      return std::count_if(sizes.begin(), sizes.end(), [&](const double size) {
+      return count_if(sizes, [&](const double size) {
                return std::abs(size - usual) <= alike * usual;
              }) > most * sizes.size();
     }
@@ -225,9 +226,7 @@ namespace SlipStep
         }
       warn("rows out of the order of time, sorted: " + std::to_string(n),
            kept[first]);
-      std::stable_sort(rows.begin(), rows.end(), [&](auto a, auto b) {
-        return time[a] < time[b];
-      });
+      stable_sort(rows, [&](auto a, auto b) { return time[a] < time[b]; });
       keep(rows);
     }
 
@@ -558,9 +557,8 @@ namespace SlipStep
         const double ratio = std::abs(step) / size;
         return std::abs(ratio - std::max(1., std::round(ratio))) <= unlike;
       };
-      const std::size_t n_regular =
-        std::count_if(steps.sizes.begin(), steps.sizes.end(), is_regular);
-      const bool has_digits =
+      const std::size_t n_regular = count_if(steps.sizes, is_regular);
+      const bool        has_digits =
         10 * n_regular >= 9 * n &&
         (2 * steps.n_back >= least_number ||
          longest_stairs(steps, size, unlike) >= many_stairs);

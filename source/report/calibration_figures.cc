@@ -70,7 +70,7 @@ namespace SlipStep
             beginning.x.upper = frame.x.lower + length;
           // A handful of rows shows nothing new when enlarged.
           const auto &x = frame.tests.front()->displacement;
-          if (std::count_if(x.begin(), x.end(), [&](const double position) {
+          if (count_if(x, [&](const double position) {
                 return position >= beginning.x.lower &&
                        position <= beginning.x.upper;
               }) >= 20)

@@ -156,17 +156,11 @@ namespace SlipStep
     std::string verdict(const std::vector<StartComparison> &starts)
     {
       const std::size_t n_same =
-        std::count_if(starts.begin(),
-                      starts.end(),
-                      [](const StartComparison &start) {
-                        return start.is_same;
-                      });
+        count_if(starts,
+                 [](const StartComparison &start) { return start.is_same; });
       const std::size_t n_equal =
-        std::count_if(starts.begin(),
-                      starts.end(),
-                      [](const StartComparison &start) {
-                        return start.is_equal;
-                      });
+        count_if(starts,
+                 [](const StartComparison &start) { return start.is_equal; });
       std::string text = std::to_string(n_same) + " of " +
                          std::to_string(starts.size()) +
                          " searches ended in the best optimum";

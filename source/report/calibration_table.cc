@@ -9,7 +9,6 @@
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/text.h>
 
-#include <algorithm>
 
 namespace SlipStep
 {
@@ -41,11 +40,9 @@ namespace SlipStep
       wrapped_text(calibration_headline(calibration), 2, terminal_width) + "\n";
     if (!calibration.parameters.empty())
       text += text_table(short_parameter_lines(calibration), terminal_width);
-    if (std::any_of(calibration.parameters.begin(),
-                    calibration.parameters.end(),
-                    [](const FittedParameter &fitted) {
-                      return fitted.is_at_bound;
-                    }))
+    if (any_of(calibration.parameters, [](const FittedParameter &fitted) {
+          return fitted.is_at_bound;
+        }))
       text += "  * at a bound, or at a condition of the law\n";
     if (!calibration.derived.empty())
       text +=

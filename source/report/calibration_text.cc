@@ -30,16 +30,9 @@ namespace SlipStep
                    const std::size_t  i,
                    const std::size_t  j)
     {
-      return std::any_of(calibration.weak.begin(),
-                         calibration.weak.end(),
-                         [&](const WeakDirection &weak) {
-                           const auto has = [&](const std::size_t member) {
-                             return std::count(weak.members.begin(),
-                                               weak.members.end(),
-                                               member) > 0;
-                           };
-                           return has(i) && has(j);
-                         });
+      return any_of(calibration.weak, [&](const WeakDirection &weak) {
+        return holds(weak.members, i) && holds(weak.members, j);
+      });
     }
 
     /// Beyond this a factor says only that nothing is known.
@@ -80,11 +73,9 @@ namespace SlipStep
     text += "; it was " +
             short_text(total_rms(calibration, &TestMisfit::start_rms), 3) +
             " with the start values.";
-    const std::size_t n_open = std::count_if(calibration.parameters.begin(),
-                                             calibration.parameters.end(),
-                                             [](const FittedParameter &fitted) {
-                                               return is_open(fitted);
-                                             });
+    const std::size_t n_open =
+      count_if(calibration.parameters,
+               [](const FittedParameter &fitted) { return is_open(fitted); });
     if (n_open > 0)
       text += " " + counted(n_open, "parameter") +
               (n_open == 1 ? " has" : " have") + " an open interval.";
@@ -125,11 +116,8 @@ namespace SlipStep
                                " (" + correlation_text(matrix[i][j]) + ")");
     if (pairs.empty())
       return "";
-    std::stable_sort(pairs.begin(),
-                     pairs.end(),
-                     [](const auto &a, const auto &b) {
-                       return a.first > b.first;
-                     });
+    stable_sort(pairs,
+                [](const auto &a, const auto &b) { return a.first > b.first; });
     std::string text;
     for (std::size_t i = 0; i < std::min(pairs.size(), n_listed); ++i)
       text += (i > 0 ? ", " : "") + pairs[i].second;

@@ -34,22 +34,16 @@ namespace SlipStep
       for (const CovariatePanel &panel : panels)
         for (const auto &[name, values] : panel.signatures)
           {
-            const bool is_known = std::any_of(lines.begin(),
-                                              lines.end(),
-                                              [&, n = name](const auto &line) {
-                                                return line.text == n;
-                                              });
+            const bool is_known =
+              any_of(lines, [&, n = name](const auto &line) {
+                return line.text == n;
+              });
             if (!is_known && lines.size() < most_signatures)
-              {
-                const auto &effects = diagnosis.effects;
-                const bool  is_named =
-                  std::find(effects.begin(), effects.end(), name) !=
-                  effects.end();
-                lines.push_back(
-                  {name,
-                   colours[lines.size()],
-                   is_named ? LegendLine::line : LegendLine::dashed});
-              }
+              lines.push_back({name,
+                               colours[lines.size()],
+                               holds(diagnosis.effects, name) ?
+                                 LegendLine::line :
+                                 LegendLine::dashed});
           }
       return lines;
     }

@@ -8,7 +8,6 @@
 #include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/version.h>
 
-#include <algorithm>
 
 namespace SlipStep
 {
@@ -126,11 +125,10 @@ namespace SlipStep
                percent(candidate.minimum_detectable)},
               {"testable", candidate.is_testable},
               {"at_bound",
-               std::any_of(candidate.parameters.begin(),
-                           candidate.parameters.end(),
-                           [](const DiagnosedParameter &parameter) {
-                             return parameter.is_at_bound;
-                           })},
+               any_of(candidate.parameters,
+                      [](const DiagnosedParameter &parameter) {
+                        return parameter.is_at_bound;
+                      })},
               {"parameters", list(candidate.parameters)}};
     }
 

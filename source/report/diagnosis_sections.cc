@@ -341,11 +341,9 @@ namespace SlipStep
     std::string block_words(const Diagnosis &diagnosis)
     {
       const bool is_far =
-        std::any_of(diagnosis.element_checks.begin(),
-                    diagnosis.element_checks.end(),
-                    [&](const ElementCheck &check) {
-                      return check.difference > diagnosis.shrink.noise_floor;
-                    });
+        any_of(diagnosis.element_checks, [&](const ElementCheck &check) {
+          return check.difference > diagnosis.shrink.noise_floor;
+        });
       return is_far ? " Here they differ by more than the noise: the block "
                       "bends, and friction at its foot tilts it, so that its "
                       "pressure is uneven; the parameters were fitted without "

@@ -8,7 +8,6 @@
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/text.h>
 
-#include <algorithm>
 
 namespace SlipStep
 {
@@ -122,11 +121,10 @@ namespace SlipStep
         return "";
       const auto all = named_parameters(diagnosis);
       return "\n" + text_table(lines, terminal_width) +
-             (std::any_of(all.begin(),
-                          all.end(),
-                          [](const DiagnosedParameter &parameter) {
-                            return parameter.is_at_bound;
-                          }) ?
+             (any_of(all,
+                     [](const DiagnosedParameter &parameter) {
+                       return parameter.is_at_bound;
+                     }) ?
                 "  * at a bound\n" :
                 "");
     }

@@ -6,19 +6,12 @@
 #include <slipstep/report/run_results.h>
 #include <slipstep/utilities/text.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
 {
   namespace
   {
-    bool contains(const std::vector<std::string> &names,
-                  const std::string              &name)
-    {
-      return std::find(names.begin(), names.end(), name) != names.end();
-    }
-
     /// The rivals that stand in the place of an effect; rivals of which that
     /// is not said stand in the place of the first.
     std::vector<std::string> rivals_of(const Diagnosis  &diagnosis,
@@ -26,7 +19,7 @@ namespace SlipStep
     {
       std::vector<std::string> rivals;
       for (const RivalEffect &rival : diagnosis.rivals)
-        if (contains(diagnosis.effects, rival.instead_of) ?
+        if (holds(diagnosis.effects, rival.instead_of) ?
               rival.instead_of == diagnosis.effects[effect] :
               effect == 0)
           rivals.push_back(rival.name);
@@ -256,7 +249,7 @@ namespace SlipStep
       std::vector<std::string> names;
       for (const Outlier &outlier : outliers)
         if (outlier.is_of_rows == are_rows && !outlier.is_copy &&
-            !contains(names, in_quotes(outlier.test)))
+            !holds(names, in_quotes(outlier.test)))
           names.push_back(in_quotes(outlier.test));
       if (names.size() > 3)
         {
@@ -556,7 +549,7 @@ namespace SlipStep
   {
     std::vector<DiagnosedParameter> result;
     for (const CandidateResult &candidate : diagnosis.candidates)
-      if (contains(diagnosis.effects, candidate.name))
+      if (holds(diagnosis.effects, candidate.name))
         result.insert(result.end(),
                       candidate.parameters.begin(),
                       candidate.parameters.end());

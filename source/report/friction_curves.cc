@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/friction_curves.h>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <array>
@@ -272,9 +273,8 @@ namespace SlipStep
                              const std::size_t                  n_left_out)
   {
     std::string caption;
-    if (std::any_of(frames.begin(), frames.end(), [](const auto &frame) {
-          return frame.tests.size() > 1;
-        }))
+    if (any_of(frames,
+               [](const auto &frame) { return frame.tests.size() > 1; }))
       caption = "Tests under the same condition share a picture. ";
     if (n_left_out > 0)
       caption += std::to_string(n_left_out) + " of " +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/likelihood_profiles.h>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,13 +101,9 @@ namespace SlipStep
         points.emplace_back(profile.lower, 1.);
       if (!profile.is_upper_open)
         points.emplace_back(profile.upper, 1.);
-      points.erase(std::remove_if(points.begin(),
-                                  points.end(),
-                                  [](const auto &point) {
-                                    return !std::isfinite(point.first) ||
-                                           !std::isfinite(point.second);
-                                  }),
-                   points.end());
+      remove_erase_if(points, [](const auto &point) {
+        return !std::isfinite(point.first) || !std::isfinite(point.second);
+      });
       std::sort(points.begin(), points.end());
       const auto root = [&](const std::size_t i) {
         return std::copysign(std::sqrt(std::max(points[i].second, 0.)),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/repeat_command.h>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -54,8 +55,7 @@ namespace SlipStep
             if (sweep == sweeps.end())
               sweep = sweeps.insert(sweep, {setting.path, {}});
             auto &values = sweep->second;
-            if (std::find(values.begin(), values.end(), setting.value) ==
-                values.end())
+            if (!holds(values, setting.value))
               values.push_back(setting.value);
           }
     for (const auto &[path, values] : sweeps)

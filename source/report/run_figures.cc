@@ -4,6 +4,7 @@
 #include <slipstep/report/drawing.h>
 #include <slipstep/report/block_view.h>
 
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
@@ -42,10 +43,9 @@ namespace SlipStep
     bool changes_direction(const RunResults &run)
     {
       const auto &slides = run.summary.slides;
-      return std::any_of(
-        slides.begin(), slides.end(), [&](const SlideSummary &slide) {
-          return std::abs(std::sin(slide.angle - slides[0].angle)) > 1e-6;
-        });
+      return any_of(slides, [&](const SlideSummary &slide) {
+        return std::abs(std::sin(slide.angle - slides[0].angle)) > 1e-6;
+      });
     }
 
     /// The curve of the first slide alone, from where it starts.
@@ -77,12 +77,9 @@ namespace SlipStep
       std::vector<std::size_t> order(runs.size());
       for (std::size_t i = 0; i < runs.size(); ++i)
         order[i] = i;
-      std::stable_sort(order.begin(),
-                       order.end(),
-                       [&runs](const std::size_t a, const std::size_t b) {
-                         return runs[a].summary.final_friction >
-                                runs[b].summary.final_friction;
-                       });
+      stable_sort(order, [&runs](const std::size_t a, const std::size_t b) {
+        return runs[a].summary.final_friction > runs[b].summary.final_friction;
+      });
       return order;
     }
 
@@ -198,7 +195,7 @@ namespace SlipStep
       else
         figure.script() << "set xzeroaxis lc rgb '#444444' lw 1 dt solid\n";
       std::string caption;
-      if (std::any_of(runs.begin(), runs.end(), changes_direction))
+      if (any_of(runs, changes_direction))
         caption = "Both along the direction of the first slide. ";
       if (reference.exists())
         caption += "Strokes at the right end: kinetic level after " +
@@ -392,9 +389,7 @@ namespace SlipStep
   void draw_pictures(RunFigures &figures)
   {
     const auto &runs = figures.runs;
-    if (std::all_of(runs.begin(), runs.end(), [](const RunResults &run) {
-          return curve(run).empty();
-        }))
+    if (all_of(runs, [](const RunResults &run) { return curve(run).empty(); }))
       return;
     // What the case asks for comes first.
     add_requested_pictures(figures);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/drawing.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -138,13 +139,9 @@ namespace SlipStep
             static_cast<double>(cell->second.first),
             static_cast<double>(cell->second.second)};
           // Of several slides the last.
-          cells.erase(std::remove_if(cells.begin(),
-                                     cells.end(),
-                                     [&](const std::vector<double> &other) {
-                                       return other[0] == place[0] &&
-                                              other[1] == place[1];
-                                     }),
-                      cells.end());
+          remove_erase_if(cells, [&](const std::vector<double> &other) {
+            return other[0] == place[0] && other[1] == place[1];
+          });
           if (std::isfinite(value))
             cells.push_back({place[0], place[1], value});
         };

@@ -3,6 +3,7 @@
 // The headline of a report: what it says is chosen by the kind of test.
 
 #include <slipstep/report/run_results.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <deal.II/base/numbers.h>
@@ -153,9 +154,9 @@ namespace SlipStep
     std::string drop(const ResultRows &rows)
     {
       const auto has_peak = std::mem_fn(&ResultRow::has_peak);
-      if (std::none_of(rows.begin(), rows.end(), has_peak))
+      if (none_of(rows, has_peak))
         return "; there is no drop from a peak";
-      if (!std::all_of(rows.begin(), rows.end(), has_peak))
+      if (!all_of(rows, has_peak))
         return "";
       const Aspect by_drop = {&ResultRow::drop, [](const double drop) {
                                 return fixed_text(drop, 1);
@@ -165,7 +166,7 @@ namespace SlipStep
 
     bool changes_direction(const ResultRows &rows)
     {
-      return std::any_of(rows.begin(), rows.end(), [&](const ResultRow &row) {
+      return any_of(rows, [&](const ResultRow &row) {
         return std::abs(std::sin(row.slide.angle - rows[0].slide.angle)) > 1e-6;
       });
     }
@@ -228,8 +229,7 @@ namespace SlipStep
       if (reference.exists())
         text += ", " + against(rows, reference);
       // After a step of speed, a peak is no static one.
-      const bool has_steps =
-        std::any_of(rows.begin(), rows.end(), std::mem_fn(&ResultRow::is_step));
+      const bool has_steps = any_of(rows, std::mem_fn(&ResultRow::is_step));
       return text + (has_steps || pressures || changes_direction(rows) ?
                        "" :
                        drop(rows));
@@ -289,7 +289,7 @@ namespace SlipStep
       for (const ResultRow &row : rows)
         {
           const std::string speed = speed_text(row.slide.speed);
-          if (std::find(speeds.begin(), speeds.end(), speed) == speeds.end())
+          if (!holds(speeds, speed))
             speeds.push_back(speed);
         }
       return list_text(speeds);
@@ -424,16 +424,13 @@ namespace SlipStep
       return short_text(run.history.back().slip, 3) + " mm";
     };
     const bool is_finished =
-      most != nullptr &&
-      std::all_of(runs.begin(), runs.end(), [](const RunResults &run) {
+      most != nullptr && all_of(runs, [](const RunResults &run) {
         return run.summary.status == "finished";
       });
     if (most == nullptr || (!is_finished && !(most->history.back().slip > 0.)))
       return "No slide has been reached.";
     const bool is_pushed =
-      std::all_of(runs.begin(), runs.end(), [](const RunResults &run) {
-        return run.summary.is_pushed;
-      });
+      all_of(runs, [](const RunResults &run) { return run.summary.is_pushed; });
     const std::string text =
       is_pushed ? "The contact is pushed by a load, not slid; in the end it "
                   "has slipped " :

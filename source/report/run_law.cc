@@ -205,8 +205,7 @@ namespace SlipStep
       std::string           all;
       for (std::size_t i = 0; i < runs.size(); ++i)
         {
-          const auto &names = runs[i].summary.effects;
-          if (std::find(names.begin(), names.end(), effect.name) == names.end())
+          if (!holds(runs[i].summary.effects, effect.name))
             continue;
           const std::string text =
             value_text(parameter,
@@ -231,12 +230,9 @@ namespace SlipStep
       {"effect", "formula", "parameter", "symbol", "value", "unit"}};
     for (const auto &[name, effect] : effect_registry())
       {
-        const bool is_active =
-          std::any_of(runs.begin(), runs.end(), [&](const RunResults &run) {
-            const auto &names = run.summary.effects;
-            return std::find(names.begin(), names.end(), effect.name) !=
-                   names.end();
-          });
+        const bool is_active = any_of(runs, [&](const RunResults &run) {
+          return holds(run.summary.effects, effect.name);
+        });
         if (!is_active)
           continue;
         std::string shown_name = name, formula = effect.formula;

@@ -3,6 +3,7 @@
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/report/drawing.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -184,9 +185,7 @@ namespace SlipStep
       for (const MeasuredBeside &beside : measured)
         if (beside.is_repeated)
           is_drawn[beside.run] = true;
-      const bool draws_all = std::none_of(is_drawn.begin(),
-                                          is_drawn.end(),
-                                          [](bool is) { return is; });
+      const bool draws_all = none_of(is_drawn, [](bool is) { return is; });
       for (std::size_t i = 0; i < runs.size(); ++i)
         {
           if (!draws_all && !is_drawn[i])

@@ -3,6 +3,7 @@
 // The pictures that a case asks for: "Report/Pictures".
 
 #include <slipstep/report/drawing.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
@@ -153,7 +154,7 @@ namespace SlipStep
         dealii::Utilities::trim(text.substr(place + over.size()));
       const auto all      = picture_quantities();
       const auto is_known = [&all](const std::string &name) {
-        return std::any_of(all.begin(), all.end(), [&](const auto &quantity) {
+        return any_of(all, [&](const auto &quantity) {
           return quantity.name == name;
         });
       };
@@ -389,7 +390,7 @@ namespace SlipStep
   {
     std::vector<std::string> names;
     for (const PictureQuantity &quantity : picture_quantities())
-      if (std::find(names.begin(), names.end(), quantity.name) == names.end())
+      if (!holds(names, quantity.name))
         names.push_back(quantity.name);
     return boost::algorithm::join(names, ", ");
   }

@@ -16,7 +16,6 @@
 
 #include <boost/algorithm/string/predicate.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -112,7 +111,7 @@ namespace SlipStep
     /// Whether a slide is not along the first axis, where a sign would do.
     bool angles_matter(const std::vector<ResultRow> &rows)
     {
-      return std::any_of(rows.begin(), rows.end(), [](const ResultRow &row) {
+      return any_of(rows, [](const ResultRow &row) {
         return std::abs(std::sin(row.slide.angle)) > 1e-6;
       });
     }
@@ -120,7 +119,7 @@ namespace SlipStep
     /// Whether the slides are under different pressures.
     bool pressures_matter(const std::vector<ResultRow> &rows)
     {
-      return std::any_of(rows.begin(), rows.end(), [&](const ResultRow &row) {
+      return any_of(rows, [&](const ResultRow &row) {
         return std::abs(row.slide.pressure - rows[0].slide.pressure) >
                1e-3 * rows[0].slide.pressure;
       });
@@ -129,7 +128,7 @@ namespace SlipStep
     /// Whether runs have labels that say more than the column of speeds does.
     bool labels_matter(const std::vector<ResultRow> &rows)
     {
-      return std::any_of(rows.begin(), rows.end(), [&](const ResultRow &row) {
+      return any_of(rows, [&](const ResultRow &row) {
         return row.label != rows[0].label &&
                row.label != speed_text(row.slide.speed);
       });
@@ -429,8 +428,7 @@ namespace SlipStep
       std::vector<std::string> names;
       for (const RunResults &run : runs)
         for (const QuantityValue &quantity : run.summary.quantities)
-          if (std::find(names.begin(), names.end(), quantity.name) ==
-              names.end())
+          if (!holds(names, quantity.name))
             names.push_back(quantity.name);
       if (names.empty())
         return "";
@@ -454,13 +452,10 @@ namespace SlipStep
       for (const std::string &path : parameters.paths())
         {
           const bool shown_above =
-            std::any_of(runs[0].summary.effects.begin(),
-                        runs[0].summary.effects.end(),
-                        [&path](const std::string &effect) {
-                          return boost::algorithm::starts_with(path,
-                                                               "Friction/" +
-                                                                 effect + "/");
-                        });
+            any_of(runs[0].summary.effects, [&path](const std::string &effect) {
+              return boost::algorithm::starts_with(path,
+                                                   "Friction/" + effect + "/");
+            });
           if (parameters.is_set(path) && !shown_above &&
               !boost::algorithm::starts_with(path, "Report/"))
             lines.push_back({path, parameters.text(path)});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/run_results.h>
 
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
@@ -67,7 +68,7 @@ namespace SlipStep
             ++n_runs_with[part];
         }
       // Parts of lists of different lengths make no sense alone.
-      if (std::any_of(parts.begin(), parts.end(), [&](const auto &other) {
+      if (any_of(parts, [&](const auto &other) {
             return other.size() != parts[0].size();
           }))
         return;

@@ -34,7 +34,7 @@ namespace SlipStep
 
   std::size_t text_width(const std::string &text)
   {
-    return std::count_if(text.begin(), text.end(), begins_character);
+    return count_if(text, begins_character);
   }
 
 

@@ -5,6 +5,7 @@
 #include <slipstep/synthetic_tests/start_model.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/write_file.h>
 
@@ -181,7 +182,7 @@ namespace SlipStep
                            options.effects.end(),
                            effect) > 1)
               throw InputError("effect \"" + effect + "\" is named twice");
-            if (std::count(possible.begin(), possible.end(), effect) == 0)
+            if (!holds(possible, effect))
               throw InputError("class " + name + " hides one of: " +
                                boost::algorithm::join(possible, ", ") +
                                "; not \"" + effect + "\"");

@@ -2,9 +2,9 @@
 #include <slipstep/synthetic_tests/hidden_effects.h>
 #include <slipstep/synthetic_tests/start_model.h>
 
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
-#include <algorithm>
 
 namespace SlipStep
 {
@@ -143,11 +143,8 @@ namespace SlipStep
                             const std::vector<std::string> &hidden,
                             Random                         &random)
     {
-      const auto is_hidden = [&](const std::string &name) {
-        return std::find(hidden.begin(), hidden.end(), name) != hidden.end();
-      };
-      const bool has_overstress = !is_hidden("overstress");
-      const bool has_softening  = !is_hidden("softening");
+      const bool has_overstress = !holds(hidden, "overstress");
+      const bool has_softening  = !holds(hidden, "softening");
 
       std::string text =
         "# The model to start from: parameters that are not well set, and "

@@ -5,6 +5,7 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/home_folder.h>
 #include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/version.h>
@@ -292,7 +293,7 @@ namespace SlipStep
       po::options_description         options("options");
       for (const auto &option : all.options())
         if (option->long_name() == "help" || option->long_name() == "version" ||
-            std::find(own.begin(), own.end(), option->long_name()) != own.end())
+            holds(own, option->long_name()))
           options.add(option);
       return options;
     }
@@ -395,7 +396,7 @@ namespace SlipStep
       const auto n_values =
         1 + std::count(setting.second.begin(), setting.second.end(), '|');
       if (static_cast<std::ptrdiff_t>(values.size()) != n_values ||
-          std::find(values.begin(), values.end(), "") != values.end())
+          holds(values, ""))
         throw InputError("--sweep \"" + excerpt(text) +
                          "\": a value is missing; write the values with | "
                          "between them, as in --sweep \"Loading/Speed=1 "
@@ -509,15 +510,12 @@ namespace SlipStep
         {
           const std::string name = option->long_name();
           if (values.count(name) && name != "help" && name != "version" &&
-              std::find(command.options.begin(), command.options.end(), name) ==
-                command.options.end())
+              !holds(command.options, name))
             throw InputError("slipstep " + command.name + " has no option --" +
                              name);
         }
       const std::vector<std::string> &formats = command.formats;
-      if (values.count("format") > 0 &&
-          std::find(formats.begin(), formats.end(), line.format) ==
-            formats.end())
+      if (values.count("format") > 0 && !holds(formats, line.format))
         throw InputError("--format " + line.format + ": allowed is one of: " +
                          boost::algorithm::join(formats, ", "));
     }

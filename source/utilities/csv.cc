@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 
 #include <boost/algorithm/string/join.hpp>
@@ -223,11 +224,9 @@ namespace SlipStep
         if (content.empty())
           continue;
         const bool is_comment =
-          std::any_of(format.comment_marks.begin(),
-                      format.comment_marks.end(),
-                      [&](const std::string &mark) {
-                        return boost::algorithm::starts_with(content, mark);
-                      });
+          any_of(format.comment_marks, [&](const std::string &mark) {
+            return boost::algorithm::starts_with(content, mark);
+          });
         if (!is_comment)
           return true;
         read_comment(content);
@@ -367,11 +366,9 @@ namespace SlipStep
   {
     for (const auto &[name, position] : wanted)
       columns.push_back({name, position, {}});
-    std::sort(columns.begin(),
-              columns.end(),
-              [](const Column &a, const Column &b) {
-                return a.position < b.position;
-              });
+    sort(columns, [](const Column &a, const Column &b) {
+      return a.position < b.position;
+    });
     for (std::size_t i = 0; i < columns.size(); ++i)
       index_of_column[columns[i].name] = i;
 
@@ -442,10 +439,9 @@ namespace SlipStep
         cell.find(':') != std::string_view::npos)
       return "; clock times and dates are not read: write seconds from the "
              "start instead";
-    const bool has_letter =
-      std::any_of(cell.begin(), cell.end(), [](const char c) {
-        return std::isalpha(static_cast<unsigned char>(c)) != 0;
-      });
+    const bool has_letter = any_of(cell, [](const char c) {
+      return std::isalpha(static_cast<unsigned char>(c)) != 0;
+    });
     if (begin_of_row.size() == 1 && has_letter && format.units_line == 0)
       return "; if this line has the units, a map of slipstep import says so: "
              "Raw file/Units line";

@@ -4,6 +4,7 @@
 #include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/home_folder.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/parameter_reader.h>
 #include <slipstep/utilities/pattern_words.h>
@@ -424,8 +425,7 @@ namespace SlipStep
       const std::filesystem::path file = included_file(state, statement);
       std::error_code             error;
       const auto canonical = std::filesystem::weakly_canonical(file, error);
-      if (std::find(open_files.begin(), open_files.end(), canonical) !=
-          open_files.end())
+      if (holds(open_files, canonical))
         throw InputError(where + ": " + file.string() +
                          " includes itself (a circle of includes)");
       const std::string what =

@@ -5,6 +5,7 @@
 #include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/home_folder.h>
 #include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/parameter_printer.h>
 #include <slipstep/utilities/parameter_reader.h>
 #include <slipstep/utilities/parameters.h>
@@ -14,7 +15,6 @@
 
 #include <boost/algorithm/string/predicate.hpp>
 
-#include <algorithm>
 
 namespace SlipStep
 {
@@ -249,7 +249,7 @@ namespace SlipStep
            slash             = entry.path.find('/', slash + 1))
         {
                       const std::string section = entry.path.substr(0, slash);
-                      if (std::find(found.begin(), found.end(), section) == found.end())
+                      if (!holds(found, section))
             found.push_back(section);
         }
     return found;
@@ -524,14 +524,12 @@ namespace SlipStep
   {
     std::vector<PrintedParameter> shown;
     for (const Entry &entry : entries)
-      if (std::none_of(omitted_sections.begin(),
-                       omitted_sections.end(),
-                       [&](const std::string &section) {
-                         return boost::algorithm::starts_with(entry.path,
-                                                              section + "/");
-                       }) &&
-          (only.empty() ||
-           std::find(only.begin(), only.end(), entry.path) != only.end()))
+      if (none_of(omitted_sections,
+                  [&](const std::string &section) {
+                    return boost::algorithm::starts_with(entry.path,
+                                                         section + "/");
+                  }) &&
+          (only.empty() || holds(only, entry.path)))
         shown.push_back({entry, text(entry.path)});
     const ParameterSection root = parameter_tree(shown);
     switch (format)
@@ -573,7 +571,7 @@ namespace SlipStep
 
   bool Parameters::has_values_of(const Parameters &other) const
   {
-    return std::all_of(entries.begin(), entries.end(), [&](const Entry &entry) {
+    return all_of(entries, [&](const Entry &entry) {
       return text(entry.path) == other.text(entry.path);
     });
   }

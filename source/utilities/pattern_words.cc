@@ -3,6 +3,7 @@
 
 #include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/units.h>
@@ -267,7 +268,7 @@ namespace SlipStep
     std::string unknown = text;
     if (dynamic_cast<const P::MultipleSelection *>(&pattern))
       for (const std::string &word : dealii::Utilities::split_string_list(text))
-        if (std::find(words.begin(), words.end(), word) == words.end())
+        if (!holds(words, word))
           {
             unknown = word;
             break;

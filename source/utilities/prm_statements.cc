@@ -3,6 +3,7 @@
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/parameter_reader.h>
 #include <slipstep/utilities/pattern_words.h>
@@ -86,13 +87,12 @@ namespace SlipStep
         }
       else
         {
-          const std::vector<std::string> words = {"set",
-                                                  "subsection",
-                                                  "end",
-                                                  "include"};
-          const bool                     is_known =
-            std::find(words.begin(), words.end(), word) != words.end();
-          statement.kind  = PrmStatement::Kind::wrong;
+          const std::vector<std::string> words    = {"set",
+                                                     "subsection",
+                                                     "end",
+                                                     "include"};
+          const bool                     is_known = holds(words, word);
+          statement.kind                          = PrmStatement::Kind::wrong;
           statement.value = where + ": \"" + excerpt(text) +
                             "\" is not understood" +
                             (is_known ? "" : did_you_mean(word, words)) +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/variants.h>
@@ -186,8 +187,7 @@ namespace SlipStep
               has_changed = true;
             }
         const bool is_told =
-          has_changed &&
-          std::any_of(result.begin(), result.end(), [&](const Variant &other) {
+          has_changed && any_of(result, [&](const Variant &other) {
             return says_the_same(variant, other);
           });
         if (!is_told)

@@ -2,9 +2,9 @@
 #ifndef slipstep_report_text_table_h
 #define slipstep_report_text_table_h
 
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
-#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -61,9 +61,8 @@ namespace SlipStep
     template <typename Test>
     bool has(const Test &test) const
     {
-      return std::any_of(rows.begin(), rows.end(), [&](const Row &row) {
-        return std::invoke(test, row);
-      });
+      return any_of(rows,
+                    [&](const Row &row) { return std::invoke(test, row); });
     }
 
     const std::vector<Row> &rows;
