@@ -243,24 +243,17 @@ namespace SlipStep
 
     void Calibrator::keep_profile(const std::size_t i, const Profile &profile)
     {
-      const FitParameter &parameter = campaign.fitted[i];
-      FittedParameter    &fitted    = result.parameters[i];
-      fitted.parameter              = parameter;
-      fitted.value                  = parameter.from_scaled(best[i]);
+      const FitParameter &parameter          = campaign.fitted[i];
+      FittedParameter    &fitted             = result.parameters[i];
+      static_cast<ProfileInterval &>(fitted) = profile.converted(
+        [&](const double scaled) { return parameter.from_scaled(scaled); });
+      fitted.parameter = parameter;
       fitted.deviation =
         optimum.deviations(i) *
         (parameter.is_logarithmic ?
            1. :
            (parameter.upper - parameter.lower) / optimum.size[i]);
-      fitted.lower         = parameter.from_scaled(profile.lower);
-      fitted.upper         = parameter.from_scaled(profile.upper);
-      fitted.is_lower_open = profile.is_lower_open;
-      fitted.is_upper_open = profile.is_upper_open;
-      fitted.is_at_bound   = best[i] < 1e-6 || best[i] > 1. - 1e-6;
-      fitted.profile.clear();
-      for (const auto &point : profile.points)
-        fitted.profile.emplace_back(parameter.from_scaled(point.first),
-                                    point.second);
+      fitted.is_at_bound = best[i] < 1e-6 || best[i] > 1. - 1e-6;
     }
 
 

@@ -397,11 +397,12 @@ namespace SlipStep
     const double at    = optimum.scaled[parameter];
     const double reach = first_order_reach(optimum, parameter, confidence);
     Profile      result;
+    result.value         = at;
     result.lower         = std::max(0., at - reach);
     result.upper         = std::min(1., at + reach);
     result.is_lower_open = at - reach < 0.;
     result.is_upper_open = at + reach > 1.;
-    result.points        = {{at, 0.}};
+    result.profile       = {{at, 0.}};
     return result;
   }
 
@@ -435,7 +436,8 @@ namespace SlipStep
       first_order_reach(optimum, parameter, confidence);
 
     Profile result;
-    result.points.emplace_back(optimum.scaled[parameter], 0.);
+    result.value = optimum.scaled[parameter];
+    result.profile.emplace_back(result.value, 0.);
     for (const int sign : {-1, 1})
       {
         Simulator   simulator(planned);
@@ -454,11 +456,11 @@ namespace SlipStep
         (sign < 0 ? result.lower : result.upper)                 = side.end;
         (sign < 0 ? result.is_lower_open : result.is_upper_open) = side.is_open;
         for (const auto &point : side.points())
-          result.points.push_back(point);
+          result.profile.push_back(point);
         if (!side.better.empty())
           result.better = side.better;
       }
-    std::sort(result.points.begin(), result.points.end());
+    std::sort(result.profile.begin(), result.profile.end());
     return result;
   }
 } // namespace SlipStep

@@ -70,21 +70,19 @@ namespace SlipStep
 
 
 
-    void follow_both_ways(const Workspace                            &workspace,
-                          const Model                                &optimum,
-                          const std::size_t                           i,
-                          const double                                deviation,
-                          const double                                threshold,
-                          const std::chrono::steady_clock::time_point deadline,
-                          DiagnosedParameter                         &result)
+    ProfileInterval
+    follow_both_ways(const Workspace                            &workspace,
+                     const Model                                &optimum,
+                     const std::size_t                           i,
+                     const double                                deviation,
+                     const double                                threshold,
+                     const std::chrono::steady_clock::time_point deadline)
     {
-      const FitParameter &parameter = optimum.campaign->fitted[i];
-      const auto          value     = [&](const double scaled) {
-        return parameter.in_unit(parameter.from_scaled(scaled));
-      };
       std::vector<bool> held(optimum.scaled.size(), false);
       held[i] = true;
-      result.profile.emplace_back(result.value, 0.);
+      ProfileInterval result;
+      result.value   = optimum.scaled[i];
+      result.profile = {{result.value, 0.}};
       for (const int sign : {-1, 1})
         {
           Model       model = optimum.copy();
@@ -106,14 +104,17 @@ namespace SlipStep
             deadline);
           side.follow(std::max(1e-4, deviation * std::sqrt(threshold)));
           side.look_at({0.3, 0.6, 0.85});
-          (sign < 0 ? result.lower : result.upper) = value(side.end);
+          (sign < 0 ? result.lower : result.upper) = side.end;
           (sign < 0 ? result.is_lower_open : result.is_upper_open) =
             side.is_open;
-          for (const auto &point : side.points())
-            result.profile.emplace_back(value(point.first),
-                                        point.second * threshold);
+          for (const auto &[scaled, rise] : side.points())
+            result.profile.emplace_back(scaled, rise * threshold);
         }
       std::sort(result.profile.begin(), result.profile.end());
+      const FitParameter &parameter = optimum.campaign->fitted[i];
+      return result.converted([&](const double scaled) {
+        return parameter.in_unit(parameter.from_scaled(scaled));
+      });
     }
   } // namespace
 
@@ -159,15 +160,13 @@ namespace SlipStep
         out.before = std::numeric_limits<double>::quiet_NaN();
       try
         {
-          DiagnosedParameter followed = out;
-          follow_both_ways(workspace,
-                           model,
-                           i,
-                           scatter.deviations(i),
-                           std::pow(scatter.reach[i], 2),
-                           deadline,
-                           followed);
-          out = followed;
+          static_cast<ProfileInterval &>(out) =
+            follow_both_ways(workspace,
+                             model,
+                             i,
+                             scatter.deviations(i),
+                             std::pow(scatter.reach[i], 2),
+                             deadline);
         }
       catch (const OutOfTime &)
         {

@@ -224,22 +224,18 @@ namespace SlipStep
     for (const FittedParameter &fitted : calibration.parameters)
       {
         const FitParameter &parameter = fitted.parameter;
-        DrawnProfile        drawn;
-        drawn.name           = label_of(parameter);
-        drawn.unit           = parameter.unit();
-        drawn.value          = parameter.in_unit(fitted.value);
-        drawn.lower          = parameter.in_unit(fitted.lower);
-        drawn.upper          = parameter.in_unit(fitted.upper);
-        drawn.is_lower_open  = fitted.is_lower_open;
-        drawn.is_upper_open  = fitted.is_upper_open;
+        const auto          in_unit   = [&](const double value) {
+          return parameter.in_unit(value);
+        };
+        DrawnProfile drawn{fitted.converted(in_unit),
+                           label_of(parameter),
+                           parameter.unit()};
         drawn.is_logarithmic = parameter.is_logarithmic;
         drawn.lower_bound    = parameter.in_unit(parameter.lower);
         drawn.upper_bound    = parameter.in_unit(parameter.upper);
         drawn.distance       = parameter.is_logarithmic ?
                                  quantile * fitted.deviation :
                                  parameter.in_unit(quantile * fitted.deviation);
-        for (const auto &[value, increase] : fitted.profile)
-          drawn.points.emplace_back(parameter.in_unit(value), increase);
         profiles.push_back(drawn);
       }
     return draw_profiles(folder,

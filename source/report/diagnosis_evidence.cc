@@ -198,18 +198,13 @@ namespace SlipStep
     std::vector<DrawnProfile> profiles;
     for (const DiagnosedParameter &parameter : named_parameters(diagnosis))
       {
-        DrawnProfile drawn;
-        drawn.name          = label_text(parameter);
-        drawn.unit          = parameter.unit;
-        drawn.value         = parameter.value;
-        drawn.lower         = parameter.lower;
-        drawn.upper         = parameter.upper;
-        drawn.is_lower_open = parameter.is_lower_open;
-        drawn.is_upper_open = parameter.is_upper_open;
-        for (const auto &[value, increase] : parameter.profile)
-          if (std::isfinite(value) && std::isfinite(increase))
-            drawn.points.emplace_back(value, increase / (quantile * quantile));
-        std::sort(drawn.points.begin(), drawn.points.end());
+        DrawnProfile drawn{parameter, label_text(parameter), parameter.unit};
+        remove_erase_if(drawn.profile, [](const auto &point) {
+          return !std::isfinite(point.first) || !std::isfinite(point.second);
+        });
+        for (auto &point : drawn.profile)
+          point.second /= quantile * quantile;
+        std::sort(drawn.profile.begin(), drawn.profile.end());
         profiles.push_back(drawn);
       }
     return draw_profiles(folder,

@@ -279,20 +279,13 @@ namespace SlipStep
     /// Digits by the width of the interval.
     FittedParameter as_fitted(const DiagnosedParameter &parameter)
     {
-      FittedParameter fitted;
-      fitted.value         = parameter.value;
-      fitted.lower         = parameter.lower;
-      fitted.upper         = parameter.upper;
-      fitted.is_lower_open = parameter.is_lower_open;
-      fitted.is_upper_open = parameter.is_upper_open;
-      fitted.is_at_bound   = parameter.is_at_bound;
-      const double above   = parameter.upper - parameter.value;
-      const double below   = parameter.value - parameter.lower;
-      fitted.deviation =
-        0.5 * (parameter.is_lower_open ? above :
-               parameter.is_upper_open ? below :
-                                         0.5 * (above + below));
-      return fitted;
+      const double above = parameter.upper - parameter.value;
+      const double below = parameter.value - parameter.lower;
+      return {parameter,
+              FitParameter(),
+              0.5 * (parameter.is_lower_open ? above :
+                     parameter.is_upper_open ? below :
+                                               0.5 * (above + below))};
     }
 
 

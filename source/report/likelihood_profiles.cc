@@ -29,10 +29,10 @@ namespace SlipStep
     {
       ProfileView view;
       Range       y;
-      for (const auto &[value, increase] : profile.points)
+      for (const auto &[value, increase] : profile.profile)
         y.add(increase);
       view.highest = std::clamp(1.05 * y.upper, 1.4, 3.);
-      for (const auto &[value, increase] : profile.points)
+      for (const auto &[value, increase] : profile.profile)
         if (increase <= view.highest)
           view.x.add(value);
       for (const double value : {profile.value, profile.lower, profile.upper})
@@ -96,7 +96,7 @@ namespace SlipStep
     Rows interpolated(const DrawnProfile &profile)
     {
       constexpr int n_between = 12;
-      auto          points    = profile.points;
+      auto          points    = profile.profile;
       if (!profile.is_lower_open)
         points.emplace_back(profile.lower, 1.);
       if (!profile.is_upper_open)
@@ -156,7 +156,7 @@ namespace SlipStep
                    interpolated(profile),
                    "with lines " + profile_line.style());
       Rows rows;
-      for (const auto &[value, increase] : profile.points)
+      for (const auto &[value, increase] : profile.profile)
         rows.push_back({value, increase});
       picture.plot(profile.name,
                    columns,
@@ -197,7 +197,7 @@ namespace SlipStep
     bool        has_parabola = false, has_bound = false;
     std::size_t n = 0;
     for (const DrawnProfile &profile : profiles)
-      if (profile.points.size() > 1)
+      if (profile.profile.size() > 1)
         {
           SmallPicture picture(folder,
                                "profile_" + std::to_string(++n),

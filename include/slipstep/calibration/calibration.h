@@ -11,24 +11,46 @@
 
 namespace SlipStep
 {
-  /// A fitted parameter with what is known of its uncertainty.
-  struct FittedParameter
+  /// A value with what a profile likelihood tells of it.
+  struct ProfileInterval
+  {
+    double value = 0.;
+
+    /// At the stated confidence. Open where the tests contradict nothing up to
+    /// the bound, or up to values that the law refuses: the end is then the
+    /// last value tried.
+    double lower         = 0.;
+    double upper         = 0.;
+    bool   is_lower_open = false;
+    bool   is_upper_open = false;
+
+    /// (value, increase of the misfit), increasing in value, the optimum
+    /// included.
+    std::vector<std::pair<double, double>> profile;
+
+    /// The same in other terms of the values, which increase as these do.
+    template <typename Conversion>
+    ProfileInterval converted(const Conversion &conversion) const
+    {
+      ProfileInterval result = *this;
+      for (double *number : {&result.value, &result.lower, &result.upper})
+        *number = conversion(*number);
+      for (auto &point : result.profile)
+        point.first = conversion(point.first);
+      return result;
+    }
+  };
+
+  /// A fitted parameter with what is known of its uncertainty. Values are in
+  /// base units, an increase of 1 is where the interval ends.
+  struct FittedParameter : ProfileInterval
   {
     FitParameter parameter;
-    double       value = 0.; ///< base units
 
     /// Standard deviation from the curvature at the optimum: of the value, or
     /// of its natural logarithm where the scale is logarithmic. Infinite if
     /// the tests say nothing.
     double deviation = std::numeric_limits<double>::infinity();
-
-    /// Profile-likelihood interval at the stated confidence. Open where the
-    /// tests contradict nothing up to the bound, or up to values that the law
-    /// refuses: the end is then the last value tried.
-    double lower         = 0.;
-    double upper         = 0.;
-    bool   is_lower_open = false;
-    bool   is_upper_open = false;
 
     /// Whether the optimum lies on a bound, or at a constraint.
     bool is_at_bound = false;
@@ -39,10 +61,6 @@ namespace SlipStep
 
     /// Whether the misfit would fall beyond the constraint.
     bool is_wanted_beyond = false;
-
-    /// (value, increase of the misfit in units of the threshold): 1 is where
-    /// the interval ends. Increasing in value, the optimum included.
-    std::vector<std::pair<double, double>> profile;
   };
 
   /// A quantity computed from parameters.

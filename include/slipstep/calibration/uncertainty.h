@@ -81,15 +81,10 @@ namespace SlipStep
   /// autocorrelation as long as it is significantly positive.
   double correlation_length(const double *values, const std::size_t n);
 
-  /// What a profile was followed to, to become FittedParameter::profile.
-  struct Profile
+  /// What a profile was followed to: scaled values, the increase over the
+  /// threshold.
+  struct Profile : ProfileInterval
   {
-    double lower         = 0.; ///< scaled
-    double upper         = 0.;
-    bool   is_lower_open = false;
-    bool   is_upper_open = false;
-    /// (scaled, increase of the misfit over threshold)
-    std::vector<std::pair<double, double>> points;
     /// All parameters where the misfit was less than at the optimum; empty if
     /// it was nowhere.
     std::vector<double> better;

@@ -2,6 +2,7 @@
 #ifndef slipstep_diagnosis_diagnosis_h
 #define slipstep_diagnosis_diagnosis_h
 
+#include <slipstep/calibration/calibration.h>
 #include <slipstep/diagnosis/covariate.h>
 #include <slipstep/diagnosis/look_alike.h>
 #include <slipstep/utilities/parameters.h>
@@ -38,24 +39,15 @@ namespace SlipStep
     double      upper = 0.;
   };
 
-  /// A parameter fitted by the diagnosis.
-  struct DiagnosedParameter
+  /// A parameter fitted by the diagnosis. Values are in its unit; parameters of
+  /// the starting model have an interval from the curvature, and no profile.
+  struct DiagnosedParameter : ProfileInterval
   {
     std::string path;
     std::string name;
     std::string unit;
-    /// In that unit.
-    double value  = 0.;
     double before = std::numeric_limits<double>::quiet_NaN(); ///< of the start
-    /// 95 % interval by profile likelihood; for parameters of the starting
-    /// model from the curvature.
-    double lower         = 0.;
-    double upper         = 0.;
-    bool   is_lower_open = false;
-    bool   is_upper_open = false;
-    bool   is_at_bound   = false;
-    /// (value, increase of the objective); empty for those of the start.
-    std::vector<std::pair<double, double>> profile;
+    bool   is_at_bound = false;
     std::string effect; ///< "" for a parameter of the starting model
   };
 

@@ -2,28 +2,21 @@
 #ifndef slipstep_report_likelihood_profiles_h
 #define slipstep_report_likelihood_profiles_h
 
+#include <slipstep/calibration/calibration.h>
 #include <slipstep/report/gallery.h>
 
 #include <filesystem>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace SlipStep
 {
-  /// The profile likelihood of a parameter, as pictures show it; values in its
-  /// unit.
-  struct DrawnProfile
+  /// The profile likelihood of a parameter, as pictures show it: values in its
+  /// unit, the increase over the threshold.
+  struct DrawnProfile : ProfileInterval
   {
     std::string name, unit;
-    double      value         = 0.;
-    double      lower         = 0.; ///< of the interval
-    double      upper         = 0.;
-    bool        is_lower_open = false;
-    bool        is_upper_open = false;
-    /// (value, increase of the misfit over the threshold)
-    std::vector<std::pair<double, double>> points;
     /// Whether the parameter is fitted by its logarithm.
     bool is_logarithmic = false;
     /// Where the search ends.
