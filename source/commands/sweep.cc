@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -74,37 +73,6 @@ namespace SlipStep
 
 
 
-    // This environment, with one thread for each child: the cores are shared
-    // out among the children.
-    std::vector<std::string> child_environment()
-    {
-      const std::array<std::string, 2> threads = {
-        {"DEAL_II_NUM_THREADS=1", "OMP_NUM_THREADS=1"}};
-      std::vector<std::string> environment(threads.begin(), threads.end());
-      for (char **variable = environ; *variable != nullptr; ++variable)
-        {
-          const std::string text = *variable;
-          const std::string name = text.substr(0, text.find('=') + 1);
-          if (threads[0].compare(0, name.size(), name) != 0 &&
-              threads[1].compare(0, name.size(), name) != 0)
-            environment.push_back(text);
-        }
-      return environment;
-    }
-
-
-
-    std::vector<char *> c_strings(std::vector<std::string> &strings)
-    {
-      std::vector<char *> pointers;
-      for (std::string &string : strings)
-        pointers.push_back(string.data());
-      pointers.push_back(nullptr);
-      return pointers;
-    }
-
-
-
     Child start(const SweepJob &job, const std::size_t number)
     {
       int out[2], err[2];
@@ -119,16 +87,19 @@ namespace SlipStep
       posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
       posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
 
-      std::vector<std::string> arguments   = job.arguments;
-      std::vector<std::string> environment = child_environment();
-      Child                    child;
+      std::vector<std::string> words = job.arguments;
+      std::vector<char *>      arguments;
+      for (std::string &word : words)
+        arguments.push_back(word.data());
+      arguments.push_back(nullptr);
+      Child child;
       child.job       = number;
       const int error = posix_spawn(&child.pid,
-                                    arguments.front().c_str(),
+                                    arguments.front(),
                                     &actions,
                                     nullptr,
-                                    c_strings(arguments).data(),
-                                    c_strings(environment).data());
+                                    arguments.data(),
+                                    environ);
       posix_spawn_file_actions_destroy(&actions);
       ::close(out[1]);
       ::close(err[1]);
@@ -399,6 +370,9 @@ namespace SlipStep
                                     const unsigned int           n_parallel,
                                     const bool                   is_resumable)
   {
+    // The children inherit it: the cores are shared out among them.
+    for (const char *variable : {"DEAL_II_NUM_THREADS", "OMP_NUM_THREADS"})
+      setenv(variable, "1", 1);
     std::vector<int> exit_codes;
     {
       Crew crew(jobs,
