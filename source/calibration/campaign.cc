@@ -434,12 +434,9 @@ namespace SlipStep
       });
       return text;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     bool depends_on_position(const Parameters &parameters)
     {
       return find_effect(FrictionLaw(parameters).effects(),
@@ -449,12 +446,9 @@ namespace SlipStep
                                     info.section_of(parameters));
                          }) != nullptr;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     // Tests whose number the effect does not know, or takes for that of one of
     // its ends.
     std::string warning_of_order(const Parameters                &parameters,

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 namespace SlipStep
@@ -204,12 +203,9 @@ namespace SlipStep
         }
       return lengths;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     // As residuals are: first one axis, then the other.
     Eigen::VectorXd friction_over_noise(const CampaignTest &test)
     {

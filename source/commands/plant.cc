@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/synthetic_tests/answer.h>
 #include <slipstep/commands/commands.h>
-#include <slipstep/synthetic_tests/hidden_effects.h>
 #include <slipstep/synthetic_tests/planted_campaign.h>
 
 #include <slipstep/utilities/exceptions.h>
@@ -94,12 +93,9 @@ namespace SlipStep
       options.with_replicates = line.plant_options.count("no-replicates") == 0;
       return options;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     std::string list_of(const Planting::CampaignClass campaign_class)
     {
       std::string list;

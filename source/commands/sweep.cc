@@ -19,7 +19,6 @@
 #include <cstring>
 #include <iostream>
 #include <limits>
-#include <memory>
 #include <thread>
 
 namespace SlipStep

@@ -3,11 +3,9 @@
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/rules.h>
 #include <slipstep/utilities/lists.h>
-#include <slipstep/utilities/process.h>
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 
 namespace SlipStep
 {

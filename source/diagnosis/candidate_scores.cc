@@ -3,7 +3,6 @@
 #include <slipstep/experiment/stability.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
-#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/ingest.h>
 #include <slipstep/diagnosis/left_out.h>
-#include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/rules.h>
 
 namespace SlipStep

@@ -304,12 +304,9 @@ namespace SlipStep
             }
         }
     }
-  } // namespace
 
 
 
-  namespace
-  {
     // Of one test at every row: the simulated friction of the row's bin.
     std::vector<double> friction_at_rows(const ComparedTest    &test,
                                          const Eigen::VectorXd &friction)

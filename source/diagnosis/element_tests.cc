@@ -3,7 +3,6 @@
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 
-
 namespace SlipStep
 {
   namespace fs = std::filesystem;

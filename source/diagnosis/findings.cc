@@ -2,7 +2,6 @@
 #include <slipstep/diagnosis/findings.h>
 #include <slipstep/diagnosis/hum_of_tests.h>
 #include <slipstep/diagnosis/left_out.h>
-#include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/intervals.h>
 #include <slipstep/utilities/lists.h>
 

@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <sstream>

@@ -122,12 +122,9 @@ namespace SlipStep
       place.phases = largest_members(by_phase);
       place.tests  = largest_members(by_test);
     }
-  } // namespace
 
 
 
-  namespace
-  {
     // The clearest wave along the track.
     void add_track_wave(const Workspace           &workspace,
                         const Model               &base,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/look_alike.h>
 #include <slipstep/diagnosis/refits.h>
-#include <slipstep/diagnosis/rules.h>
 #include <slipstep/diagnosis/workspace.h>
 #include <slipstep/utilities/lists.h>
 

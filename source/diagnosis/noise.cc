@@ -7,7 +7,6 @@
 
 #include <boost/math/tools/minima.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -342,12 +341,9 @@ namespace SlipStep
       const std::vector<Contrast> &contrasts;
       const Logarithms             prior;
     };
-  } // namespace
 
 
 
-  namespace
-  {
     // Where the search above gives up early, one component after the other.
     void descend(const std::vector<Contrast> &contrasts,
                  const Logarithms            &prior,

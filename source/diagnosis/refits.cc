@@ -3,7 +3,6 @@
 #include <slipstep/diagnosis/rules.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace SlipStep
 {

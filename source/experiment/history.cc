@@ -5,8 +5,6 @@
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
-#include <algorithm>
-#include <array>
 #include <functional>
 #include <string>
 

@@ -6,7 +6,6 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/path_from.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace SlipStep

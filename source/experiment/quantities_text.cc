@@ -14,7 +14,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace SlipStep
@@ -357,12 +356,9 @@ namespace SlipStep
           fail("'" + quantity.name + "' is listed twice");
       quantities.push_back(quantity);
     }
-  } // namespace
 
 
 
-  namespace
-  {
     std::vector<std::string> words_of_quantities()
     {
       std::vector<std::string> words = {"at", "on", "after"};

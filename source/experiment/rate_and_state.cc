@@ -4,7 +4,6 @@
 #include <slipstep/experiment/stability.h>
 #include <slipstep/utilities/text.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace SlipStep

@@ -6,12 +6,10 @@
 #include <slipstep/measured_data/import_record.h>
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/measured_data/test_rows.h>
-#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <sstream>

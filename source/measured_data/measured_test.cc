@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <set>
 
 namespace SlipStep
 {
@@ -205,12 +204,9 @@ namespace SlipStep
       if (test.name.empty())
         test.name = test.file.stem().string();
     }
-  } // namespace
 
 
 
-  namespace
-  {
     // An axis along which nothing moves, and of which the friction is 0 to the
     // last digit, was not measured.
     void leave_out_idle_axis(MeasuredTest &test)

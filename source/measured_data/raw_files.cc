@@ -3,7 +3,6 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
 
-
 namespace SlipStep
 {
   namespace

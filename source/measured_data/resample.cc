@@ -5,7 +5,6 @@
 #include <slipstep/measured_data/test_rows.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace SlipStep

@@ -17,7 +17,6 @@
 #include <fstream>
 #include <map>
 #include <regex>
-#include <sstream>
 
 namespace SlipStep
 {

@@ -4,7 +4,6 @@
 #include <slipstep/report/calibration_text.h>
 #include <slipstep/report/friction_curves.h>
 #include <slipstep/report/likelihood_profiles.h>
-#include <slipstep/utilities/text.h>
 
 #include <boost/math/distributions/normal.hpp>
 

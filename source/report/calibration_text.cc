@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
 namespace SlipStep
 {
@@ -44,12 +42,9 @@ namespace SlipStep
       return factor > largest_factor ? "> " + short_text(largest_factor) :
                                        short_text(factor, factor < 1.1 ? 4 : 3);
     }
-  } // namespace
 
 
 
-  namespace
-  {
     bool is_open(const FittedParameter &fitted)
     {
       return fitted.constraint.empty() &&

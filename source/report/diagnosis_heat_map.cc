@@ -9,7 +9,6 @@
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>

@@ -8,7 +8,6 @@
 #include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/version.h>
 
-
 namespace SlipStep
 {
   namespace

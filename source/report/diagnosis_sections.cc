@@ -185,12 +185,9 @@ namespace SlipStep
                               "below the largest so far, as a share." :
                               "");
     }
-  } // namespace
 
 
 
-  namespace
-  {
     std::string places_table(const std::vector<Localisation> &places)
     {
       std::vector<TableLine> lines = {

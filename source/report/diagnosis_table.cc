@@ -8,7 +8,6 @@
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/text.h>
 
-
 namespace SlipStep
 {
   namespace

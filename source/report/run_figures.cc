@@ -9,9 +9,7 @@
 #include <slipstep/utilities/units.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 namespace SlipStep
 {

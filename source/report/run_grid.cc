@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/drawing.h>
 #include <slipstep/utilities/lists.h>
-#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>

@@ -17,8 +17,6 @@
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <set>
 #include <sstream>
 

@@ -5,7 +5,6 @@
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
-
 namespace SlipStep
 {
   namespace Planting

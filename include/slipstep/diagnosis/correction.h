@@ -5,7 +5,6 @@
 #include <slipstep/diagnosis/verdict.h>
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace SlipStep

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include <string>
 #include <vector>
 
 namespace SlipStep

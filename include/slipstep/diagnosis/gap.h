@@ -7,7 +7,6 @@
 #include <slipstep/diagnosis/rules.h>
 
 #include <algorithm>
-#include <vector>
 
 namespace SlipStep
 {

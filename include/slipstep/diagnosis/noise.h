@@ -4,10 +4,8 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <cstddef>
 #include <random>
-#include <string>
 #include <vector>
 
 namespace SlipStep

@@ -4,8 +4,6 @@
 
 #include <array>
 #include <functional>
-#include <map>
-#include <memory>
 #include <random>
 #include <string>
 #include <vector>

@@ -5,7 +5,6 @@
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/synthetic_tests/influence.h>
 
-#include <array>
 #include <limits>
 #include <vector>
 
