@@ -112,7 +112,8 @@ namespace SlipStep
           ++i;
         }
       const std::size_t end = i;
-      if (i < cell.size() && (cell[i] == 'e' || cell[i] == 'E'))
+      if (i < cell.size() &&
+          std::string("eEdD").find(cell[i]) != std::string::npos)
         {
           i +=
             i + 1 < cell.size() && (cell[i + 1] == '-' || cell[i + 1] == '+') ?
@@ -131,7 +132,14 @@ namespace SlipStep
       const char last  = used.back();
       const bool alike = used.find_first_not_of(last) == std::string::npos;
       if (alike && (used.size() > 1 || last == '\''))
-        marks.thousands = last;
+        {
+          marks.thousands = last;
+          // Parts of a date have no three digits each.
+          for (std::size_t at = cell.find(last); at < end;
+               at             = std::min(cell.find(last, at + 1), end))
+            if (std::min(cell.find(last, at + 1), end) != at + 4)
+              return {};
+        }
       else
         {
           marks.decimal        = last;

@@ -107,13 +107,20 @@ namespace SlipStep
       return gaps.count(lower_case(cell)) > 0;
     }
 
-    /// Independent of the locale, unlike strtod.
+    /// Independent of the locale, unlike strtod. Exponents may begin with a D,
+    /// as Fortran has those of double precision.
     bool read_number(std::string_view cell, double &value)
     {
       if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-')
         cell.remove_prefix(1);
       const char *const end    = cell.data() + cell.size();
       const auto [stop, error] = std::from_chars(cell.data(), end, value);
+      if (error == std::errc() && stop != end && (*stop == 'D' || *stop == 'd'))
+        {
+          std::string plain(cell);
+          plain[stop - cell.data()] = 'e';
+          return read_number(plain, value);
+        }
       return error == std::errc() && stop == end && !cell.empty();
     }
 
@@ -133,7 +140,7 @@ namespace SlipStep
           plain += cell[i];
         else if (i > 0 && is_digit(i - 1) && is_digit(i + 1) &&
                  is_digit(i + 2) && is_digit(i + 3) && !is_digit(i + 4) &&
-                 plain.find_first_of(".,eE") == std::string::npos &&
+                 plain.find_first_of(".,eEdD") == std::string::npos &&
                  (has_mark || i <= 4))
           has_mark = true;
         else

@@ -314,6 +314,18 @@ namespace
      {"Columns/Tangential load = Fx_meas [N] in N",
       "Columns/Normal load = Fz act [kN] in kN"},
      {}},
+    // A date has points, but no thousands.
+    {"dates.csv",
+     "Datum;Zeit (s);Weg (mm);F_N (N);F_R (N)\n24.12.2025;0;0;100;20,5\n"
+     "24.12.2025;0,5;1;100;20,25\n24.12.2025;1;2;100;20,125\n",
+     {"Raw file/Decimal mark = comma", "Columns/Time = Zeit (s) in s"},
+     {"Raw file/Thousands mark"}},
+    // Of double precision, as Fortran writes them.
+    {"fortran.csv",
+     "t [s],x [mm],Ft [N],Fz [N]\n0.D0,0.0D+00,1.0D+01,1.0D+02\n"
+     "1.0D-01,2.0D-02,1.0D+01,1.0D+02\n2.0D-01,4.0D-02,1.0D+01,1.0D+02\n",
+     {"Columns/Time = t [s] in s", "Columns/Displacement = x [mm] in mm"},
+     {}},
     {"nameless.csv",
      "t [s],d [mm],p [MPa],signal\n0,0,10,0\n1,1,10,20\n2,2,10,20\n",
      {"? Columns/Friction = column 4"},

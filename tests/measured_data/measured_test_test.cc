@@ -47,13 +47,17 @@ TEST(MeasuredTest, ValuesAndNotesAreRead)
 {
   const MeasuredTest test = read_measured_test(
     file_with("# name: first\n# condition: dry\n# Source: a: b\n\n" + header +
-              "0,0,5.8,0\n 0.5 , -1e-3,5.8,-0.1\n"));
+              "0,0,5.8,0\n 0.5 , -1e-3,5.8,-0.1\n1.D0,-2.5D-03,5.8,-1d-1\n"));
   EXPECT_EQ(test.name, "first");
   EXPECT_EQ(test.condition, "dry");
   EXPECT_EQ(test.notes.at("source"), "a: b");
-  ASSERT_EQ(test.time.size(), 2u);
+  ASSERT_EQ(test.time.size(), 3u);
   EXPECT_EQ(test.displacement[1], -1e-3);
   EXPECT_EQ(test.friction[1], -0.1);
+  // As Fortran writes double precision.
+  EXPECT_EQ(test.time[2], 1.);
+  EXPECT_EQ(test.displacement[2], -2.5e-3);
+  EXPECT_EQ(test.friction[2], -0.1);
   EXPECT_TRUE(test.friction_y.empty());
 }
 
