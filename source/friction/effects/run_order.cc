@@ -25,8 +25,9 @@ namespace SlipStep
         info.words = "a drift from test to test, in the order in which they "
                      "were made";
         info.formula =
-          "G = 1 + w (n - n_1) / (n_2 - n_1), n: the test's number";
-        info.latex      = R"(G = 1 + w \frac{n - n_1}{n_2 - n_1})";
+          "G = 1 + w (n - n_1) / (n_2 - n_1), n_1 <= n <= n_2: the test's number";
+        info.latex =
+          R"(G = 1 + w \frac{n - n_1}{n_2 - n_1},\quad n_1 \le n \le n_2)";
         info.source     = "chosen";
         info.parameters = {
           {{"Change", "w", "0.1", Quantity(Dimension::number, -0.99, 100.)},
