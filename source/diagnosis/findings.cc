@@ -99,6 +99,17 @@ namespace SlipStep
     diagnosis.start_effects     = workspace.start.list("Friction/Effects");
     diagnosis.start_parameters =
       find_intervals(workspace, ingested.base, diagnosis.confidence);
+    for (std::size_t i = 0; i < ingested.base.scaled.size(); ++i)
+      {
+        const FitParameter &parameter = ingested.base.campaign->fitted[i];
+        const double        scaled    = ingested.base.scaled[i];
+        if (scaled < 1e-6 || scaled > 1. - 1e-6)
+          diagnosis.warnings.push_back(
+            parameter.path + " of the starting model is at its bound " +
+            parameter.text(parameter.from_scaled(scaled), 6) +
+            ": if Calibration/Parameters has that as a guess, what is missing "
+            "may be nothing but a wider range.");
+      }
   }
 
 

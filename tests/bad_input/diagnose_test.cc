@@ -458,3 +458,20 @@ TEST_F(Diagnose, FrictionWithFewDigits)
   EXPECT_TRUE(contains(json["warnings"].dump(), "rounded to steps of 0.01"))
     << json["warnings"];
 }
+
+
+
+// The range of a parameter may be a guess.
+TEST_F(Diagnose, AParameterThatEndsAtItsBound)
+{
+  plant();
+  const auto json =
+    verdict_of(diagnose({"Calibration/Parameters=Friction/Static coefficient "
+                         "from 0.02 to 0.06",
+                         "Friction/Static coefficient=0.05",
+                         "Friction/softening/Kinetic coefficient=0.04"}));
+  EXPECT_TRUE(contains(json["warnings"].dump(),
+                       "Friction/Static coefficient of the starting model is "
+                       "at its bound 0.06"))
+    << json["warnings"];
+}
