@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/rounded_motion.h>
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -24,6 +25,14 @@ namespace SlipStep
         return end - begin > 1;
       }
     };
+
+
+
+    // Nearly, in units of a step.
+    bool is_whole(const double ratio)
+    {
+      return std::abs(ratio - std::round(ratio)) <= 1e-3;
+    }
 
 
 
@@ -156,7 +165,6 @@ namespace SlipStep
   double rounding_of_motion(const std::vector<double> &values)
   {
     constexpr double      largest_share = 0.01; // of the range
-    constexpr double      unlike        = 1e-3;
     constexpr std::size_t least_stairs = 3, least_sizes = 3, many_stairs = 20;
 
     const std::vector<Stair> stairs = find_stairs(values);
@@ -170,7 +178,7 @@ namespace SlipStep
     for (std::size_t s = 1; s < stairs.size(); ++s)
       {
         const double ratio = (stairs[s].value - stairs[s - 1].value) / step;
-        if (std::abs(ratio - std::round(ratio)) > unlike)
+        if (!is_whole(ratio))
           return 0.;
         sizes.insert(std::abs(std::round(ratio)));
         // Between two single steps in one direction: what takes several of them
@@ -205,12 +213,8 @@ namespace SlipStep
   {
     bool are_multiples(const std::vector<double> &values, const double step)
     {
-      constexpr double unlike = 1e-3;
-
-      return step > 0. &&
-             std::all_of(values.begin(), values.end(), [&](const double value) {
-               const double ratio = value / step;
-               return std::abs(ratio - std::round(ratio)) < unlike;
+      return step > 0. && all_of(values, [&](const double value) {
+               return is_whole(value / step);
              });
     }
 
