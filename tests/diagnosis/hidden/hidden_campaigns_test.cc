@@ -117,6 +117,23 @@ INSTANTIATE_TEST_SUITE_P(
              Verdict::no_gap,
              {},
              Planting::NoiseKind::rounded_motion},
+    // Slides at an angle; strokes, and tests whose rows are a step apart.
+    Expected{CampaignClass::none,
+             22,
+             Verdict::no_gap,
+             {},
+             Planting::NoiseKind::rounded_motion},
+    Expected{CampaignClass::none,
+             46,
+             Verdict::no_gap,
+             {},
+             Planting::NoiseKind::rounded_motion},
+    // Four scales alone take the noise of one record for a drift.
+    Expected{CampaignClass::none,
+             315,
+             Verdict::no_gap,
+             {},
+             Planting::NoiseKind::correlated_rows},
     // Rows some tenths of a second apart see 50 Hz as a slow wave of each test.
     Expected{CampaignClass::none,
              48,
