@@ -42,14 +42,12 @@ namespace SlipStep
                               Standing::in_the_model :
                               Standing::not_testable;
         }
-      else if (!seen.failure.empty())
+      else if ((!seen.failure.empty() && seen.ways.empty()) ||
+               holds(judgement.found.lost, result.name))
         {
-          result.why      = seen.failure;
-          result.standing = Standing::not_simulated;
-        }
-      else if (holds(judgement.found.lost, result.name))
-        {
-          result.why      = "no fit with it could be simulated";
+          result.why      = seen.failure.empty() ?
+                              "no fit with it could be simulated" :
+                              seen.failure;
           result.standing = Standing::not_simulated;
         }
       else if (!result.is_testable)

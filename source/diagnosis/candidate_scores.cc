@@ -6,14 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace SlipStep
 {
-  std::vector<Part> with_part(const Model      &model,
+  std::vector<Part> with_part(std::vector<Part> parts,
                               const Candidate  &candidate,
                               const std::size_t formula)
   {
-    std::vector<Part> parts = model.parts;
     parts.push_back({candidate.name, candidate.formulas[formula]});
     return parts;
   }
@@ -37,12 +37,25 @@ namespace SlipStep
 
 
 
-    // Why sliding at the speeds of the tests is not stable with these parts, ""
-    // if it is, or is not without the last one, either.
-    std::string why_unstable(const Workspace         &workspace,
-                             const Model             &model,
-                             const std::vector<Part> &parts,
-                             const Values            &values)
+    // What a candidate is seen from: a model, or that with an effect beside it.
+    struct Ground
+    {
+      std::vector<Part> parts;
+      Values            values;
+
+      Parameters parameters(const Workspace &workspace) const
+      {
+        return assemble(workspace.start, parts, values).parameters;
+      }
+    };
+
+
+
+    // Why sliding at the speeds of the tests is not stable on this ground, ""
+    // if it is, or is not on the one below, either.
+    std::string why_unstable(const Workspace &workspace,
+                             const Ground    &below,
+                             const Ground    &ground)
     {
       const auto why = [&](const Parameters &parameters) {
         const TestedRange &range = workspace.range;
@@ -52,11 +65,9 @@ namespace SlipStep
                               range.fastest},
                              range.highest);
       };
-      const std::string with_them =
-        why(assemble(workspace.start, parts, values).parameters);
-      return with_them.empty() ||
-                 why(model.simulator->with(model.scaled)).empty() ?
-               with_them :
+      const std::string with_it = why(ground.parameters(workspace));
+      return with_it.empty() || why(below.parameters(workspace)).empty() ?
+               with_it :
                "";
     }
 
@@ -66,6 +77,7 @@ namespace SlipStep
     // why there are none, if it cannot be simulated.
     void add_directions(const Workspace        &workspace,
                         const Model            &model,
+                        const Ground           &ground,
                         const Candidate        &candidate,
                         const std::size_t       candidate_number,
                         const std::size_t       formula_number,
@@ -73,16 +85,16 @@ namespace SlipStep
                         CandidateView          &seen)
     {
       const TrialFormula     &formula = candidate.formulas[formula_number];
-      const Values            own     = model.values();
       const std::vector<Part> parts =
-        with_part(model, candidate, formula_number);
+        with_part(ground.parts, candidate, formula_number);
       try
         {
           const Values unity =
-            merged(own, formula.shapes[formula.shapes.size() / 2](1.));
+            merged(ground.values,
+                   formula.shapes[formula.shapes.size() / 2](1.));
           if (const std::string why =
                 formula.along == "log10 speed" ?
-                  why_unstable(workspace, model, parts, unity) :
+                  why_unstable(workspace, ground, {parts, unity}) :
                   "";
               !why.empty())
             {
@@ -92,10 +104,11 @@ namespace SlipStep
             }
           const Model trial = make_coarse_model(
             workspace.start, parts, unity, workspace.tests, &model);
-          trial.simulator->subtract(model.simulator->with(model.scaled));
+          trial.simulator->subtract(ground.parameters(workspace));
           for (std::size_t s = 0; s < formula.shapes.size(); ++s)
             {
-              const Values        values = merged(own, formula.shapes[s](1.));
+              const Values values =
+                merged(ground.values, formula.shapes[s](1.));
               std::vector<double> scaled;
               for (const FitParameter &parameter : trial.campaign->fitted)
                 scaled.push_back(std::clamp(
@@ -148,6 +161,27 @@ namespace SlipStep
 
 
 
+    // With a candidate that holds it beside it, as strong as holds any trial.
+    std::optional<Ground> held_ground(const Ground                 &ground,
+                                      const Candidate              &candidate,
+                                      const std::vector<Candidate> &candidates)
+    {
+      constexpr double strong = 5.;
+
+      for (const Candidate &other : candidates)
+        if (other.name == candidate.held_by && !other.formulas.empty())
+          {
+            const TrialFormula &formula = other.formulas.front();
+            return Ground{with_part(ground.parts, other, 0),
+                          merged(ground.values,
+                                 formula.shapes[formula.shapes.size() / 2](
+                                   strong))};
+          }
+      return {};
+    }
+
+
+
     // What the catalogue would change, without scores yet.
     View find_directions(const Workspace &workspace, const Model &model)
     {
@@ -159,10 +193,24 @@ namespace SlipStep
       View                                view;
       view.candidates.resize(candidates.size());
       side_by_side(candidates.size(), [&](const std::size_t c) {
-        Model own = model.copy();
-        for (std::size_t f = 0; f < candidates[c].formulas.size(); ++f)
-          add_directions(
-            workspace, own, candidates[c], c, f, found[c], view.candidates[c]);
+        Model          own      = model.copy();
+        CandidateView &seen     = view.candidates[c];
+        seen.candidate          = candidates[c];
+        seen.number             = c;
+        const auto see_all_from = [&](const Ground &ground) {
+          for (std::size_t f = 0; f < candidates[c].formulas.size(); ++f)
+            add_directions(
+              workspace, own, ground, candidates[c], c, f, found[c], seen);
+        };
+        const Ground ground{model.parts, model.values()};
+        see_all_from(ground);
+        if (!seen.is_unstable || !found[c].empty())
+          return;
+        if (const auto held = held_ground(ground, candidates[c], candidates))
+          {
+            see_all_from(*held);
+            seen.candidate.only_beside = candidates[c].held_by;
+          }
       });
       for (std::size_t c = 0; c < candidates.size(); ++c)
         {
@@ -170,10 +218,9 @@ namespace SlipStep
             if (direction.friction.cwiseAbs().maxCoeff() >
                 least_change * workspace.range.typical_friction)
               view.set.directions.push_back(direction);
-          view.candidates[c].candidate = candidates[c];
-          view.candidates[c].number    = c;
-          // By one formula at least it can be.
-          if (!found[c].empty())
+          // By one formula at least it can be, alone.
+          if (!found[c].empty() && view.candidates[c].candidate.only_beside ==
+                                     candidates[c].only_beside)
             {
               view.candidates[c].failure     = "";
               view.candidates[c].is_unstable = false;

@@ -90,6 +90,7 @@ namespace SlipStep
         if (entry.second.search.candidate == own.name)
           effects.push_back(&entry.second);
       Candidate candidate{own.name, own.search.signature, {}, ""};
+      candidate.held_by = own.search.held_by;
       std::vector<std::string> reasons;
       for (const EffectInfo *info : effects)
         {

@@ -297,6 +297,7 @@ namespace SlipStep
       describe_shrink(ingested, final_model, result);
       describe_doubts(workspace, result);
       describe_few_levels(workspace, final_model, result);
+      describe_short_lengths(workspace, final_model, result);
       const Eigen::VectorXd base_difference =
         comparison.difference(ingested.base);
       std::vector<std::pair<std::string, Eigen::VectorXd>> changes;

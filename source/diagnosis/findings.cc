@@ -4,6 +4,7 @@
 #include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/intervals.h>
 #include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/crc.hpp>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace SlipStep
@@ -382,6 +384,56 @@ namespace SlipStep
             covariate + " does as well, and a test at another " + covariate +
             " would tell.");
       }
+  }
+
+
+
+  namespace
+  {
+    // Typical of the test with the closest rows; infinite if none moves.
+    double path_between_rows(const Workspace &workspace)
+    {
+      double closest = std::numeric_limits<double>::infinity();
+      for (const ComparedTest &test : workspace.comparison.tests)
+        {
+          std::vector<double> steps;
+          for (std::size_t i = 1; i < test.n_bins(); ++i)
+            if (const double step =
+                  workspace.covariates.path[test.begin + i] -
+                  workspace.covariates.path[test.begin + i - 1];
+                step > 0.)
+              steps.push_back(step);
+          if (!steps.empty())
+            closest = std::min(closest, median(std::move(steps)));
+        }
+      return closest;
+    }
+  } // namespace
+
+
+
+  void describe_short_lengths(const Workspace &workspace,
+                              const Model     &model,
+                              Diagnosis       &diagnosis)
+  {
+    const double between = path_between_rows(workspace);
+    const Values values  = model.values();
+    for (const Part &part : model.parts)
+      for (const CandidateParameter &parameter : part.formula.parameters)
+        {
+          const auto *quantity = dynamic_cast<const Quantity *>(
+            workspace.start.entry(parameter.path).pattern.get());
+          const double length = values.at(parameter.path);
+          if (quantity != nullptr && quantity->dimension == Dimension::length &&
+              length < between)
+            diagnosis.warnings.push_back(
+              parameter.path.substr(parameter.path.find('/') + 1) + " = " +
+              rounded_text(length, 2) +
+              " mm is less than the path between rows, " +
+              rounded_text(between, 2) +
+              " mm: that it is so short is all that these tests tell of it. "
+              "With any slip the contact forgets, at rest it does not.");
+        }
   }
 
 

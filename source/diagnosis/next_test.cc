@@ -197,7 +197,7 @@ namespace SlipStep
       return if_possible([&]() -> std::optional<Model> {
         Model model =
           make_model(workspace.start,
-                     with_part(base, candidate, 0),
+                     with_part(base.parts, candidate, 0),
                      merged(base.values(), shape(worthwhile_strength)),
                      workspace.tests,
                      base);

@@ -39,7 +39,7 @@ namespace SlipStep
           return fitted(
             workspace,
             make_model(workspace.start,
-                       with_part(model, candidate, direction.formula),
+                       with_part(model.parts, candidate, direction.formula),
                        merged(values, shape(strength)),
                        workspace.tests,
                        model));
@@ -146,25 +146,35 @@ namespace SlipStep
                                        const View            &view,
                                        const ScoreTest::Pair &pair)
   {
-    std::vector<Part> parts  = model.parts;
-    Values            values = model.values();
-    const auto add = [&](const std::size_t number, const double strength) {
-      const Direction    &direction = view.set.directions[number];
-      const Candidate    &candidate = view.of(direction).candidate;
-      const TrialFormula &formula   = candidate.formulas[direction.formula];
-      parts.push_back({candidate.name, formula});
-      values = merged(values,
-                      formula.shapes[direction.shape](std::clamp(
-                        strength, formula.is_one_sided ? 0.1 : -50., 100.)));
-    };
-    add(pair.first, pair.first_strength);
-    add(pair.second, pair.second_strength);
-    ++workspace.n_refits;
-    return if_possible([&]() {
-      return fitted(
-        workspace,
-        make_model(workspace.start, parts, values, workspace.tests, model));
-    });
+    // Less of both if they cannot be simulated.
+    for (const double share : {1., 0.3, 0.1})
+      {
+        std::vector<Part> parts  = model.parts;
+        Values            values = model.values();
+        const auto add = [&](const std::size_t number, const double strength) {
+          const Direction    &direction = view.set.directions[number];
+          const Candidate    &candidate = view.of(direction).candidate;
+          const TrialFormula &formula   = candidate.formulas[direction.formula];
+          parts.push_back({candidate.name, formula});
+          values =
+            merged(values,
+                   formula.shapes[direction.shape](
+                     share * std::clamp(strength,
+                                        formula.is_one_sided ? 0.1 : -50.,
+                                        100.)));
+        };
+        add(pair.first, pair.first_strength);
+        add(pair.second, pair.second_strength);
+        ++workspace.n_refits;
+        const std::optional<Model> tried = if_possible([&]() {
+          return fitted(
+            workspace,
+            make_model(workspace.start, parts, values, workspace.tests, model));
+        });
+        if (tried.has_value())
+          return tried;
+      }
+    return {};
   }
 
 

@@ -181,6 +181,12 @@ namespace SlipStep
           ++n_tried;
           const std::optional<Model> tried =
             refit_with_pair(workspace, result.model, view, pair);
+          if (!tried.has_value() && result.model.parts.empty())
+            for (const std::size_t number : {pair.first, pair.second})
+              if (const CandidateView &lost =
+                    view.of(view.set.directions[number]);
+                  lost.is_unstable)
+                result.lost.push_back(lost.candidate.name);
           if (tried.has_value() && !is_at_bound(*tried) &&
               tried->objective < result.model.objective)
             found.push_back(*tried);

@@ -27,8 +27,9 @@ namespace SlipStep
     /// changes nothing.
     std::vector<Way> ways;
     Score            score;   ///< of the best
-    std::string      failure; ///< why it could not be simulated
-    /// That is since friction would fall with speed, and sliding jump.
+    std::string      failure; ///< why it could not be simulated, alone
+    /// That is since friction would fall with speed, and sliding jump. There
+    /// are ways if another effect may hold it: it is seen beside that only.
     bool is_unstable = false;
     /// Chance of such a score among all candidates.
     double p = 1.;
@@ -54,8 +55,8 @@ namespace SlipStep
 
   View score_candidates(const Workspace &workspace, const Model &model);
 
-  /// The parts of a model and one more.
-  std::vector<Part> with_part(const Model      &model,
+  /// These and one more.
+  std::vector<Part> with_part(std::vector<Part> parts,
                               const Candidate  &candidate,
                               const std::size_t formula);
 

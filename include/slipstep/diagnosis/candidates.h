@@ -23,6 +23,8 @@ namespace SlipStep
     /// The candidate without which it would not be told from others, so that it
     /// is tried together with it only; "" if it is tried alone.
     std::string only_beside = "";
+    /// As EffectSearch::held_by.
+    std::string held_by = "";
 
     /// It cannot be tried, since the model has it or the like.
     void leave_to_model(const std::string &why);

@@ -29,6 +29,12 @@ namespace SlipStep
                            const Model     &model,
                            Diagnosis       &diagnosis);
 
+  /// Warn of lengths of what was added that are shorter than the path between
+  /// two rows: that is all that is seen of them.
+  void describe_short_lengths(const Workspace &workspace,
+                              const Model     &model,
+                              Diagnosis       &diagnosis);
+
   /// What would change the verdict.
   void describe_doubts(const Workspace &workspace, Diagnosis &diagnosis);
   ///@}

@@ -155,6 +155,11 @@ namespace SlipStep
     std::string beside_signature = "";
     Form        beside_formula   = {};
 
+    /// The effect that holds what this one would let jump, as a direct effect
+    /// of speed holds friction that falls with it. Where sliding is not stable
+    /// with this effect alone, it is tried beside that. "" if there is none.
+    std::string held_by = "";
+
     /// Let all formulas have whole paths: those without a "/" are keys of this
     /// section.
     void complete_paths(const std::string &section);

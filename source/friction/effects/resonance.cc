@@ -39,7 +39,8 @@ namespace SlipStep
                                  {"Speed", "0.2 mm/s"},
                                  {"Quality", "1.5"}};
         info.search = {"one speed high, slower and faster ones not", search};
-        info.search.along = "log10 speed";
+        info.search.along   = "log10 speed";
+        info.search.held_by = "overstress";
         return info;
       }
 

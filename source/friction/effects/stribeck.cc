@@ -39,8 +39,9 @@ namespace SlipStep
         info.typical_settings = {{"Rise", "0.1"},
                                  {"Speed", "2 mm/s"},
                                  {"Exponent", "1.5"}};
-        info.search       = {"slow speeds high, no memory of holds", search};
-        info.search.along = "log10 speed";
+        info.search         = {"slow speeds high, no memory of holds", search};
+        info.search.along   = "log10 speed";
+        info.search.held_by = "overstress";
         return info;
       }
 

@@ -578,12 +578,17 @@ TEST_F(CampaignFolder, NamesADriftOverTheCampaign)
 
 
 // Friction that falls with speed, in a model in which nothing rises with it at
-// once, has no stable sliding to be compared; with a direct effect it has.
-TEST_F(CampaignFolder, EffectsThatMakeSlidingJumpAreNotScored)
+// once, has no stable sliding to be compared; with a direct effect it has, in
+// the model or tried beside it.
+TEST_F(CampaignFolder, EffectsThatMakeSlidingJumpAreNotScoredAlone)
 {
   plant(CampaignClass::none, 3);
-  const auto unstable = [&](const std::string &effects) {
+  std::set<std::string> held;
+  const auto            unstable = [&](const std::string &effects,
+                            const std::string &candidates) {
+    held.clear();
     parameters.set("Friction/Effects", effects, "test");
+    parameters.set("Diagnosis/Candidates", candidates, "test");
     parameters.set("Calibration/Parameters",
                    "Friction/Static coefficient from 0.03 to 0.5",
                    "test");
@@ -593,15 +598,19 @@ TEST_F(CampaignFolder, EffectsThatMakeSlidingJumpAreNotScored)
          score_candidates(*ingested.workspace, ingested.base).candidates)
       if (seen.is_unstable)
         {
-          EXPECT_TRUE(seen.ways.empty());
           EXPECT_NE(seen.failure.find("no stable branch"), std::string::npos);
-          names.insert(seen.candidate.name);
+          EXPECT_EQ(seen.ways.empty(), seen.candidate.only_beside.empty());
+          (seen.ways.empty() ? names : held).insert(seen.candidate.name);
         }
     return names;
   };
-  EXPECT_EQ(unstable("subloading").count("stribeck"), 1u);
-  EXPECT_EQ(unstable("subloading").count("overstress"), 0u);
-  EXPECT_EQ(unstable("subloading, overstress").size(), 0u);
+  const std::set<std::string> falling = {"resonance", "stribeck"};
+  EXPECT_EQ(unstable("subloading", "resonance, stribeck, pressure"), falling);
+  EXPECT_TRUE(held.empty());
+  EXPECT_TRUE(unstable("subloading", "all").empty());
+  EXPECT_EQ(held, falling);
+  EXPECT_TRUE(unstable("subloading, overstress", "all").empty());
+  EXPECT_TRUE(held.empty());
 }
 
 

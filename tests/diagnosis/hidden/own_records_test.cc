@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Campaigns whose friction is a formula of the load point's speed, as a table
+// of measurements is read: no law of the catalogue made them.
+
+#include <tests/diagnosis/hidden/trial.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+
+using namespace SlipStep;
+using namespace SlipStep::Testing;
+
+namespace
+{
+  struct Slide
+  {
+    double speed; ///< [mm/s], 0 is a rest
+    double duration;
+  };
+
+  class OwnRecords : public testing::Test
+  {
+  protected:
+    // Friction follows the speed at once and does not change at rest; flanks
+    // are of a spring. Every condition twice.
+    void write(const double per_decade)
+    {
+      const std::vector<std::vector<Slide>> conditions = {
+        {{0.02, 300.}},
+        {{0.2, 30.}},
+        {{2., 3.}},
+        {{0.2, 20.}, {2., 2.}, {0.02, 100.}, {0.2, 10.}},
+        {{0.2, 15.}, {-0.2, 15.}, {0.2, 15.}, {-0.2, 15.}},
+        {{2., 2.}, {-2., 2.}, {2., 2.}},
+        {{0.2, 15.}, {0., 10.}, {0.2, 10.}, {0., 300.}, {0.2, 10.}}};
+      for (unsigned int i = 0; i < 2 * conditions.size(); ++i)
+        write(i, conditions[i / 2], per_decade);
+    }
+
+    Judgement judged(const std::string &effects, const std::string &more)
+    {
+      std::ofstream(folder.path() / "case.prm")
+        << "set Loading/Programme = press 5 MPa in 1 s; slide 0.2 mm/s for "
+           "20 mm\n"
+           "set Friction/Effects = "
+        << effects
+        << "\n"
+           "set Friction/Static coefficient = 0.15\n"
+           "set Friction/Tangential stiffness = 100\n"
+           "set Friction/subloading/Rate = 500\n"
+           "set Calibration/Tests = measured\n"
+           "set Calibration/Parameters = Friction/Static coefficient from 0.02 "
+           "to 0.6; Friction/Tangential stiffness from 5 to 2000 log; "
+           "Friction/subloading/Rate from 20 to 5000 log"
+        << more << '\n';
+      declare_loading_parameters(parameters);
+      FrictionLaw::declare_parameters(parameters);
+      declare_calibration_parameters(parameters);
+      declare_diagnosis_parameters(parameters);
+      parameters.read(folder.path() / "case.prm");
+      ingested = ingest(parameters, {});
+      return judge(*ingested.workspace, ingested.base);
+    }
+
+    TemporaryFolder folder;
+    Parameters      parameters;
+    Ingested        ingested;
+
+  private:
+    void write(const unsigned int        number,
+               const std::vector<Slide> &slides,
+               const double              per_decade)
+    {
+      constexpr double       stiffness = 20.; // friction per mm
+      constexpr unsigned int n_rows = 180, n_within = 50;
+
+      std::filesystem::create_directories(folder.path() / "measured");
+      std::ofstream out(folder.path() / "measured" /
+                        ("t" + std::to_string(10 + number) + ".csv"));
+      out.precision(9);
+      out << "# condition: " << number / 2
+          << "\ntime_s,displacement_mm,pressure_MPa,friction\n0,0,5,0\n";
+      const double gain = 1. + 0.005 * normal(random);
+      double       time = 0., displacement = 0., friction = 0.;
+      for (const Slide &slide : slides)
+        for (unsigned int row = 0; row < n_rows / slides.size(); ++row)
+          {
+            const double step =
+              slide.duration / (n_rows / slides.size()) / n_within;
+            const double strength =
+              slide.speed == 0. ?
+                std::abs(friction) :
+                0.2 *
+                  (1. + per_decade * std::log10(std::abs(slide.speed) / 0.2));
+            for (unsigned int i = 0; i < n_within; ++i)
+              {
+                time += step;
+                displacement += slide.speed * step;
+                friction = std::clamp(friction + stiffness * slide.speed * step,
+                                      -strength,
+                                      strength);
+              }
+            out << time << ',' << displacement << ",5,"
+                << gain * friction + 0.002 * normal(random) << '\n';
+          }
+    }
+
+    std::mt19937_64            random{1};
+    std::normal_distribution<> normal;
+  };
+} // namespace
+
+
+
+// With subloading alone nothing holds friction that falls with speed; beside a
+// direct effect it is seen, as the Stribeck curve or, without one, as a state
+// that slip renews. Healing, which the rests do not show, was named for it.
+TEST_F(OwnRecords, FrictionThatFallsWithSpeedIsFoundWhereTheModelCannotHoldIt)
+{
+  write(-0.03);
+  const Judgement judgement = judged("subloading", "");
+  EXPECT_FALSE(judgement.is_incomplete);
+  std::vector<std::string> found = effect_names(judgement.found.model.parts);
+  for (const std::string &name : found)
+    EXPECT_TRUE(name == "overstress" || name == "stribeck" ||
+                name == "slip_law")
+      << name;
+  for (const Rival &rival : judgement.found.rivals)
+    found.push_back(rival.name);
+  EXPECT_EQ(std::count(found.begin(), found.end(), "slip_law"), 1);
+}
+
+
+
+// The overstress relaxes at rest, this friction does not: it follows the speed
+// over any length that is too short to be seen, which is told.
+TEST_F(OwnRecords, ALengthBelowThatBetweenRowsIsTold)
+{
+  write(0.03);
+  const Judgement judgement =
+    judged("subloading, overstress",
+           "; Friction/overstress/Viscosity from 1 to 1e8 log; "
+           "Friction/overstress/Exponent from 4 to 200");
+  EXPECT_EQ(effect_names(judgement.found.model.parts),
+            std::vector<std::string>{"memory_length"});
+  Diagnosis diagnosis;
+  describe_short_lengths(*ingested.workspace, judgement.found.model, diagnosis);
+  ASSERT_EQ(diagnosis.warnings.size(), 1u);
+  EXPECT_EQ(diagnosis.warnings[0].rfind("memory_length/Slip length = ", 0), 0u);
+  // 6 mm in 180 rows.
+  EXPECT_NE(diagnosis.warnings[0].find("between rows, 0.033 mm"),
+            std::string::npos)
+    << diagnosis.warnings[0];
+}
