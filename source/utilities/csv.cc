@@ -236,9 +236,56 @@ namespace SlipStep
           });
         if (!is_comment)
           return true;
+        for (const auto *first : {&names, &unit_names})
+          refuse_other_header(content, *first);
         read_comment(content);
       }
     return false;
+  }
+
+
+
+  namespace
+  {
+    // "Load" of "Load [N]" and "Load (kN)".
+    std::string_view without_unit(const std::string_view name)
+    {
+      return name.empty() || (name.back() != ']' && name.back() != ')') ?
+               name :
+               trim(name.substr(0, name.find_last_of("[(")));
+    }
+  } // namespace
+
+
+
+  // Some instruments repeat the header, and change it when a range changes.
+  // What stands below would be read by the first one.
+  void
+  CsvTable::refuse_other_header(const std::string_view          line,
+                                const std::vector<std::string> &first) const
+  {
+    Cells                         cells(line, format.delimiter);
+    std::string_view              cell;
+    std::vector<std::string_view> here;
+    while (cells.next(cell))
+      here.push_back(cell);
+    if (!format.has_header || here.size() != first.size())
+      return;
+    std::size_t n_known = 0, other = here.size();
+    for (std::size_t i = 0; i < here.size(); ++i)
+      {
+        n_known += any_of(first, [&](const std::string &name) {
+          return !name.empty() && without_unit(here[i]) == without_unit(name);
+        });
+        if (here[i] != first[i] && other == here.size())
+          other = i;
+      }
+    if (other < here.size() && 2 * n_known > here.size())
+      fail(here[other].data(),
+           "the header is repeated with '" + std::string(here[other]) +
+             "' in place of '" + first[other] +
+             "': the rows below it are of other columns or units. Let them be "
+             "a file of their own");
   }
 
 

@@ -60,6 +60,55 @@ TEST(Import, LoadsUnitsSignsAndConstants)
 
 
 
+// Instruments repeat the header when a range or a channel changes: the same one
+// again is left out, below another one the rows are of something else.
+TEST(Import, AnotherHeaderBetweenTheRowsIsRefused)
+{
+  const std::string header = "Time [s],Way [mm],F [N],N [N]";
+  const auto        with   = [&](const std::string &units,
+                        const std::string &second,
+                        const std::string &more = "") {
+    return write("again.csv",
+                 header + "\n" + units + "0,0,0,10\n1,0.1,1,10\n" + second +
+                   "\n" + more + "2,0.2,1,10\n3,0.3,1,10\n");
+  };
+  const auto map = [&](const std::string &marks, const std::string &units) {
+    return map_of({{"Raw file/Comment marks", marks},
+                   {"Raw file/Header line", "1"},
+                   {"Raw file/Units line", units},
+                   {"Columns/Time", "Time [s] in s"},
+                   {"Columns/Displacement", "Way [mm] in mm"},
+                   {"Columns/Tangential load", "F [N] in N"},
+                   {"Columns/Normal load", "N [N] in N"},
+                   {"Constants/Area", "2 mm^2"}});
+  };
+  const std::string of_s = "Time";
+  EXPECT_EQ(import_test(map(of_s, "0"), with("", header)).time.size(), 4u);
+  EXPECT_EQ(import_test(map(of_s, "0"), with("", "Time of the second range"))
+              .time.size(),
+            4u);
+  for (const auto &[second, told] :
+       std::vector<std::pair<std::string, std::string>>{
+         {"Time [s],Way [um],F [N],N [N]",
+          "4:10: the header is repeated with "
+          "'Way [um]' in place of 'Way [mm]'"},
+         {"Time [ms],Way [um],F [kN],N [kN]", "'Time [ms]'"},
+         {"Time [s],Way [mm],N [N],F [N]", "'N [N]' in place of 'F [N]'"}})
+    EXPECT_TRUE(contains(message(map(of_s, "0"), with("", second)), told))
+      << message(map(of_s, "0"), with("", second));
+  // Units in a line of their own, which is repeated, too.
+  const std::string units = "s,mm,N,N";
+  EXPECT_EQ(import_test(map("Time, s", "2"),
+                        with(units + "\n", header, units + "\n"))
+              .time.size(),
+            4u);
+  EXPECT_TRUE(contains(message(map("Time, s", "2"),
+                               with(units + "\n", header, "s,um,N,N\n")),
+                       "'um' in place of 'mm'"));
+}
+
+
+
 TEST(Import, SpeedRowsAndNumberedColumns)
 {
   const auto raw = write("raw.dat", "0 0.0\n1 0.1\n2 0.2\n3 0.1\n");

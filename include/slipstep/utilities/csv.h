@@ -140,6 +140,9 @@ namespace SlipStep
 
     void read_comment(const std::string_view line);
 
+    void refuse_other_header(const std::string_view          line,
+                             const std::vector<std::string> &first) const;
+
     /// @param place a character of the text
     [[noreturn]] void fail(const char *place, const std::string &why) const;
 
