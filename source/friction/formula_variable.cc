@@ -51,9 +51,8 @@ namespace SlipStep
               "loaded",
               [memory](const SlipStepData &step, const double) {
                 Strength x;
-                x.value          = step.start[memory] + step.way()[0];
-                x.d_path         = step.direction[0];
-                x.d_direction[0] = step.path;
+                x.value    = step.start[memory] + step.way[0];
+                x.d_way[0] = 1.;
                 return x;
               },
               [memory](const ContactState &state) { return state[memory]; },

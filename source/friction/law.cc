@@ -55,6 +55,7 @@ namespace SlipStep
       rule(product.d_coefficient, f.d_coefficient);
       rule(product.d_work, f.d_work);
       rule(product.d_path, f.d_path);
+      rule(product.d_way, f.d_way);
       product.value *= f.value;
     }
 
@@ -70,6 +71,7 @@ namespace SlipStep
       sum.d_coefficient += c.d_coefficient;
       sum.d_work += c.d_work;
       sum.d_path += c.d_path;
+      sum.d_way += c.d_way;
     }
   } // namespace
 
@@ -127,15 +129,16 @@ namespace SlipStep
 
   SlipStepData FrictionLaw::step_data(const LocalSystem &local) const
   {
-    const Tensor<1, 2> direction = slip_direction(local.direction);
+    const Tensor<1, 2> way = true_slip(local.slip * local.forward);
     return {local.start,
             local.time_step,
             local.normal_traction,
             local.slip,
-            direction,
+            slip_direction(local.direction),
             local.coefficient,
             local.heat(has_core()),
-            local.slip * path_per_slip(direction)};
+            is_anisotropic ? way.norm() : local.slip,
+            way};
   }
 
 
@@ -177,6 +180,10 @@ namespace SlipStep
     const Contributions all    = contributions(step);
     const Strength     &factor = all.factor, &sum = all.sum;
     const double        d_path = f_n * mu * factor.d_path + sum.d_path;
+    // The way is s true_slip(n), the path its length.
+    const Tensor<1, 2> &n     = local.forward;
+    const Tensor<1, 2>  d_way = true_slip(f_n * mu * factor.d_way + sum.d_way +
+                                         d_path * slip_direction(n));
 
     local.strength = f_n * mu * factor.value + sum.value;
     d.d_normal = mu * factor.value + f_n * mu * factor.d_normal + sum.d_normal;
@@ -187,20 +194,16 @@ namespace SlipStep
                sum.d_slip +
                (f_n * mu * factor.d_coefficient + sum.d_coefficient) *
                  local.d_coefficient +
-               d.d_rate / local.time_step +
-               d_path * path_per_slip(step.direction);
+               d.d_rate / local.time_step + d_way * n;
     // With a core work depends on the strength, see core_change().
     if (!has_core())
       d.d_slip += d.d_work * (local.traction - alpha_t * local.slip);
     if (is_anisotropic)
-      {
-        // Of 1 / |P e|, see path_per_slip().
-        const Tensor<1, 2> in_metric = cone * step.direction;
-        if (d_path != 0. && in_metric.norm() > 0.)
-          d.d_direction -=
-            d_path * step.path / in_metric.norm_square() * (cone * in_metric);
-        d.d_direction = pull_back(d.d_direction, local.direction);
-      }
+      d.d_direction = pull_back(d.d_direction, local.direction);
+    if (has_core())
+      d.d_way = local.slip * d_way;
+    else
+      d.d_direction += local.slip * d_way;
   }
 
 
@@ -331,6 +334,7 @@ namespace SlipStep
           local.d_start_ratio_d_trial = s * traction / (norm * strength);
         local.d_trial_strength_d_normal    = end.d_strength.d_normal;
         local.d_trial_strength_d_direction = end.d_strength.d_direction;
+        local.d_trial_strength_d_way       = end.d_strength.d_way;
       }
   }
 
@@ -459,16 +463,6 @@ namespace SlipStep
 
 
 
-  // Slip e s is P e s in the metric in which the law is isotropic.
-  double FrictionLaw::path_per_slip(const Tensor<1, 2> &slip_direction) const
-  {
-    if (!is_anisotropic || slip_direction == Tensor<1, 2>())
-      return 1.;
-    return 1. / (cone * slip_direction).norm();
-  }
-
-
-
   // A gradient with respect to slip_direction(direction) becomes one with
   // respect to the direction.
   Tensor<1, 2> FrictionLaw::pull_back(const Tensor<1, 2> &gradient,
@@ -502,8 +496,7 @@ namespace SlipStep
       }
     evolve_coefficient(local);
     SlipStepData step = step_data(local);
-    step.carried = true_slip(local.start.traction / alpha_t + slip_increment) -
-                   step.path * step.direction;
+    step.way = true_slip(local.start.traction / alpha_t + slip_increment);
 
     end                 = local.start;
     end.traction        = Tensor<1, 2>();
@@ -539,6 +532,8 @@ namespace SlipStep
       }
 
     local.set_trial(start.traction + alpha_t * slip_increment);
+    if (has_core())
+      find_forward(local);
     find_slip(local);
 
     ContactResponse response = linearise(local);
@@ -547,6 +542,8 @@ namespace SlipStep
                                            1e-6 * start.coefficient *
                                              normal_traction / alpha_t);
 
+    if (has_core())
+      local.forward = local.normal;
     const SlipStepData step = step_data(local);
     end.traction            = response.traction;
     end.normal_traction     = normal_traction;

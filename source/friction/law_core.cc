@@ -29,7 +29,11 @@ namespace SlipStep
   // hand side and r follows from its norm: one unknown again. With u >= 0 and
   // |c| < 1 the residual of a given strength is monotone in it.
   //
-  // The strength depends on the direction of the trial as without a core.
+  // The strength depends on the direction of the trial as without a core, and
+  // on the way as if that went along the normal to the circle of the start
+  // through the trial traction. The way itself goes along n, which
+  // differs by a second order of the step; so the residual stays one of the
+  // slip alone.
 
   // The radius R of the circle with r = r_s = R through a traction: |y + R
   // tau_y c| = R tau_y with y = f_t - tau_y c.
@@ -77,6 +81,20 @@ namespace SlipStep
     else
       s = root_between(slope, 0., 1.);
     return at(s).ratio;
+  }
+
+
+
+  // Where the strength believes that slip goes.
+  void FrictionLaw::find_forward(LocalSystem &local) const
+  {
+    const ContactState &start = local.start;
+    const Tensor<1, 2>  rest  = local.trial - start.strength *
+                                              (1. - start.normal_ratio) *
+                                              local.core.centre;
+    local.forward_norm = rest.norm();
+    if (local.forward_norm > 0.)
+      local.forward = rest / local.forward_norm;
   }
 
 
@@ -211,17 +229,22 @@ namespace SlipStep
     Tensor<1, 2>        turn;
     if (local.trial_norm > 0.)
       turn = (d_trial - (m * d_trial) * m) / local.trial_norm;
+    Tensor<1, 2> turn_forward;
+    if (local.forward_norm > 0.)
+      turn_forward = (d_trial - (local.forward * d_trial) * local.forward) /
+                     local.forward_norm;
     const double d_start_strength = local.d_trial_strength_d_normal * d_normal +
-                                    local.d_trial_strength_d_direction * turn;
+                                    local.d_trial_strength_d_direction * turn +
+                                    local.d_trial_strength_d_way * turn_forward;
     const double d_normal_ratio =
       local.normal_ratio.d_slip * d_slip +
       local.normal_ratio.d_start *
         (local.d_start_ratio_d_trial * d_trial +
          local.d_start_ratio_d_strength * d_start_strength);
 
-    const Strength &d = local.d_strength;
-    const double    d_strength =
-      d.d_slip * d_slip + d.d_normal * d_normal + d.d_direction * turn;
+    const Strength &d          = local.d_strength;
+    const double    d_strength = d.d_slip * d_slip + d.d_normal * d_normal +
+                              d.d_direction * turn + d.d_way * turn_forward;
     const auto change = [&](const double d_strength) {
       return core_change(local, d_slip, d_trial, d_normal_ratio, d_strength);
     };

@@ -86,6 +86,7 @@ namespace SlipStep
                         moment * local.time_step,
                         local.normal_traction);
     at_rate.direction = local.direction;
+    at_rate.forward   = local.forward;
     at_rate.slip      = moment * local.start.slip_rate * local.time_step;
     evolve_coefficient(at_rate);
     evolve_strength(at_rate);

@@ -43,15 +43,16 @@ namespace SlipStep
           std::max(isotropic_traction(end.traction) * normal * slip - taken,
                    0.);
       }
-    const Tensor<1, 2> direction = slip_direction(direction_of(end));
+    const Tensor<1, 2> way = true_slip(slip * slip_normal(end));
     return {start,
             time_step,
             end.normal_traction,
             slip,
-            direction,
+            slip_direction(direction_of(end)),
             end.coefficient,
             work,
-            slip * path_per_slip(direction)};
+            is_anisotropic ? way.norm() : slip,
+            way};
   }
 
 
@@ -86,7 +87,7 @@ namespace SlipStep
 
     SlipStepData rest = step_data(first.end, first.end, more, more_time);
     if (first.end.normal_traction <= 0.)
-      rest.carried = (TwoStages::carry - 1.) * first.slip_increment;
+      rest.way = (TwoStages::carry - 1.) * first.slip_increment;
     for (const StrengthEffect *effect : strength_effects)
       effect->remember(rest, state);
     if (first.end.normal_traction <= 0.)
@@ -225,10 +226,8 @@ namespace SlipStep
     SlipStepData        step =
       step_data(start, end, end.slip_rate * time_step, time_step);
     if (!(start.normal_traction > 0.))
-      step.carried = TwoStages::carry * first.slip_increment +
-                     last.slip_increment -
-                     true_slip(isotropic_traction(end.traction) / alpha_t) -
-                     step.path * step.direction;
+      step.way = TwoStages::carry * first.slip_increment + last.slip_increment -
+                 true_slip(isotropic_traction(end.traction) / alpha_t);
     const Contributions all = contributions(step);
     const double        strength =
       end.normal_traction * end.coefficient * all.factor.value + all.sum.value;

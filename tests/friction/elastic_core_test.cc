@@ -350,6 +350,61 @@ TEST(ElasticCore, leaves_sliding_alone)
 
 
 // What the core takes it gives back, and the rest is heat.
+// Where the contact is: what is not elastic of the motion, whichever way it
+// goes. With an elliptic cone f_t = P f', and elastic is P^-1 f'/alpha_t.
+TEST(ElasticCore, knows_where_the_contact_is)
+{
+  const ContactMemory &track_1  = contact_memory("track_1_mm");
+  const ContactMemory &track_2  = contact_memory("track_2_mm");
+  const ContactMemory &position = contact_memory("position_mm");
+  for (const std::string more : {"", ", anisotropy", ", overstress, run_in"})
+    {
+      const auto                       law = make_law({{"Effects",
+                                                        "subloading, elastic_core, "
+                                                                              "texture, expression" +
+                                                          more},
+                                                       {"Tangential stiffness", "1000"},
+                                                       {"texture/Amplitude", "0.3"},
+                                                       {"texture/Wavelength", "0.02"},
+                                                       {"expression/Covariate", "position"},
+                                                       {"expression/Formula", "1 + 0.1*sin(300*x)"},
+                                                       {"expression/From", "-1"},
+                                                       {"expression/To", "1"}});
+      std::mt19937                     random(1);
+      std::uniform_real_distribution<> between(-1., 1.);
+      ContactPoint                     point(*law);
+      Tensor<1, 2>                     moved, backward;
+      for (unsigned int step = 0; step < 500; ++step)
+        {
+          // Back and forth along two directions.
+          Tensor<1, 2> increment =
+            4e-4 * (0.6 + std::sin(0.1 * step)) *
+            vector(1. + 0.3 * between(random), 0.5 * between(random));
+          moved += increment;
+          const Tensor<1, 2> was =
+            vector(point.committed()[track_1], point.committed()[track_2]);
+          const double f_n = 10. + between(random);
+          point.update(*law, TwoStages::gamma * increment, f_n, 0.01);
+          point.begin_second_stage(*law);
+          point.update(*law, TwoStages::gamma * increment, f_n, 0.01);
+          point.commit();
+          const ContactState &end = point.committed();
+          const Tensor<1, 2>  at  = vector(end[track_1], end[track_2]);
+          Tensor<1, 2> elastic = law->isotropic_traction(end.traction) / 1000.;
+          if (law->has("anisotropy"))
+            elastic = law->isotropic_traction(elastic);
+          EXPECT_LT((at - (moved - elastic)).norm(), 1e-12) << "step " << step;
+          EXPECT_NEAR(end[position], at[0], 1e-12);
+          if ((at - was) * end.traction < 0.)
+            backward += at - was;
+        }
+      // Against the traction that is still there.
+      EXPECT_GT(backward.norm(), 1e-4);
+    }
+}
+
+
+
 TEST(ElasticCore, holds_energy)
 {
   const auto   law = cyclic_law("2000", "0");

@@ -196,15 +196,17 @@ TEST_P(EveryEffect, tells_the_derivatives_of_its_strength)
   };
   for (unsigned int kind = 0; kind < 2; ++kind)
     {
-      const Strength     s      = strengths_at(base)[kind];
-      const Tensor<1, 2> turn   = vector(-std::sin(angle), std::cos(angle));
-      const Arguments    stated = {{s.d_slip + s.d_rate / (base[0] / base[3]),
-                                    s.d_normal,
-                                    s.d_direction * turn,
-                                    0.,
-                                    s.d_coefficient,
-                                    s.d_work,
-                                    s.d_path}};
+      const Strength     s       = strengths_at(base)[kind];
+      const Tensor<1, 2> forward = vector(std::cos(angle), std::sin(angle));
+      const Tensor<1, 2> turn    = vector(-std::sin(angle), std::cos(angle));
+      const Arguments    stated  = {
+            {s.d_slip + s.d_rate / (base[0] / base[3]),
+             s.d_normal,
+             s.d_direction * turn + base[6] * (s.d_way * turn),
+             0.,
+             s.d_coefficient,
+             s.d_work,
+             s.d_path + s.d_way * forward}};
       for (const unsigned int i : {0, 1, 2, 4, 5, 6})
         {
           const double h  = 1e-3 * base[i];

@@ -24,21 +24,18 @@ namespace SlipStep
     double              time_step;       ///< [s]
     double              normal_traction; ///< f_n at the end [MPa], 0: open
     double              slip;            ///< viscoplastic slip in the step [mm]
-    /// Unit vector of the viscoplastic slip, zero if there is no traction.
+    /// Unit vector of the viscoplastic slip, zero if there is no traction. With
+    /// an elastic core that of the slip without one: the strength depends on
+    /// where the traction is, not on which side of the core.
     dealii::Tensor<1, 2> direction;
     double               coefficient; ///< mu at the end
     double               work;        ///< |f_t| * slip, all of it heat [MPa mm]
     /// Way that the contact slips over the plane [mm]; where anisotropy
     /// measures slip in a metric of its own, not the same as that.
     double path = slip;
-    /// Way that a point goes over the plane while it is off it [mm].
-    dealii::Tensor<1, 2> carried = {};
-
-    /// The whole way [mm].
-    dealii::Tensor<1, 2> way() const
-    {
-      return path * direction + carried;
-    }
+    /// How far the contact gets over the plane [mm]: slip, with an elastic core
+    /// where that lets it go, and the way while it is off the plane.
+    dealii::Tensor<1, 2> way = path * direction;
 
     /// lambda, by backward Euler [mm/s].
     double slip_rate() const
@@ -62,11 +59,12 @@ namespace SlipStep
     double               value    = 0.;
     double               d_slip   = 0.;
     double               d_normal = 0.;
-    dealii::Tensor<1, 2> d_direction;        ///< with slip and path kept
+    dealii::Tensor<1, 2> d_direction;        ///< with slip, path and way kept
     double               d_rate        = 0.; ///< with the slip kept
     double               d_coefficient = 0.;
     double               d_work        = 0.;
-    double               d_path        = 0.;
+    double               d_path        = 0.; ///< with the way kept
+    dealii::Tensor<1, 2> d_way         = {};
   };
 
   /// r_s after some slip, with derivatives.

@@ -256,6 +256,7 @@ namespace SlipStep
                                          const dealii::Tensor<1, 2> &centre,
                                          double                     &where);
     void       extend_reach(LocalSystem &local) const;
+    void       find_forward(LocalSystem &local) const;
     void       place_core(LocalSystem &local) const;
     void       evaluate_with_core(LocalSystem &local) const;
     CoreChange core_change(const LocalSystem          &local,
@@ -303,7 +304,6 @@ namespace SlipStep
     dealii::Tensor<1, 2>
     slip_direction(const dealii::Tensor<1, 2> &direction) const;
     dealii::Tensor<1, 2> true_slip(const dealii::Tensor<1, 2> &slip) const;
-    double path_per_slip(const dealii::Tensor<1, 2> &slip_direction) const;
     dealii::Tensor<1, 2> pull_back(const dealii::Tensor<1, 2> &gradient,
                                    const dealii::Tensor<1, 2> &direction) const;
 

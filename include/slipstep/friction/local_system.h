@@ -38,16 +38,16 @@ namespace SlipStep
     dealii::Tensor<1, 2> d_start_ratio_d_trial;
     double               d_start_ratio_d_strength  = 0.;
     double               d_trial_strength_d_normal = 0.;
-    dealii::Tensor<1, 2> d_trial_strength_d_direction;
+    dealii::Tensor<1, 2> d_trial_strength_d_direction, d_trial_strength_d_way;
 
     double traction = 0.; // what slip leaves of the reach, the unknown;
                           // without a core |f_t|
-    double       slip = 0.;
-    double       coefficient;
-    double       d_coefficient = 0.;
-    double       strength      = 0.;
-    Strength     d_strength; // value not used
-    double       ratio = 0.;
+    double   slip = 0.;
+    double   coefficient;
+    double   d_coefficient = 0.;
+    double   strength      = 0.;
+    Strength d_strength; // value not used; d_way of forward, with a core only
+    double   ratio = 0.;
     NormalRatio  normal_ratio;
     FlowResidual flow;
     double       d_flow_d_slip = 0.; // by way of the rate alone
@@ -62,13 +62,18 @@ namespace SlipStep
     double               along  = 0.;
     double               work   = 0.; // that becomes heat
 
+    // Where slip is believed to go; m without a core.
+    dealii::Tensor<1, 2> forward;
+    double               forward_norm = 0.;
+
     void set_trial(const dealii::Tensor<1, 2> &traction)
     {
       trial      = traction;
       trial_norm = trial.norm();
       if (trial_norm > 0.)
         direction = trial / trial_norm;
-      reach = trial_norm;
+      reach   = trial_norm;
+      forward = direction;
     }
 
     double heat(const bool has_core) const

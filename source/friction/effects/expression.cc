@@ -104,6 +104,7 @@ namespace SlipStep
              {&factor.d_slip, &factor.d_normal, &factor.d_rate, &factor.d_path})
           *derivative *= rate.derivative;
         factor.d_direction *= rate.derivative;
+        factor.d_way *= rate.derivative;
         return factor;
       }
 

@@ -112,11 +112,10 @@ namespace SlipStep
 
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
-        const double along = across * step.direction;
-        const double theta = wave_number * (across[0] * step.start[track_1] +
-                                            across[1] * step.start[track_2] +
-                                            across * step.way()) +
-                             phase;
+        const double theta =
+          wave_number * (across[0] * step.start[track_1] +
+                         across[1] * step.start[track_2] + across * step.way) +
+          phase;
         double shape = std::sin(theta), d_shape = std::cos(theta);
         for (const unsigned int i : {0, 1})
           {
@@ -124,11 +123,9 @@ namespace SlipStep
             shape += s * std::sin(n * theta) + c * std::cos(n * theta);
             d_shape += n * (s * std::cos(n * theta) - c * std::sin(n * theta));
           }
-        const double d_place = w * wave_number * d_shape;
-        Strength     factor;
-        factor.value       = 1. + w * shape;
-        factor.d_path      = d_place * along;
-        factor.d_direction = d_place * step.path * across;
+        Strength factor;
+        factor.value = 1. + w * shape;
+        factor.d_way = w * wave_number * d_shape * across;
         return factor;
       }
 
@@ -145,8 +142,8 @@ namespace SlipStep
       virtual void remember(const SlipStepData &step,
                             ContactState       &end) const override
       {
-        end[track_1] = step.start[track_1] + step.way()[0];
-        end[track_2] = step.start[track_2] + step.way()[1];
+        end[track_1] = step.start[track_1] + step.way[0];
+        end[track_2] = step.start[track_2] + step.way[1];
       }
 
     private:
