@@ -5,6 +5,7 @@
 #include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/rules.h>
+#include <slipstep/diagnosis/track_waves.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <Eigen/Dense>
@@ -62,6 +63,8 @@ namespace SlipStep
     private:
       bool add();
 
+      void leave_waves(View &view) const;
+
       std::vector<Model> single_additions(const View &view);
 
       void add_pairs(const View &view, std::vector<Model> &found);
@@ -104,6 +107,28 @@ namespace SlipStep
     {
       return level_of_round(workspace,
                             std::max<std::size_t>(1, n_effects()) - 1);
+    }
+
+
+
+    // Waves along the track that stay beside a texture are another one, for
+    // which there is no second name: what is less clear than they are may be a
+    // part of them.
+    void Searcher::leave_waves(View &view) const
+    {
+      if (!result.model.has("texture") || !(workspace.range.track_wave > 0.))
+        return;
+      const double clear = find_track_wave(workspace.along_track,
+                                           workspace.wavelengths,
+                                           result.model,
+                                           workspace.null_draws)
+                             .score;
+      for (CandidateView &seen : view.candidates)
+        if (seen.score.value < clear)
+          seen.p = 1.;
+      for (ScoreTest::Pair &pair : view.pairs)
+        if (pair.gain < clear * clear)
+          pair.p = 1.;
     }
 
 
@@ -201,7 +226,8 @@ namespace SlipStep
     bool Searcher::add()
     {
       workspace.range.track_wave = clear_track_wave(workspace, result.model);
-      const View         view    = score_candidates(workspace, result.model);
+      View view                  = score_candidates(workspace, result.model);
+      leave_waves(view);
       std::vector<Model> found;
       if (n_effects() < workspace.most_effects)
         {

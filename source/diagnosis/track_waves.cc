@@ -134,7 +134,8 @@ namespace SlipStep
                                              return a.value < b.value;
                                            });
     return {test.family_p(clearest->value),
-            wavelengths[(clearest - test.scores.begin()) / n_shifts]};
+            wavelengths[(clearest - test.scores.begin()) / n_shifts],
+            clearest->value};
   }
 
 

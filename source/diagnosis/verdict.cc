@@ -147,20 +147,16 @@ namespace SlipStep
     // Whether a model is farther from the tests than another in their plain
     // differences, and by more than noise makes it: where a right model changes
     // d, squares rise by -d^2 - 2 d n, n being noise.
-    bool is_farther(const Workspace &workspace,
-                    const Model     &model,
-                    const Model     &base)
+    bool is_farther(const Workspace       &workspace,
+                    const Comparison      &comparison,
+                    const Eigen::VectorXd &differences_before,
+                    const Eigen::VectorXd &differences_after)
     {
       constexpr unsigned int n_draws = 100;
       constexpr double       clearly = 3.; // standard deviations
 
-      // A hum has been taken off.
-      Comparison comparison = workspace.comparison;
-      for (ComparedTest &test : comparison.tests)
-        for (Series &series : test.series)
-          series.hum.clear();
-      Eigen::VectorXd after  = comparison.difference(model);
-      Eigen::VectorXd change = after - comparison.difference(base);
+      Eigen::VectorXd after  = differences_after;
+      Eigen::VectorXd change = after - differences_before;
       RowMatrix       noise  = draw_noise(comparison,
                                    workspace.noise,
                                    n_draws,
@@ -176,6 +172,29 @@ namespace SlipStep
       const double scatter =
         2. * (noise.transpose() * change).norm() / std::sqrt(1. * n_draws);
       return rise > std::max(0., clearly * scatter - squares);
+    }
+
+
+
+    // Fitted, or under conditions that were left out of the fit.
+    bool is_farther(const Workspace &workspace,
+                    const Model     &base,
+                    const Model     &model)
+    {
+      // A hum has been taken off.
+      Comparison comparison = workspace.comparison;
+      for (ComparedTest &test : comparison.tests)
+        for (Series &series : test.series)
+          series.hum.clear();
+      if (is_farther(workspace,
+                     comparison,
+                     comparison.difference(base),
+                     comparison.difference(model)))
+        return true;
+      Eigen::VectorXd before, after;
+      left_out_squares(workspace, base, &before);
+      left_out_squares(workspace, model, &after);
+      return is_farther(workspace, comparison, before, after);
     }
 
 
@@ -208,7 +227,7 @@ namespace SlipStep
     {
       const Model &model = judgement.found.model;
       const Model &base  = judgement.base;
-      if (is_at_bound(model) || is_farther(workspace, model, base) ||
+      if (is_at_bound(model) || is_farther(workspace, base, model) ||
           left_out_gain(workspace, base, model) <= 0. ||
           !explains_by_itself(workspace, judgement))
         return false;

@@ -16,6 +16,7 @@ namespace SlipStep
     /// Chance of a wave of any length as clear.
     double p          = 1.;
     double wavelength = 0.; ///< of the clearest [mm]; 0 if nothing moves
+    double score      = 0.; ///< of that, see Score::value
   };
 
   /// Wavelengths from half of the usual track downwards [mm]; none if nothing

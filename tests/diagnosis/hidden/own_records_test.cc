@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <random>
 
 using namespace SlipStep;
@@ -27,7 +28,11 @@ namespace
   protected:
     // Friction follows the speed at once and does not change at rest; flanks
     // are of a spring. Every condition twice.
-    void write(const double per_decade)
+    void write(
+      const double                         per_decade,
+      const std::function<double(double)> &factor_at = [](double) {
+        return 1.;
+      })
     {
       const std::vector<std::vector<Slide>> conditions = {
         {{0.02, 300.}},
@@ -38,7 +43,7 @@ namespace
         {{2., 2.}, {-2., 2.}, {2., 2.}},
         {{0.2, 15.}, {0., 10.}, {0.2, 10.}, {0., 300.}, {0.2, 10.}}};
       for (unsigned int i = 0; i < 2 * conditions.size(); ++i)
-        write(i, conditions[i / 2], per_decade);
+        write(i, conditions[i / 2], per_decade, factor_at);
     }
 
     Judgement judged(const std::string &effects, const std::string &more)
@@ -71,9 +76,10 @@ namespace
     Ingested        ingested;
 
   private:
-    void write(const unsigned int        number,
-               const std::vector<Slide> &slides,
-               const double              per_decade)
+    void write(const unsigned int                   number,
+               const std::vector<Slide>            &slides,
+               const double                         per_decade,
+               const std::function<double(double)> &factor_at)
     {
       constexpr double       stiffness = 20.; // friction per mm
       constexpr unsigned int n_rows = 180, n_within = 50;
@@ -95,7 +101,8 @@ namespace
               slide.speed == 0. ?
                 std::abs(friction) :
                 0.2 *
-                  (1. + per_decade * std::log10(std::abs(slide.speed) / 0.2));
+                  (1. + per_decade * std::log10(std::abs(slide.speed) / 0.2)) *
+                  factor_at(displacement);
             for (unsigned int i = 0; i < n_within; ++i)
               {
                 time += step;
@@ -155,4 +162,21 @@ TEST_F(OwnRecords, ALengthBelowThatBetweenRowsIsTold)
   EXPECT_NE(diagnosis.warnings[0].find("between rows, 0.033 mm"),
             std::string::npos)
     << diagnosis.warnings[0];
+}
+
+
+
+// A disc that wobbles, with a pattern on it: one is a texture, what the other
+// leaves is no damage and no running in.
+TEST_F(OwnRecords, ASecondWaveAlongTheTrackIsNotDamage)
+{
+  write(0., [](const double x) {
+    return 1. + 0.03 * std::sin(2. * x + 0.7) + 0.02 * std::sin(7.3 * x);
+  });
+  const Judgement judgement = judged("subloading", "");
+  EXPECT_GT(judgement.gap.excess, 0.);
+  for (const std::string &name : effect_names(judgement.found.model.parts))
+    EXPECT_EQ(name, "texture");
+  if (judgement.verdict == Verdict::named)
+    EXPECT_TRUE(judgement.is_incomplete);
 }
