@@ -158,6 +158,220 @@ namespace SlipStep
         fill(s, values);
       return values;
     }
+
+
+
+    /// Rows during which a motion is even.
+    struct EvenMotion
+    {
+      std::size_t begin = 0, end = 0;
+      double      time = 0., value = 0., speed = 0.; ///< of the middle
+
+      double at(const double t) const
+      {
+        return value + speed * (t - time);
+      }
+    };
+
+
+
+    /// Makes a motion even over as many rows as the rounding lets it be.
+    class Evener
+    {
+    public:
+      // What was recorded, and the motion between its stairs.
+      Evener(const std::vector<double> &time,
+             const std::vector<double> &recorded,
+             const double               step,
+             const std::vector<double> &motion)
+        : time(time)
+        , recorded(recorded)
+        , step(step)
+        , motion(motion)
+      {}
+
+      std::vector<double> evened() const;
+
+    private:
+      EvenMotion fit(const std::size_t begin, const std::size_t end) const;
+
+      EvenMotion fit_core(const std::size_t begin, const std::size_t end) const;
+
+      bool is_within_rounding(const EvenMotion &piece,
+                              const std::size_t row) const;
+
+      bool is_within_rounding(const EvenMotion &piece) const;
+
+      bool is_certain(const EvenMotion &piece) const;
+
+      std::vector<EvenMotion> certain_pieces() const;
+
+      void add_pieces(const std::size_t        begin,
+                      const std::size_t        end,
+                      std::vector<EvenMotion> &pieces) const;
+
+      const std::vector<double> &time, &recorded;
+      const double               step;
+      const std::vector<double> &motion;
+    };
+
+
+
+    // By least squares.
+    EvenMotion Evener::fit(const std::size_t begin, const std::size_t end) const
+    {
+      EvenMotion   result{begin, end};
+      const double n = end - begin;
+      for (std::size_t i = begin; i < end; ++i)
+        {
+          result.time += time[i] / n;
+          result.value += motion[i] / n;
+        }
+      double tt = 0., tv = 0.;
+      for (std::size_t i = begin; i < end; ++i)
+        {
+          const double t = time[i] - result.time;
+          tt += t * t;
+          tv += t * (motion[i] - result.value);
+        }
+      result.speed = tt > 0. ? tv / tt : 0.;
+      return result;
+    }
+
+
+
+    // Without the first and the last stair, in which another motion may begin.
+    EvenMotion Evener::fit_core(const std::size_t begin,
+                                const std::size_t end) const
+    {
+      std::size_t first = begin, last = end;
+      while (first < end && recorded[first] == recorded[begin])
+        ++first;
+      while (last > first && recorded[last - 1] == recorded[end - 1])
+        --last;
+      EvenMotion result = last - first > 2 ? fit(first, last) : fit(begin, end);
+      result.begin      = begin;
+      result.end        = end;
+      return result;
+    }
+
+
+
+    bool Evener::is_within_rounding(const EvenMotion &piece,
+                                    const std::size_t row) const
+    {
+      constexpr double nearly = 1.1;
+
+      return std::abs(piece.at(time[row]) - recorded[row]) <=
+             0.5 * nearly * step;
+    }
+
+
+
+    bool Evener::is_within_rounding(const EvenMotion &piece) const
+    {
+      for (std::size_t i = piece.begin; i < piece.end; ++i)
+        if (!is_within_rounding(piece, i))
+          return false;
+      return true;
+    }
+
+
+
+    // A rest, or far enough to know the speed.
+    bool Evener::is_certain(const EvenMotion &piece) const
+    {
+      constexpr double steps = 2.;
+
+      const std::size_t last = piece.end - 1;
+      return last > piece.begin &&
+             (motion[last] == motion[piece.begin] ||
+              std::abs(recorded[last] - recorded[piece.begin]) >=
+                steps * step * (1. - 1e-6));
+    }
+
+
+
+    // What lies between goes over from one to the other.
+    std::vector<EvenMotion> Evener::certain_pieces() const
+    {
+      const auto way = [&](const std::size_t i) {
+        return (motion[i + 1] > motion[i]) - (motion[i + 1] < motion[i]);
+      };
+      std::vector<EvenMotion> all, result;
+      for (std::size_t begin = 0, end = 1; begin < time.size(); begin = end)
+        {
+          end = begin + 1;
+          while (end < time.size() && way(end - 1) == way(begin))
+            ++end;
+          add_pieces(begin, end, all);
+        }
+      for (const EvenMotion &piece : all)
+        if (is_certain(piece))
+          {
+            result.push_back(piece);
+            if (motion[piece.end - 1] == motion[piece.begin])
+              result.back().speed = 0.;
+            result.back().begin =
+              result.size() > 1 ? result[result.size() - 2].end : 0;
+          }
+        else if (!result.empty())
+          result.back().end = piece.end;
+      return result;
+    }
+
+
+
+    // Of rows that go one way, or rest: from the left as long ones as can be.
+    void Evener::add_pieces(const std::size_t        begin,
+                            const std::size_t        end,
+                            std::vector<EvenMotion> &pieces) const
+    {
+      for (std::size_t from = begin; from < end; from = pieces.back().end)
+        {
+          std::size_t good = std::min(from + 2, end), bad = end + 1;
+          while (bad - good > 1)
+            {
+              const std::size_t to = bad > end ? end : (good + bad) / 2;
+              (is_within_rounding(fit(from, to)) ? good : bad) = to;
+            }
+          pieces.push_back(fit_core(from, good));
+        }
+    }
+
+
+
+    // One piece goes over into the next where they meet.
+    std::vector<double> Evener::evened() const
+    {
+      std::vector<EvenMotion> pieces = certain_pieces();
+      if (pieces.empty())
+        return motion;
+      for (std::size_t p = 1; p < pieces.size(); ++p)
+        {
+          EvenMotion  &a = pieces[p - 1], &b = pieces[p];
+          const double meet =
+            a.time + (b.at(a.time) - a.value) / (a.speed - b.speed);
+          // A rest of minutes is no creep towards a row that just moves.
+          const auto middle = [&](const std::size_t i) {
+            return 0.5 * (time[i] + time[i + 1]);
+          };
+          while (b.begin - a.begin > 1 && is_within_rounding(b, b.begin - 1) &&
+                 meet <
+                   (a.speed == 0. ? middle(b.begin - 2) : time[b.begin - 1]))
+            a.end = --b.begin;
+          while (b.end - b.begin > 1 && is_within_rounding(a, b.begin) &&
+                 meet > (b.speed == 0. ? middle(b.begin) : time[b.begin]))
+            a.end = ++b.begin;
+        }
+      std::vector<double> result;
+      for (const EvenMotion &piece : pieces)
+        for (std::size_t i = piece.begin; i < piece.end; ++i)
+          result.push_back(std::clamp(piece.at(time[i]),
+                                      recorded[i] - 0.5 * step,
+                                      recorded[i] + 0.5 * step));
+      return result;
+    }
   } // namespace
 
 
@@ -204,7 +418,9 @@ namespace SlipStep
                                      const std::vector<double> &values,
                                      const double               step)
   {
-    return StairMotion(time, values, step).motion(values);
+    const std::vector<double> motion =
+      StairMotion(time, values, step).motion(values);
+    return Evener(time, values, step, motion).evened();
   }
 
 

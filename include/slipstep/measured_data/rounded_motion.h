@@ -15,8 +15,9 @@ namespace SlipStep
 
   /// The same motion without stairs: it passes the middle between two values
   /// where the record changes from one to the other, as fast as there; where
-  /// the record stays much longer than at that speed, it rests. No value is
-  /// changed by more than half a step.
+  /// the record stays much longer than at that speed, it rests. It is even over
+  /// as many rows as the rounding lets it be. No value is changed by more than
+  /// half a step.
   std::vector<double> without_stairs(const std::vector<double> &time,
                                      const std::vector<double> &values,
                                      const double               step);
