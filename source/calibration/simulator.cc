@@ -216,7 +216,10 @@ namespace SlipStep
 
   void Simulator::plan(const std::vector<double> &scaled, const Simulator *like)
   {
-    constexpr std::size_t times_more = 5, least = 500;
+    // Where sliding jumps in every row, steps get as short as they may: a fit
+    // to such a law would take hours.
+    constexpr std::size_t times_more = 5, least = 500, per_row = 20,
+                          of_any = 10000;
 
     const FrictionLaw law(with(scaled));
     const Machine     machine(parameters);
@@ -228,7 +231,9 @@ namespace SlipStep
                 machine,
                 campaign.search_tolerance,
                 like == nullptr ?
-                  std::numeric_limits<std::size_t>::max() :
+                  of_any +
+                    per_row *
+                      campaign.tests[tests_of[i].front()].rows.time.size() :
                   least + times_more * like->replays[i].n_steps());
     });
     ++n_done;

@@ -185,6 +185,35 @@ TEST_F(Planted, AStartAtTheBorderOfTheLawLeadsAway)
 
 
 
+// Each of its rows would need steps as short as there are: a fit would take
+// hours.
+TEST_F(Planted, ALawThatJumpsInEveryRowIsRefused)
+{
+  plant(folder.path(), calibration_case(paper), {1., 50.}, 200, 5e-4, 9, 5.);
+  try
+    {
+      calibrate(
+        fitting({{"Friction/Effects", "subloading, overstress, stribeck"},
+                 {"Friction/Tangential stiffness", "100"},
+                 {"Friction/overstress/Viscosity", "1"},
+                 {"Friction/overstress/Exponent", "20"},
+                 {"Friction/stribeck/Rise", "0.1"},
+                 {"Friction/stribeck/Speed", "0.1 mm/s"},
+                 {"Calibration/Starts", "1"},
+                 {"Calibration/Parameters",
+                  "Friction/Static coefficient from 0.05 to 0.2 start 0.1"}}));
+      ADD_FAILURE() << "it was fitted";
+    }
+  catch (const RunError &error)
+    {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("time steps are needed"), std::string::npos) << text;
+      EXPECT_NE(text.find("no stable branch"), std::string::npos) << text;
+    }
+}
+
+
+
 TEST_F(Planted, FewerRowsThanParametersAreRefused)
 {
   plant(folder.path(), calibration_case(paper), {1.}, 4, 5e-4, 5);

@@ -50,8 +50,8 @@ namespace SlipStep
     /// Choose the steps for these scaled values; forgets what correct() found.
     /// @throws InputError if the law refuses them, RunError if a test cannot be
     /// simulated
-    /// @param like whose tests take at most a few times fewer steps; none: any
-    ///   number
+    /// @param like whose tests take at most a few times fewer steps; none: some
+    ///   ten thousand, and more for many rows
     void plan(const std::vector<double> &scaled,
               const Simulator           *like = nullptr);
 

@@ -159,8 +159,8 @@ namespace SlipStep
   /// The starting model with effects added, for tests that are ingested
   /// already; its search begins at the values of the case, with time steps
   /// for those, whose error stays.
-  /// @param like a model that takes at most a few times fewer steps; none: any
-  ///   number
+  /// @param like a model that takes at most a few times fewer steps; none: see
+  ///   Simulator::plan()
   /// @throws InputError, RunError if it cannot be simulated
   Model make_coarse_model(const Parameters                &start,
                           const std::vector<Part>         &parts,
