@@ -322,17 +322,21 @@ namespace SlipStep
 
 
 
-    // Of rows that go one way, or rest: from the left as long ones as can be.
+    // Of rows that go one way, or rest: from the left as long ones as can be,
+    // up to where it would take too long to try.
     void Evener::add_pieces(const std::size_t        begin,
                             const std::size_t        end,
                             std::vector<EvenMotion> &pieces) const
     {
+      constexpr std::size_t most_rows = 2000;
+
       for (std::size_t from = begin; from < end; from = pieces.back().end)
         {
-          std::size_t good = std::min(from + 2, end), bad = end + 1;
+          const std::size_t last = std::min(from + most_rows, end);
+          std::size_t       good = std::min(from + 2, end), bad = last + 1;
           while (bad - good > 1)
             {
-              const std::size_t to = bad > end ? end : (good + bad) / 2;
+              const std::size_t to = bad > last ? last : (good + bad) / 2;
               (is_within_rounding(fit(from, to)) ? good : bad) = to;
             }
           pieces.push_back(fit_core(from, good));
