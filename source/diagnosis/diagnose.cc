@@ -220,7 +220,7 @@ namespace SlipStep
     {
       stage("describing what has no name");
       ingested.workspace->range.track_wave =
-        clear_track_wave(*ingested.workspace, ingested.base);
+        clear_track_wave(*ingested.workspace, ingested.base).wavelength;
       const std::optional<CorrectedModel> correction = find_correction(
         *ingested.workspace, ingested.base, judgement, result.where);
       if (!correction.has_value())

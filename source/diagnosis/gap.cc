@@ -105,18 +105,19 @@ namespace SlipStep
 
 
 
-  double clear_track_wave(const Workspace &workspace, const Model &model)
+  TrackWave clear_track_wave(const Workspace &workspace, const Model &model)
   {
-    const TrackWave wave = find_track_wave(workspace.along_track,
-                                           workspace.wavelengths,
-                                           model,
-                                           workspace.null_draws);
-    return wave.p <= share_of_others * workspace.level ?
-             refined_wavelength(workspace.comparison,
-                                workspace.covariates,
-                                model,
-                                wave.wavelength) :
-             0.;
+    TrackWave wave = find_track_wave(workspace.along_track,
+                                     workspace.wavelengths,
+                                     model,
+                                     workspace.null_draws);
+    if (wave.p > share_of_others * workspace.level)
+      return {};
+    wave.wavelength = refined_wavelength(workspace.comparison,
+                                         workspace.covariates,
+                                         model,
+                                         wave.wavelength);
+    return wave;
   }
 
 

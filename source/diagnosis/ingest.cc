@@ -519,7 +519,8 @@ namespace SlipStep
                                        start.integer("Diagnosis/Draws"),
                                        start.integer("Diagnosis/Seed"));
       prepare_gap_test(workspace);
-      workspace.range.track_wave = clear_track_wave(workspace, result.base);
+      workspace.range.track_wave =
+        clear_track_wave(workspace, result.base).wavelength;
       weigh_start(result);
     }
 

@@ -131,7 +131,7 @@ namespace SlipStep
                         const GapTest             &gap,
                         std::vector<Localisation> &result)
     {
-      const double wavelength = clear_track_wave(workspace, base);
+      const double wavelength = clear_track_wave(workspace, base).wavelength;
       if (wavelength == 0.)
         return;
       const ScoreTest::Together together =

@@ -5,7 +5,6 @@
 #include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/rules.h>
-#include <slipstep/diagnosis/track_waves.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <Eigen/Dense>
@@ -63,7 +62,7 @@ namespace SlipStep
     private:
       bool add();
 
-      void leave_waves(View &view) const;
+      void leave_wave(const TrackWave &wave, View &view) const;
 
       std::vector<Model> single_additions(const View &view);
 
@@ -111,23 +110,18 @@ namespace SlipStep
 
 
 
-    // Waves along the track that stay beside a texture are another one, for
-    // which there is no second name: what is less clear than they are may be a
-    // part of them.
-    void Searcher::leave_waves(View &view) const
+    // A clear wave along the track that stays beside a texture is another one,
+    // for which there is no second name: what is less clear may be a part of
+    // it.
+    void Searcher::leave_wave(const TrackWave &wave, View &view) const
     {
-      if (!result.model.has("texture") || !(workspace.range.track_wave > 0.))
+      if (!result.model.has("texture") || !(wave.wavelength > 0.))
         return;
-      const double clear = find_track_wave(workspace.along_track,
-                                           workspace.wavelengths,
-                                           result.model,
-                                           workspace.null_draws)
-                             .score;
       for (CandidateView &seen : view.candidates)
-        if (seen.score.value < clear)
+        if (seen.score.value < wave.score)
           seen.p = 1.;
       for (ScoreTest::Pair &pair : view.pairs)
-        if (pair.gain < clear * clear)
+        if (pair.gain < wave.score * wave.score)
           pair.p = 1.;
     }
 
@@ -225,9 +219,10 @@ namespace SlipStep
     // one are completed: what that explains is no second effect.
     bool Searcher::add()
     {
-      workspace.range.track_wave = clear_track_wave(workspace, result.model);
+      const TrackWave wave       = clear_track_wave(workspace, result.model);
+      workspace.range.track_wave = wave.wavelength;
       View view                  = score_candidates(workspace, result.model);
-      leave_waves(view);
+      leave_wave(wave, view);
       std::vector<Model> found;
       if (n_effects() < workspace.most_effects)
         {

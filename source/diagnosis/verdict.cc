@@ -244,8 +244,9 @@ namespace SlipStep
 
     void look_for_gap(Workspace &workspace, Judgement &judgement)
     {
-      workspace.range.track_wave = clear_track_wave(workspace, judgement.base);
-      judgement.view             = score_candidates(workspace, judgement.base);
+      workspace.range.track_wave =
+        clear_track_wave(workspace, judgement.base).wavelength;
+      judgement.view      = score_candidates(workspace, judgement.base);
       judgement.gap       = test_gap(workspace, judgement.base, judgement.view);
       judgement.remainder = judgement.gap;
       judgement.found.model = judgement.base;

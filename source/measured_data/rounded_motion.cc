@@ -202,6 +202,12 @@ namespace SlipStep
 
       bool is_within_rounding(const EvenMotion &piece) const;
 
+      bool is_rest(const EvenMotion &piece) const
+      {
+        return piece.end - piece.begin > 1 &&
+               motion[piece.end - 1] == motion[piece.begin];
+      }
+
       bool is_certain(const EvenMotion &piece) const;
 
       std::vector<EvenMotion> certain_pieces() const;
@@ -283,11 +289,9 @@ namespace SlipStep
     {
       constexpr double steps = 2.;
 
-      const std::size_t last = piece.end - 1;
-      return last > piece.begin &&
-             (motion[last] == motion[piece.begin] ||
-              std::abs(recorded[last] - recorded[piece.begin]) >=
-                steps * step * (1. - 1e-6));
+      return is_rest(piece) ||
+             std::abs(recorded[piece.end - 1] - recorded[piece.begin]) >=
+               steps * step * (1. - 1e-6);
     }
 
 
@@ -310,7 +314,7 @@ namespace SlipStep
         if (is_certain(piece))
           {
             result.push_back(piece);
-            if (motion[piece.end - 1] == motion[piece.begin])
+            if (is_rest(piece))
               result.back().speed = 0.;
             result.back().begin =
               result.size() > 1 ? result[result.size() - 2].end : 0;

@@ -5,6 +5,7 @@
 #include <slipstep/diagnosis/candidate_scores.h>
 #include <slipstep/diagnosis/diagnosis.h>
 #include <slipstep/diagnosis/rules.h>
+#include <slipstep/diagnosis/track_waves.h>
 
 #include <algorithm>
 
@@ -35,9 +36,10 @@ namespace SlipStep
   /// again when draws of noise or weights have changed.
   void prepare_gap_test(Workspace &workspace);
 
-  /// The length of the wave along the track that a model leaves, if that is
-  /// evidence of a gap by itself [mm]; else 0.
-  double clear_track_wave(const Workspace &workspace, const Model &model);
+  /// The wave along the track that a model leaves, if that is evidence of a gap
+  /// by itself, with the wavelength that explains most; else its wavelength is
+  /// 0.
+  TrackWave clear_track_wave(const Workspace &workspace, const Model &model);
 
   /// Whether a model leaves more than noise, with what is seen from it.
   GapTest
