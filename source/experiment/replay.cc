@@ -166,6 +166,14 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // Least share of an interval: a jump of a soft machine takes no time.
+    constexpr double least_share = 1e-9;
+  } // namespace
+
+
+
   // One step is tried; the next one is told. Returns whether it is good.
   bool Replay::attempt(const Step        &step,
                        const FrictionLaw &law,
@@ -175,9 +183,7 @@ namespace SlipStep
                        Slider            &slider,
                        double            &wanted_step) const
   {
-    // Least share of an interval: a jump of a soft machine takes no time.
-    constexpr double least_share = 1e-9;
-    const double     made =
+    const double made =
       (step.end - step.begin) * motion->intervals[step.interval].duration;
     const MachineStep tried = make(step, law, machine, slider, point);
     const bool        is_looked_at =
@@ -195,7 +201,8 @@ namespace SlipStep
         return true;
       }
     wanted_step = made * std::clamp(factor, 0.1, 0.7);
-    if (step.end - step.begin > least_share)
+    // The ends are rounded.
+    if (step.end - step.begin > 1.5 * least_share)
       return false;
     if (!std::isfinite(error))
       throw RunError("no time step is small enough" +
@@ -229,8 +236,9 @@ namespace SlipStep
         for (double begin = 0.; begin < 1.;)
           {
             SignalGuard::throw_if_caught();
-            const double left  = 1. - begin;
-            double       share = std::min(left, wanted_step / duration);
+            const double left = 1. - begin;
+            double       share =
+              std::min(left, std::max(wanted_step / duration, least_share));
             // Two equal ones instead of one and a crumb.
             if (share < left && share > left / 2.)
               share = left / 2.;

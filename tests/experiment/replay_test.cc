@@ -186,6 +186,23 @@ TEST(Replay, MovesOffThePlane)
 
 
 
+// Where friction jumps with speed no step is short enough, and none is nothing.
+TEST(Replay, TakesNoStepOfNothing)
+{
+  const Parameters parameters =
+    point_parameters({{"Friction/Effects", "subloading, stribeck"},
+                      {"Friction/stribeck/Rise", "0.5"},
+                      {"Friction/stribeck/Speed", "0.01 mm/s"},
+                      {"Friction/stribeck/Exponent", "10"}});
+  Replay replay(zigzag());
+  replay.plan(FrictionLaw(parameters), Machine(parameters), 5e-4, 10000);
+  const std::vector<double> &times = replay.times();
+  for (std::size_t i = 1; i < times.size(); ++i)
+    EXPECT_GT(times[i], times[i - 1]) << i;
+}
+
+
+
 // What halving leaves is a third of what it took away: steps of second order.
 TEST(Replay, HalvingTheStepsQuartersTheError)
 {
