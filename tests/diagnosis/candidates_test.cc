@@ -2,8 +2,12 @@
 #include <tests/diagnosis/hidden/trial.h>
 
 #include <slipstep/friction/effect.h>
+#include <slipstep/utilities/text.h>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
 
 using namespace SlipStep;
 
@@ -69,6 +73,63 @@ TEST(Candidates, MakeCasesThatTheLawTakes)
                                         return one.path == parameter.path;
                                       }));
           }
+}
+
+
+
+// Whatever the tests cover: the ranges of a formula follow them, but not beyond
+// what the law allows.
+TEST(Candidates, MakeCasesThatTheLawTakesOfAnyTests)
+{
+  std::mt19937_64 random(3);
+  const auto      some = [&](const double least, const double most) {
+    return std::exp(std::uniform_real_distribution<>(std::log(least),
+                                                     std::log(most))(random));
+  };
+  for (unsigned int n = 0; n < 200; ++n)
+    {
+      TestedRange range;
+      range.slowest          = some(1e-6, 1e3);
+      range.fastest          = range.slowest * some(1., 1e6);
+      range.lowest           = some(1e-4, 1e3);
+      range.highest          = range.lowest * some(1., 1e4);
+      range.longest_path     = some(1e-5, 1e6);
+      range.longest_slide    = range.longest_path / range.slowest;
+      range.longest_rest     = n % 3 == 0 ? 0. : some(1e-2, 1e7);
+      range.longest_test     = range.longest_rest + range.longest_slide;
+      range.typical_friction = some(1e-3, 2.);
+      range.widest_angle     = n % 2 == 0 ? 0. : 1.5;
+      range.track_wave       = some(1e-3, 1.) * range.longest_path;
+      range.n_orders         = 12;
+      range.first_order      = 3.;
+      range.last_order       = 17.;
+
+      Parameters start = coulomb_case();
+      start.set("Calibration/Parameters",
+                "Friction/Static coefficient from 1e-4 to 10",
+                "test");
+      start.set("Friction/Static coefficient",
+                exact_text(range.typical_friction),
+                "test");
+      if (n % 2 == 1)
+        {
+          start.set("Friction/Effects", "subloading, softening", "test");
+          start.set("Friction/softening/Kinetic coefficient",
+                    exact_text(range.typical_friction * (1. - some(1e-3, 0.9))),
+                    "test");
+        }
+      for (const Candidate &candidate : make_candidates(start, range))
+        for (const TrialFormula &formula : candidate.formulas)
+          for (const TrialFormula::Shape &shape : formula.shapes)
+            for (const double strength : {0.01, 1., 1000.})
+              {
+                SCOPED_TRACE(candidate.name + " " + std::to_string(strength) +
+                             " of circumstances " + std::to_string(n));
+                EXPECT_NO_THROW(FrictionLaw(
+                  assemble(start, {{candidate.name, formula}}, shape(strength))
+                    .parameters));
+              }
+    }
 }
 
 

@@ -26,7 +26,7 @@ namespace SlipStep
         info.parameters = {
           {{"Rate", "xi", "0", Quantity(Dimension::per_time, 0.)},
            "rate of recovery with time (eq. 2 of the source paper)"},
-          {{"Steepness", "b", "1", positive(Dimension::number, 1e4)},
+          {{"Steepness", "b", "1", positive(Dimension::number, 1e8)},
            "steepness of recovery in terms of mu (eq. 2 of the source paper): a "
            "large value makes the coefficient grow with the logarithm of the "
            "time at rest"}};

@@ -28,7 +28,7 @@ namespace SlipStep
           {{"Rate", "kappa", "0.045", Quantity(Dimension::per_length, 0.)},
            "rate of softening with slip (eq. 2 of the source paper); the "
            "static-to-kinetic transition takes a slip of about 1/(kappa a)"},
-          {{"Steepness", "a", "1", positive(Dimension::number, 1e4)},
+          {{"Steepness", "a", "1", positive(Dimension::number, 1e8)},
            "steepness of softening in terms of mu (eq. 2 of the source paper)"},
           {{"Kinetic coefficient",
             "mu_k",
