@@ -390,9 +390,11 @@ namespace SlipStep
     // Parameters that fit nearly as well, as far along a direction as there
     // are any: one is moved, the others follow.
     // @return the changes, in natural terms; 0 if none was found
-    Eigen::VectorXd companion(Simulator           &simulator,
-                              const Linearisation &optimum,
-                              const Eigen::Index   which)
+    Eigen::VectorXd
+    companion(Simulator                                  &simulator,
+              const Linearisation                        &optimum,
+              const Eigen::Index                          which,
+              const std::chrono::steady_clock::time_point deadline)
     {
       constexpr double          nearly    = 4.; // two standard deviations
       constexpr unsigned int    most      = 8;
@@ -410,12 +412,13 @@ namespace SlipStep
             std::vector<double> scaled = optimum.scaled;
             for (std::size_t i = 0; i < scaled.size(); ++i)
               scaled[i] += sign * step * direction(i) / optimum.size[i];
-            if (scaled[moved] < 0. || scaled[moved] > 1.)
+            if (scaled[moved] < 0. || scaled[moved] > 1. ||
+                std::chrono::steady_clock::now() > deadline)
               continue;
             for (double &value : scaled)
               value = std::clamp(value, 0., 1.);
             const auto found = if_possible([&]() -> std::optional<FitResult> {
-              return fit(simulator, scaled, others, 0);
+              return fit(simulator, scaled, others, 0, deadline);
             });
             if (!found.has_value() ||
                 found->misfit > optimum.misfit + nearly * optimum.inflation)
@@ -487,8 +490,10 @@ namespace SlipStep
 
 
 
-  std::vector<WeakDirection> find_weak_directions(Simulator &simulator,
-                                                  const Linearisation &optimum)
+  std::vector<WeakDirection>
+  find_weak_directions(Simulator                                  &simulator,
+                       const Linearisation                        &optimum,
+                       const std::chrono::steady_clock::time_point deadline)
   {
     const Campaign                 &campaign = simulator.campaign;
     const std::vector<ProposedTest> proposed = propose_tests(campaign);
@@ -498,8 +503,9 @@ namespace SlipStep
         const double deviation = optimum.direction_deviations(k);
         if (deviation < weak_deviation)
           continue;
-        const Eigen::VectorXd change = companion(simulator, optimum, k);
-        WeakDirection         weak;
+        const Eigen::VectorXd change =
+          companion(simulator, optimum, k, deadline);
+        WeakDirection weak;
         for (std::size_t i = 0; i < campaign.fitted.size(); ++i)
           {
             // x is the logarithm, or the value over its size.

@@ -155,15 +155,15 @@ namespace SlipStep
         Simulator simulator(campaign);
         try
           {
-            found[i] = fit(simulator, starts[i], all_parameters(campaign));
+            const std::vector<unsigned int> all = all_parameters(campaign);
+            found[i] = fit(simulator, starts[i], all, 2, deadline);
             // To be compared with others, without the error of its own steps.
             if (std::isfinite(found[i].misfit))
               {
                 const unsigned int iterations = found[i].iterations;
                 simulator.plan(found[i].scaled);
                 simulator.correct(found[i].scaled);
-                found[i] =
-                  fit(simulator, found[i].scaled, all_parameters(campaign), 0);
+                found[i] = fit(simulator, found[i].scaled, all, 0, deadline);
                 found[i].iterations += iterations;
               }
           }
@@ -222,8 +222,9 @@ namespace SlipStep
         {
           planned->correct(best);
           const std::vector<double> before = best;
-          best    = fit(*planned, best, all_parameters(campaign), 0).scaled;
-          optimum = linearise(*planned, best, result.tests);
+          best =
+            fit(*planned, best, all_parameters(campaign), 0, deadline).scaled;
+          optimum      = linearise(*planned, best, result.tests);
           double moved = 0.;
           for (std::size_t i = 0; i < best.size(); ++i)
             moved = std::max(moved,
@@ -231,10 +232,15 @@ namespace SlipStep
                                optimum.deviations(i));
           if (moved < 0.1)
             return;
+          if (std::chrono::steady_clock::now() > deadline)
+            break;
         }
       const std::string warning =
         "The error of the time steps moves parameters by more than a tenth of "
-        "their standard deviations: take a smaller Time stepping/Tolerance.";
+        "their standard deviations: " +
+        (std::chrono::steady_clock::now() > deadline ?
+           no_time + " before it was taken out." :
+           "take a smaller Time stepping/Tolerance.");
       if (!holds(result.warnings, warning))
         result.warnings.push_back(warning);
     }
@@ -285,8 +291,8 @@ namespace SlipStep
       for (const Profile &followed : profiles)
         if (!followed.better.empty())
           {
-            const FitResult again =
-              fit(*planned, followed.better, all_parameters(campaign), 0);
+            const FitResult again = fit(
+              *planned, followed.better, all_parameters(campaign), 0, deadline);
             if (again.misfit < optimum.misfit - 0.01 * optimum.inflation)
               return again.scaled;
           }
@@ -604,7 +610,11 @@ namespace SlipStep
       tell("weak directions", 0.96);
       try
         {
-          result.weak = find_weak_directions(*planned, optimum);
+          result.weak = find_weak_directions(
+            *planned,
+            optimum,
+            deadline_after(
+              0.25 * campaign.parameters.number("Calibration/Most time")));
           find_constraints();
         }
       catch (const RunError &)

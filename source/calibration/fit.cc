@@ -64,8 +64,35 @@ namespace SlipStep
 
 
 
+    /// Ends a fit behind its deadline, unless it is likely to end soon.
+    class Deadline : public ceres::IterationCallback
+    {
+    public:
+      explicit Deadline(const std::chrono::steady_clock::time_point deadline)
+        : deadline(deadline)
+      {}
+
+      virtual ceres::CallbackReturnType
+      operator()(const ceres::IterationSummary &now) override
+      {
+        return now.iteration >= usual_iterations &&
+                   std::chrono::steady_clock::now() > deadline ?
+                 ceres::SOLVER_TERMINATE_SUCCESSFULLY :
+                 ceres::SOLVER_CONTINUE;
+      }
+
+    private:
+      static constexpr int usual_iterations = 20;
+
+      const std::chrono::steady_clock::time_point deadline;
+    };
+
+
+
     std::string reason(const ceres::Solver::Summary &summary)
     {
+      if (summary.termination_type == ceres::USER_SUCCESS)
+        return "its time was over";
       if (summary.termination_type == ceres::NO_CONVERGENCE)
         return "the largest number of iterations was reached";
       // "Function tolerance reached. |cost_change|/cost: ..."
@@ -76,10 +103,11 @@ namespace SlipStep
 
 
     // With the steps as they are planned.
-    void solve(Simulator                       &simulator,
-               const std::vector<unsigned int> &free,
-               const double                     precision,
-               FitResult                       &result)
+    void solve(Simulator                                  &simulator,
+               const std::vector<unsigned int>            &free,
+               const double                                precision,
+               const std::chrono::steady_clock::time_point deadline,
+               FitResult                                  &result)
     {
       // A start that the law refuses is no error of Ceres' to be printed.
       static const bool is_quiet =
@@ -112,6 +140,8 @@ namespace SlipStep
       // Ceres tries each step with bounds by a search along it; not by cubics,
       // which need all derivatives at each point.
       options.line_search_interpolation_type = ceres::QUADRATIC;
+      Deadline callback(deadline);
+      options.callbacks.push_back(&callback);
       ceres::Solver::Summary summary;
       ceres::Solve(options, &problem, &summary);
 
@@ -128,10 +158,11 @@ namespace SlipStep
 
 
 
-  FitResult fit(Simulator                       &simulator,
-                const std::vector<double>       &scaled_start,
-                const std::vector<unsigned int> &free,
-                const unsigned int               replans)
+  FitResult fit(Simulator                                  &simulator,
+                const std::vector<double>                  &scaled_start,
+                const std::vector<unsigned int>            &free,
+                const unsigned int                          replans,
+                const std::chrono::steady_clock::time_point deadline)
   {
     FitResult result;
     result.scaled = scaled_start;
@@ -150,12 +181,12 @@ namespace SlipStep
       }
     if (replans > 0)
       simulator.plan(result.scaled);
-    solve(simulator, free, replans > 0 ? 1e-5 : 1e-9, result);
+    solve(simulator, free, replans > 0 ? 1e-5 : 1e-9, deadline, result);
     for (unsigned int n = 0; n < replans; ++n)
       {
         const std::vector<double> before = result.scaled;
         simulator.plan(result.scaled);
-        solve(simulator, free, 1e-7, result);
+        solve(simulator, free, 1e-7, deadline, result);
         double moved = 0.;
         for (const unsigned int i : free)
           moved = std::max(moved, std::abs(result.scaled[i] - before[i]));

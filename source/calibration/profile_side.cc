@@ -98,17 +98,30 @@ namespace SlipStep
 
 
 
+  // What ends with the time is no minimum.
+  ProfileSide::Fitted ProfileSide::in_time(const std::vector<double> &from)
+  {
+    const auto throw_if_late = [&]() {
+      if (std::chrono::steady_clock::now() > deadline)
+        throw OutOfTime();
+    };
+    throw_if_late();
+    const Fitted result = refit(from);
+    throw_if_late();
+    return result;
+  }
+
+
+
   // The others fitted: from where they go to first order, and, before that
   // contradicts the distance, from where they are at the nearest one.
   ProfileSide::Fitted ProfileSide::fit_at(const double distance)
   {
-    if (std::chrono::steady_clock::now() > deadline)
-      throw OutOfTime();
     std::vector<double> from = optimum.scaled;
     for (std::size_t i = 0; i < from.size(); ++i)
       from[i] = std::clamp(from[i] + sign * distance * slopes(i), 0., 1.);
     from[parameter]     = start + sign * distance;
-    const Fitted result = refit(from);
+    const Fitted result = in_time(from);
     if (result.misfit < optimum.misfit + threshold || from.size() == 1)
       return result;
     const auto nearest = std::min_element(
@@ -117,7 +130,7 @@ namespace SlipStep
       });
     std::vector<double> again = nearest->second.scaled;
     again[parameter]          = start + sign * distance;
-    const Fitted other        = refit(again);
+    const Fitted other        = in_time(again);
     return other.misfit < result.misfit || !std::isfinite(result.misfit) ?
              other :
              result;

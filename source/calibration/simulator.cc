@@ -261,8 +261,12 @@ namespace SlipStep
 
 
   // Richardson's extrapolation from fine steps and halved fine steps.
-  void Simulator::correct(const std::vector<double> &scaled, const double share)
+  void Simulator::correct(const std::vector<double> &scaled)
   {
+    // Of the tolerance of the search; what Richardson leaves of it is of higher
+    // order.
+    constexpr double share = 0.02;
+
     const FrictionLaw law(with(scaled));
     const Machine     machine(parameters);
     // The steps shrink with the root of the tolerance.

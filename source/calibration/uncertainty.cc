@@ -439,7 +439,7 @@ namespace SlipStep
         Simulator   simulator(planned);
         ProfileSide side(
           [&](const std::vector<double> &from) {
-            const FitResult fitted = fit(simulator, from, others, 0);
+            const FitResult fitted = fit(simulator, from, others, 0, deadline);
             return ProfileSide::Fitted{fitted.misfit, fitted.scaled};
           },
           {optimum.misfit, optimum.scaled},

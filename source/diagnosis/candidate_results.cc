@@ -42,6 +42,11 @@ namespace SlipStep
                               Standing::in_the_model :
                               Standing::not_testable;
         }
+      else if (seen.is_late)
+        {
+          result.why      = "Diagnosis/Most time was over";
+          result.standing = Standing::not_tried;
+        }
       else if ((!seen.failure.empty() && seen.ways.empty()) ||
                holds(judgement.found.lost, result.name))
         {

@@ -400,7 +400,8 @@ namespace SlipStep
                          const Eigen::VectorXd &residuals,
                          Eigen::MatrixXd       &derivatives) {
                        return problem.derivatives(x, residuals, derivatives);
-                     }},
+                     },
+                     deadline},
                     Eigen::Map<const Eigen::VectorXd>(model.scaled.data(),
                                                       model.scaled.size()),
                     precision,

@@ -2,7 +2,7 @@
 #include <slipstep/diagnosis/candidate_results.h>
 #include <slipstep/diagnosis/correction.h>
 #include <slipstep/diagnosis/diagnose.h>
-
+#include <slipstep/diagnosis/diagnosis_parameters.h>
 #include <slipstep/diagnosis/findings.h>
 #include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/outlying_rows.h>
@@ -266,8 +266,9 @@ namespace SlipStep
 
     void Diagnostician::prove()
     {
-      const Workspace &workspace = *ingested.workspace;
+      Workspace &workspace = *ingested.workspace;
       stage("intervals");
+      workspace.comparison.deadline = deadline_of(parameters, 0.5);
       found_parameters =
         find_intervals(workspace, final_model, result.confidence);
       stage("what these tests can tell");
@@ -292,6 +293,9 @@ namespace SlipStep
       const Workspace  &workspace  = *ingested.workspace;
       const Comparison &comparison = workspace.comparison;
       stage("before and after");
+      // A few fits, whose ends are compared.
+      ingested.workspace->comparison.deadline =
+        std::chrono::steady_clock::time_point::max();
       show_formulas();
       describe_tests(ingested, final_model, result);
       describe_shrink(ingested, final_model, result);

@@ -21,6 +21,7 @@ namespace SlipStep
                                         "not needed",
                                         "not enough",
                                         "rejected",
+                                        "not tried",
                                         "not simulated",
                                         "not testable",
                                         "in the model"};

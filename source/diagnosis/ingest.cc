@@ -233,7 +233,8 @@ namespace SlipStep
                                            0,
                                            deadline_of(start),
                                            stage});
-      Workspace &workspace = *result.workspace;
+      Workspace &workspace          = *result.workspace;
+      workspace.comparison.deadline = workspace.deadline;
       workspace.comparison.set_noise(stated, workspace.comparison.measured);
       motion_factors.setOnes(workspace.comparison.n_rows());
       result.base = make_coarse_model(start, {}, {}, tests);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/profile_side.h>
-#include <slipstep/diagnosis/diagnosis_parameters.h>
 #include <slipstep/diagnosis/intervals.h>
 #include <slipstep/diagnosis/refits.h>
 
@@ -9,7 +8,6 @@
 #include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -70,13 +68,11 @@ namespace SlipStep
 
 
 
-    ProfileInterval
-    follow_both_ways(const Workspace                            &workspace,
-                     const Model                                &optimum,
-                     const std::size_t                           i,
-                     const double                                deviation,
-                     const double                                threshold,
-                     const std::chrono::steady_clock::time_point deadline)
+    ProfileInterval follow_both_ways(const Workspace  &workspace,
+                                     const Model      &optimum,
+                                     const std::size_t i,
+                                     const double      deviation,
+                                     const double      threshold)
     {
       std::vector<bool> held(optimum.scaled.size(), false);
       held[i] = true;
@@ -101,7 +97,7 @@ namespace SlipStep
             i,
             threshold,
             sign,
-            deadline);
+            workspace.comparison.deadline);
           side.follow(std::max(1e-4, deviation * std::sqrt(threshold)));
           side.look_at({0.3, 0.6, 0.85});
           (sign < 0 ? result.lower : result.upper) = side.end;
@@ -125,8 +121,6 @@ namespace SlipStep
                                                  const double     confidence)
   {
     const Scatter scatter = scatter_of(workspace, model, confidence);
-    // For all of them.
-    const auto deadline = deadline_of(workspace.start, 0.5);
     std::vector<DiagnosedParameter> result(model.scaled.size());
     side_by_side(model.scaled.size(), [&](const std::size_t i) {
       const FitParameter &parameter = model.campaign->fitted[i];
@@ -165,8 +159,7 @@ namespace SlipStep
                              model,
                              i,
                              scatter.deviations(i),
-                             std::pow(scatter.reach[i], 2),
-                             deadline);
+                             std::pow(scatter.reach[i], 2));
         }
       catch (const OutOfTime &)
         {

@@ -93,6 +93,8 @@ namespace SlipStep
               -2. * slope.dot(step) - step.dot(curvature * step);
             const Eigen::VectorXd x = (best.x + step).cwiseMax(0.).cwiseMin(1.);
             Eigen::VectorXd       residuals;
+            if (std::chrono::steady_clock::now() > problem.deadline)
+              return best;
             if (promised > 0.1 * enough() && problem.residuals(x, residuals) &&
                 residuals.squaredNorm() < best.sum)
               {

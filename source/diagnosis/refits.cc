@@ -219,7 +219,7 @@ namespace SlipStep
     try
       {
         planned.simulator->plan(model.scaled, like);
-        planned.simulator->correct(model.scaled, correction_share);
+        planned.simulator->correct(model.scaled);
       }
     catch (const RunError &)
       {
@@ -289,7 +289,7 @@ namespace SlipStep
         workspace.start, parts, model.values(), workspace.tests, &model);
       // The model that it is compared with is not weak in what is missing
       // here.
-      result.simulator->correct(result.scaled, correction_share);
+      result.simulator->correct(result.scaled);
       return fitted(workspace, std::move(result));
     });
   }

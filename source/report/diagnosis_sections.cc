@@ -40,7 +40,8 @@ namespace SlipStep
       const std::string style =
         candidate.standing == Standing::named ? "named" :
         candidate.standing == Standing::rival ? "rival" :
-        candidate.standing == Standing::not_simulated ||
+        candidate.standing == Standing::not_tried ||
+            candidate.standing == Standing::not_simulated ||
             candidate.standing == Standing::not_testable ||
             candidate.standing == Standing::in_the_model ?
                                                 "grey" :

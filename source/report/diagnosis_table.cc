@@ -8,6 +8,9 @@
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/text.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace SlipStep
 {
   namespace
@@ -96,11 +99,24 @@ namespace SlipStep
       if (lines.size() == 1)
         return "";
       std::string text = "\n" + text_table(lines, terminal_width);
+      // Those of one reason together, in the order of the first of them.
+      std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
       for (const CandidateResult &candidate : diagnosis.candidates)
-        if (candidate.standing == Standing::not_simulated)
-          text += wrapped_text(candidate.name + ": " + candidate.why,
-                               2,
-                               terminal_width);
+        if (candidate.standing == Standing::not_tried ||
+            candidate.standing == Standing::not_simulated ||
+            candidate.standing == Standing::not_testable)
+          {
+            auto found = std::find_if(reasons.begin(),
+                                      reasons.end(),
+                                      [&](const auto &reason) {
+                                        return reason.first == candidate.why;
+                                      });
+            if (found == reasons.end())
+              found = reasons.insert(found, {candidate.why, {}});
+            found->second.push_back(candidate.name);
+          }
+      for (const auto &[why, names] : reasons)
+        text += wrapped_text(list_text(names) + ": " + why, 2, terminal_width);
       return text;
     }
 

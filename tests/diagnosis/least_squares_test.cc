@@ -59,6 +59,18 @@ TEST(LeastSquares, StopsAtABound)
 
 
 
+TEST(LeastSquares, StaysWhereItIsWhenItsTimeIsOver)
+{
+  SquaresProblem late        = valley(0.8);
+  late.deadline              = std::chrono::steady_clock::now();
+  const SquaresMinimum found = least_squares(late, point(0.1, 0.9), 1e-14);
+  ASSERT_TRUE(found.found);
+  EXPECT_EQ(found.x, point(0.1, 0.9));
+  EXPECT_EQ(found.derivatives.rows(), 2);
+}
+
+
+
 TEST(LeastSquares, LeavesWhatIsHeld)
 {
   const SquaresMinimum found =

@@ -4,6 +4,7 @@
 
 #include <slipstep/calibration/uncertainty.h>
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,11 @@ namespace SlipStep
   /// The combinations of parameters that the tests hardly determine (standard
   /// deviation above 0.3 in natural parameters), worst first, in words, each
   /// with the proposed test that would determine it best.
-  std::vector<WeakDirection> find_weak_directions(Simulator &simulator,
-                                                  const Linearisation &optimum);
+  /// @param deadline of the search for values that fit nearly as well
+  std::vector<WeakDirection>
+  find_weak_directions(Simulator                                  &simulator,
+                       const Linearisation                        &optimum,
+                       const std::chrono::steady_clock::time_point deadline);
 
   /// @throws InputError naming a parameter that changes nothing in the tests,
   /// wherever it is between its bounds

@@ -4,6 +4,7 @@
 
 #include <slipstep/calibration/simulator.h>
 
+#include <chrono>
 #include <limits>
 #include <string>
 #include <vector>
@@ -25,11 +26,15 @@ namespace SlipStep
   /// @param free the parameters to be changed; the others stay
   /// @param replans how often the time steps are chosen anew at the optimum
   ///   found; with 0 they stay as planned
+  /// @param deadline when the best found so far has to do, unless the search
+  ///   has only just begun
   /// @throws InputError, RunError if the start cannot be simulated
-  FitResult fit(Simulator                       &simulator,
-                const std::vector<double>       &scaled_start,
-                const std::vector<unsigned int> &free,
-                const unsigned int               replans = 2);
+  FitResult fit(Simulator                                  &simulator,
+                const std::vector<double>                  &scaled_start,
+                const std::vector<unsigned int>            &free,
+                const unsigned int                          replans = 2,
+                const std::chrono::steady_clock::time_point deadline =
+                  std::chrono::steady_clock::time_point::max());
 
   /// All parameters, to be passed to fit().
   std::vector<unsigned int> all_parameters(const Campaign &campaign);

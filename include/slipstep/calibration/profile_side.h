@@ -78,6 +78,8 @@ namespace SlipStep
   private:
     double rise(const double distance);
 
+    Fitted in_time(const std::vector<double> &from);
+
     Fitted fit_at(const double distance);
 
     bool jumps_at_end() const;

@@ -58,8 +58,7 @@ namespace SlipStep
     /// From now on, add to all simulated curves what is missing from those of
     /// very small steps at these values: their error then is one of second
     /// order, and small as long as the values stay near.
-    /// @param share of the tolerance of the search that the small steps keep
-    void correct(const std::vector<double> &scaled, const double share = 0.001);
+    void correct(const std::vector<double> &scaled);
 
     /// The same from the curves of another simulator at its values, whose case
     /// differs in effects that are weak still.

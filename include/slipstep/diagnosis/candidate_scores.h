@@ -26,8 +26,9 @@ namespace SlipStep
     /// Best first; none if it was not tried, could not be simulated, or
     /// changes nothing.
     std::vector<Way> ways;
-    Score            score;   ///< of the best
-    std::string      failure; ///< why it could not be simulated, alone
+    Score            score;           ///< of the best
+    std::string      failure;         ///< why it could not be simulated, alone
+    bool             is_late = false; ///< not tried for want of time
     /// That is since friction would fall with speed, and sliding jump. There
     /// are ways if another effect may hold it: it is seen beside that only.
     bool is_unstable = false;

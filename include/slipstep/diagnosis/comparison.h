@@ -98,6 +98,9 @@ namespace SlipStep
     std::vector<std::string>  conditions; ///< their names
     Eigen::VectorXd           measured;   ///< averaged, all tests in a row
     double                    usual_duration = 1.; ///< of tests [s]
+    /// When fit() ends with the best that it has.
+    std::chrono::steady_clock::time_point deadline =
+      std::chrono::steady_clock::time_point::max();
 
     /// Take this for the noise of the rows of a test.
     void set_row_noise(const std::size_t test, const RowNoise &noise);
@@ -175,11 +178,6 @@ namespace SlipStep
                    const Values                    &values,
                    const std::vector<CampaignTest> &tests,
                    const Model                     &like);
-
-  /// How much smaller the errors of the steps are by which a model's own are
-  /// taken out, see Simulator::correct(): what is left is of second order, and
-  /// far below the noise.
-  constexpr double correction_share = 0.02;
 
   /// Root mean square of differences, as a share of the tests' friction.
   double relative_rms(const Comparison      &comparison,

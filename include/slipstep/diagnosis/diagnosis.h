@@ -86,6 +86,7 @@ namespace SlipStep
     not_needed, ///< significant by itself, but with the names no more
     not_enough, ///< significant, but too much remains for a name
     rejected,
+    not_tried, ///< for want of time
     not_simulated,
     not_testable,
     in_the_model

@@ -10,8 +10,8 @@
 namespace SlipStep
 {
   /// All fitted parameters of a model: those of added effects with intervals
-  /// by profile likelihood, as far as half of `Diagnosis/Most time` allows, the
-  /// others from the curvature.
+  /// by profile likelihood, as far as Comparison::deadline allows, the others
+  /// from the curvature.
   std::vector<DiagnosedParameter> find_intervals(const Workspace &workspace,
                                                  const Model     &model,
                                                  const double     confidence);

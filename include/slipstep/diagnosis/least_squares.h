@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <chrono>
 #include <functional>
 #include <vector>
 
@@ -21,6 +22,9 @@ namespace SlipStep
                        const Eigen::VectorXd &residuals,
                        Eigen::MatrixXd       &derivatives)>
       derivatives;
+    /// The best that is known then has to do.
+    std::chrono::steady_clock::time_point deadline =
+      std::chrono::steady_clock::time_point::max();
   };
 
   struct SquaresMinimum

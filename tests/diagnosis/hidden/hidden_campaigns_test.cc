@@ -413,8 +413,8 @@ TEST_F(CampaignFolder, IntervalsEndInTime)
     return DiagnosedParameter();
   };
   const DiagnosedParameter followed = interval(*ingested.workspace);
-  hasty.start.set("Diagnosis/Most time", "1e-6 s", "test");
-  const DiagnosedParameter hurried = interval(hasty);
+  hasty.comparison.deadline         = std::chrono::steady_clock::now();
+  const DiagnosedParameter hurried  = interval(hasty);
   EXPECT_GT(followed.profile.size(), 4u);
   EXPECT_TRUE(hurried.profile.empty());
   EXPECT_LT(hurried.lower, hurried.value);
@@ -656,10 +656,13 @@ TEST_F(CampaignFolder, HasNoNameBeforeItIsProven)
   EXPECT_EQ(name_of(at_once.verdict), name_of(Verdict::unnamed));
   EXPECT_TRUE(workspace.was_late);
   EXPECT_TRUE(at_once.found.gains.empty());
+  for (const CandidateView &seen : at_once.view.candidates)
+    EXPECT_TRUE(seen.is_late && seen.ways.empty());
 
-  workspace.deadline = std::chrono::steady_clock::time_point::max();
-  workspace.was_late = false;
-  workspace.progress = [&](const std::string &text) {
+  workspace.deadline    = std::chrono::steady_clock::time_point::max();
+  workspace.was_late    = false;
+  workspace.last_scored = {};
+  workspace.progress    = [&](const std::string &text) {
     if (text.rfind("added ", 0) != 0)
       return;
     ++n_added;
