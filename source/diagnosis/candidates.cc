@@ -157,13 +157,18 @@ namespace SlipStep
             "it is tried as a formula of " + own.search.candidate;
           return candidate;
         }
-      TrialFormula formula =
-        own.search.beside_formula({with_partner, now.range});
-      formula.effect    = own.name;
-      formula.along     = own.search.along;
-      candidate.why_not = formula.why_not;
-      if (formula.why_not.empty())
-        candidate.formulas = {formula};
+      for (const auto &form : own.search.beside_formulas)
+        {
+          TrialFormula formula = form({with_partner, now.range});
+          formula.effect       = own.name;
+          formula.along        = own.search.along;
+          if (formula.why_not.empty())
+            candidate.formulas.push_back(formula);
+          else if (candidate.why_not.empty())
+            candidate.why_not = formula.why_not;
+        }
+      if (!candidate.formulas.empty())
+        candidate.why_not = "";
       if (!has_partner)
         candidate.only_beside = partner;
       return candidate;
@@ -185,7 +190,7 @@ namespace SlipStep
   {
     std::vector<std::string> names;
     for (const auto &entry : effect_registry())
-      if (entry.second.search.beside_formula ||
+      if (!entry.second.search.beside_formulas.empty() ||
           (entry.second.search.formula &&
            entry.second.search.candidate.empty()))
         names.push_back(entry.first);

@@ -23,26 +23,54 @@ namespace SlipStep
 
 
 
-  TrialFormula TrialFormula::state_of_contacts(const std::string &length,
-                                               const TestedRange &range)
+  namespace
   {
-    const double path    = range.longest_path;
-    const double fastest = range.fastest, slowest = range.slowest;
-    if (!(fastest > 1.5 * slowest) || !(path > 0.))
-      return none("the speed hardly varies");
-    const double ages = std::log(fastest / slowest);
-    TrialFormula formula;
-    formula.is_one_sided = true;
-    formula.parameters   = {
-        {"Growth", 0., 1., false},
-        {"Time", 1e-6 * path / fastest, path / slowest, true, true, true},
-        {length, 1e-5 * path, 0.3 * path, true}};
-    // Younger than contacts are at the fastest: its share of the age is felt
-    // everywhere.
-    for (const double L : ladder(3e-3 * path, 0.1 * path, 4))
-      formula.add_shape(
-        "Growth", 1e-6, 0.9, {{"Time", 0.1 * L / fastest}, {length, L}}, ages);
-    return formula;
+    TrialFormula state_of_contacts_in(const TestedRange &range,
+                                      const std::string &length,
+                                      const std::string &first)
+    {
+      const double path    = range.longest_path;
+      const double fastest = range.fastest, slowest = range.slowest;
+      if (!(fastest > 1.5 * slowest) || !(path > 0.))
+        return TrialFormula::none("the speed hardly varies");
+      const double ages = std::log(fastest / slowest);
+      TrialFormula formula;
+      formula.is_one_sided = true;
+      formula.parameters   = {
+          {"Growth", 0., 1., false},
+          {"Time", 1e-6 * path / fastest, path / slowest, true, true, true},
+          {length, 1e-5 * path, 0.3 * path, true}};
+      if (!first.empty())
+        formula.parameters.push_back(
+          {first,
+           1e-6 * path / fastest,
+           std::max(1e9, 10. * path / slowest), // [s], 30 years
+           true,
+           true,
+           false});
+      // Younger than contacts are at the fastest: its share of the age is felt
+      // everywhere.
+      for (const double L : ladder(3e-3 * path, 0.1 * path, 4))
+        {
+          Values others = {{"Time", 0.1 * L / fastest}, {length, L}};
+          if (!first.empty())
+            others[first] = 1e3 * L / slowest;
+          formula.add_shape("Growth", 1e-6, 0.9, others, ages);
+        }
+      return formula;
+    }
+  } // namespace
+
+
+
+  TrialFormula::Form TrialFormula::state_of_contacts(const std::string &length,
+                                                     const std::string &first)
+  {
+    return [=](const Circumstances &now) {
+      return !first.empty() && now.number("Calibration/Lead-in") > 0. ?
+               none("the contacts slide before the tests begin") :
+               state_of_contacts_in(now.range, length, first);
+    };
   }
 
 
@@ -108,7 +136,7 @@ namespace SlipStep
         };
     };
     complete(formula);
-    complete(beside_formula);
+    std::for_each(beside_formulas.begin(), beside_formulas.end(), complete);
     std::for_each(other_forms.begin(), other_forms.end(), complete);
   }
 

@@ -18,6 +18,8 @@ namespace SlipStep
     state.normal_ratio = normal_ratio->virgin_normal_ratio();
     for (const ContactMemory &memory : contact_memories())
       state[memory] = memory.initial;
+    for (const StrengthEffect *effect : strength_effects)
+      effect->begin(state);
     return state;
   }
 

@@ -148,12 +148,14 @@ TEST(Candidates, EveryEffectIsOneOrSaysWhyNot)
       const std::string candidate =
         info.search.candidate.empty() ? name : info.search.candidate;
       EXPECT_EQ(tried.count(candidate),
-                info.search.formula || info.search.beside_formula ? 1u : 0u)
+                info.search.formula || !info.search.beside_formulas.empty() ?
+                  1u :
+                  0u)
         << name;
-      EXPECT_EQ(bool(info.search.beside_formula), !info.search.beside.empty())
+      EXPECT_EQ(info.search.beside_formulas.empty(), info.search.beside.empty())
         << name;
-      EXPECT_EQ(bool(info.search.beside_formula),
-                !info.search.beside_signature.empty())
+      EXPECT_EQ(info.search.beside_formulas.empty(),
+                info.search.beside_signature.empty())
         << name;
       EXPECT_EQ(info.search.signature.empty(),
                 candidate != name || !info.search.formula)

@@ -5,6 +5,8 @@
 
 #include "law_test_tools.h"
 
+#include <slipstep/utilities/lists.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -152,6 +154,39 @@ TEST(RateAndState, only_the_ageing_law_heals_without_slip)
   EXPECT_NEAR(state[contact_memory("slip_law_state_s")],
               200. * std::exp(-std::log(1000.) * std::exp(-1.)),
               1e-3 * 200.);
+}
+
+
+
+// Contacts that rested before: what was never loaded begins so, what opens
+// begins anew.
+TEST(RateAndState, a_first_age_is_worn_off_by_slip)
+{
+  constexpr double old = 1000., speed = 0.5, steady = length / speed;
+  const auto       slip_law = stiff_law({{"Effects", "slip_law"},
+                                         {"slip_law/First state", "1000 s"},
+                                         {"slip_law/Slip length", "0.1"}});
+  const auto       ageing   = stiff_law({{"Effects", "ageing"},
+                                         {"ageing/First age", "1000 s"},
+                                         {"ageing/Renewal length", "0.1"}});
+  const auto state_of = [](const FrictionLaw &law, const ContactState &state) {
+    return state[contact_memory(
+      holds(law.effects(), "ageing") ? "contact_age_s" : "slip_law_state_s")];
+  };
+  for (const FrictionLaw *law : {slip_law.get(), ageing.get()})
+    {
+      ContactState open;
+      law->update(law->initial_state(), vector(0.), 0., 10., open);
+      EXPECT_EQ(state_of(*law, open), old);
+      const ContactState slid   = go_on(*law, open, p, speed, 0.2, 2000);
+      const double       worn   = std::exp(-0.2 / length);
+      const double       closed = law == ageing.get() ?
+                                    steady + (old - steady) * worn :
+                                    steady * std::exp(std::log(old / steady) * worn);
+      EXPECT_NEAR(state_of(*law, slid), closed, 1e-2 * closed);
+      law->update(slid, vector(0.), 0., 10., open);
+      EXPECT_EQ(state_of(*law, open), 0.);
+    }
 }
 
 

@@ -292,6 +292,11 @@ namespace SlipStep
       return 0.;
     }
 
+    /// Write what the effect remembers of a point that was never loaded, if
+    /// that is a parameter.
+    virtual void begin(ContactState & /*state*/) const
+    {}
+
     /// Write what the effect remembers into the state after the step; called
     /// for an open point, too.
     virtual void remember(const SlipStepData & /*step*/,

@@ -96,11 +96,15 @@ namespace SlipStep
 
     static TrialFormula none(const std::string &why_not);
 
+    using Form = std::function<TrialFormula(const Circumstances &)>;
+
     /// Strength that grows with the logarithm of an age, which in steady
     /// sliding is a length over the speed: theta = L / V.
     /// @param length key of L, beside Growth and Time
-    static TrialFormula state_of_contacts(const std::string &length,
-                                          const TestedRange &range);
+    /// @param first key of the age with which it begins, of what was before the
+    ///   tests; "" for contacts that begin young
+    static Form state_of_contacts(const std::string &length,
+                                  const std::string &first = "");
 
     /// Add a shape: one parameter is in proportion to the strength, within
     /// bounds, others stay.
@@ -122,7 +126,7 @@ namespace SlipStep
   /// How an effect is looked for in measured tests.
   struct EffectSearch
   {
-    using Form = std::function<TrialFormula(const Circumstances &)>;
+    using Form = TrialFormula::Form;
 
     /// How it shows, beside other effects.
     std::string signature;
@@ -152,8 +156,8 @@ namespace SlipStep
     std::string beside = "";
 
     /// How it shows, and how it is looked for, where the model has that effect.
-    std::string beside_signature = "";
-    Form        beside_formula   = {};
+    std::string       beside_signature = "";
+    std::vector<Form> beside_formulas  = {};
 
     /// The effect that holds what this one would let jump, as a direct effect
     /// of speed holds friction that falls with it. Where sliding is not stable

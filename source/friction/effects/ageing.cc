@@ -44,7 +44,10 @@ namespace SlipStep
           {{"Time", "t_0", "1", positive(Dimension::time)},
            "age from which the contact grows with the logarithm of its age"},
           {{"Renewal length", "L", "0.1", positive(Dimension::length)},
-           "slip that renews the contacts"}};
+           "slip that renews the contacts"},
+          {{"First age", "theta_0", "0", Quantity(Dimension::time, 0.)},
+           "age with which a contact closes that was never loaded: how long it "
+           "had rested before the test"}};
         info.neutral_settings = {{"Growth", "0"}};
         info.typical_settings = {{"Growth", "0.1"},
                                  {"Time", "0.05 s"},
@@ -55,9 +58,17 @@ namespace SlipStep
         info.search.beside_signature =
           "friction that falls over some slip after a step up in speed, and "
           "rises after one down";
-        info.search.beside_formula = [](const Circumstances &now) {
-          return TrialFormula::state_of_contacts("Renewal length", now.range);
-        };
+        const auto aged =
+          TrialFormula::state_of_contacts("Renewal length", "First age");
+        info.search.beside_formulas = {
+          TrialFormula::state_of_contacts("Renewal length"), aged};
+        // Alone, friction that falls with speed makes sliding jump.
+        info.search.other_forms = {[=](const Circumstances &now) {
+          return now.has("overstress") ?
+                   aged(now) :
+                   TrialFormula::none("nothing holds friction that falls with "
+                                      "speed");
+        }};
         return info;
       }
 
@@ -66,6 +77,7 @@ namespace SlipStep
         , b_age(section.number("Growth"))
         , t_0(section.number("Time"))
         , L(section.number("Renewal length"))
+        , first_age(section.number("First age"))
       {}
 
       virtual Strength strength_factor(const SlipStepData &step) const override
@@ -77,13 +89,20 @@ namespace SlipStep
         return factor;
       }
 
+      virtual void begin(ContactState &state) const override
+      {
+        state[contact_age] = first_age;
+      }
+
+      // What opens begins anew.
       virtual void remember(const SlipStepData &step,
                             ContactState       &end) const override
       {
         end[contact_age] =
           step.normal_traction > 0. ?
             contact_age_after(step.start[contact_age], step, L).value :
-            0.;
+          step.start.normal_traction > 0. ? 0. :
+                                            step.start[contact_age];
       }
 
     private:
@@ -112,7 +131,7 @@ namespace SlipStep
         return formula;
       }
 
-      const double b_age, t_0, L;
+      const double b_age, t_0, L, first_age;
     };
 
     const RegisterEffect ageing_registration = register_effect<Ageing>();

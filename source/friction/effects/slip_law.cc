@@ -17,7 +17,8 @@ namespace SlipStep
     /// with \f$e^{-\lambda t/D_c}\f$, up and down alike. For a constant slip
     /// rate the step is integrated exactly, \f$\ln\theta = d \ln\theta_0 + (1 -
     /// d) \ln(D_c/\lambda)\f$ with \f$d = e^{-\lambda\Delta t/D_c}\f$. That a
-    /// contact closes with \f$\theta = t_0\f$ is chosen.
+    /// contact closes with \f$\theta = t_0\f$, or a first state of its own, is
+    /// chosen.
     ///
     /// With an overstress it is the slip law of rate and state, whose
     /// parameters are \f$a = \mu\,G\,dr/d\ln V\f$, \f$r\,\mu\,b/(1 +
@@ -43,9 +44,12 @@ namespace SlipStep
            "growth of the strength per e-fold of the state"},
           {{"Time", "t_0", "1", positive(Dimension::time)},
            "state below which the strength hardly depends on it, and with "
-           "which a contact closes"},
+           "which a contact closes again"},
           {{"Slip length", "D_c", "0.1", positive(Dimension::length)},
-           "slip over which the state approaches its steady value"}};
+           "slip over which the state approaches its steady value"},
+          {{"First state", "theta_0", "0", Quantity(Dimension::time, 0.)},
+           "state with which a contact closes that was never loaded, of what it "
+           "met before the test; 0 stands for t_0"}};
         info.neutral_settings = {{"Growth", "0"}};
         info.typical_settings = {{"Growth", "0.1"},
                                  {"Time", "0.05 s"},
@@ -56,9 +60,9 @@ namespace SlipStep
         info.search.beside_signature =
           "friction that falls over some slip after a step up in speed and "
           "rises as fast after one down; rests change nothing";
-        info.search.beside_formula = [](const Circumstances &now) {
-          return TrialFormula::state_of_contacts("Slip length", now.range);
-        };
+        info.search.beside_formulas = {
+          TrialFormula::state_of_contacts("Slip length"),
+          TrialFormula::state_of_contacts("Slip length", "First state")};
         return info;
       }
 
@@ -67,6 +71,7 @@ namespace SlipStep
         , b(section.number("Growth"))
         , t_0(section.number("Time"))
         , D_c(section.number("Slip length"))
+        , first_state(section.number("First state"))
       {}
 
       virtual Strength strength_factor(const SlipStepData &step) const override
@@ -78,11 +83,19 @@ namespace SlipStep
         return factor;
       }
 
+      virtual void begin(ContactState &state) const override
+      {
+        state[slip_law_state] = first_state;
+      }
+
+      // What opens begins anew.
       virtual void remember(const SlipStepData &step,
                             ContactState       &end) const override
       {
         end[slip_law_state] =
-          step.normal_traction > 0. ? state_after(step).value : 0.;
+          step.normal_traction > 0.       ? state_after(step).value :
+          step.start.normal_traction > 0. ? 0. :
+                                            step.start[slip_law_state];
       }
 
     private:
@@ -102,7 +115,7 @@ namespace SlipStep
         return {value, -value * (decay * away + share / x) / D_c};
       }
 
-      const double b, t_0, D_c;
+      const double b, t_0, D_c, first_state;
     };
 
     const RegisterEffect slip_law_registration = register_effect<SlipLaw>();

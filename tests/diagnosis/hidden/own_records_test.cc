@@ -26,24 +26,68 @@ namespace
   class OwnRecords : public testing::Test
   {
   protected:
-    // Friction follows the speed at once and does not change at rest; flanks
-    // are of a spring. Every condition twice.
+    // Friction after a time step of a contact whose load point has come there
+    // with that speed.
+    using Contact = std::function<
+      double(double friction, double speed, double position, double step)>;
+
+    // Friction that follows the speed at once and does not change at rest;
+    // flanks are of a spring.
     void write(
       const double                         per_decade,
       const std::function<double(double)> &factor_at = [](double) {
         return 1.;
       })
     {
-      const std::vector<std::vector<Slide>> conditions = {
-        {{0.02, 300.}},
-        {{0.2, 30.}},
-        {{2., 3.}},
-        {{0.2, 20.}, {2., 2.}, {0.02, 100.}, {0.2, 10.}},
-        {{0.2, 15.}, {-0.2, 15.}, {0.2, 15.}, {-0.2, 15.}},
-        {{2., 2.}, {-2., 2.}, {2., 2.}},
-        {{0.2, 15.}, {0., 10.}, {0.2, 10.}, {0., 300.}, {0.2, 10.}}};
-      for (unsigned int i = 0; i < 2 * conditions.size(); ++i)
-        write(i, conditions[i / 2], per_decade, factor_at);
+      write([=]() {
+        return [=](const double friction,
+                   const double speed,
+                   const double position,
+                   const double step) {
+          const double strength =
+            speed == 0. ?
+              std::abs(friction) :
+              0.2 * (1. + per_decade * std::log10(std::abs(speed) / 0.2)) *
+                factor_at(position);
+          return std::clamp(friction + stiffness * speed * step,
+                            -strength,
+                            strength);
+        };
+      });
+    }
+
+    // Rate and state by the slip law, sinh regularised, on the same spring.
+    void write_slip_law(const double a,
+                        const double b,
+                        const double slip_length,
+                        const double first_state)
+    {
+      write([=]() {
+        return [=, state = first_state](const double friction,
+                                        const double speed,
+                                        const double,
+                                        const double step) mutable {
+          constexpr double reference = 0.2;
+          const double     strength =
+            0.2 + b * std::log(state * reference / slip_length);
+          const auto slip_rate = [&](const double f) {
+            return 2. * reference * std::exp(-strength / a) * std::sinh(f / a);
+          };
+          double lower = -1., upper = 1.;
+          for (unsigned int n = 0; n < 50; ++n)
+            {
+              const double f = (lower + upper) / 2.;
+              (f - friction - stiffness * (speed - slip_rate(f)) * step > 0. ?
+                 upper :
+                 lower)      = f;
+            }
+          const double rate = std::max(std::abs(slip_rate(lower)), 1e-30);
+          const double worn = std::exp(-rate * step / slip_length);
+          state             = std::exp(worn * std::log(state) +
+                           (1. - worn) * std::log(slip_length / rate));
+          return lower;
+        };
+      });
     }
 
     Judgement judged(const std::string &effects, const std::string &more)
@@ -76,12 +120,27 @@ namespace
     Ingested        ingested;
 
   private:
-    void write(const unsigned int                   number,
-               const std::vector<Slide>            &slides,
-               const double                         per_decade,
-               const std::function<double(double)> &factor_at)
+    static constexpr double stiffness = 20.; // friction per mm
+
+    // Every condition twice, each by a contact of its own.
+    void write(const std::function<Contact()> &contact)
     {
-      constexpr double       stiffness = 20.; // friction per mm
+      const std::vector<std::vector<Slide>> conditions = {
+        {{0.02, 300.}},
+        {{0.2, 30.}},
+        {{2., 3.}},
+        {{0.2, 20.}, {2., 2.}, {0.02, 100.}, {0.2, 10.}},
+        {{0.2, 15.}, {-0.2, 15.}, {0.2, 15.}, {-0.2, 15.}},
+        {{2., 2.}, {-2., 2.}, {2., 2.}},
+        {{0.2, 15.}, {0., 10.}, {0.2, 10.}, {0., 300.}, {0.2, 10.}}};
+      for (unsigned int i = 0; i < 2 * conditions.size(); ++i)
+        write(i, conditions[i / 2], contact());
+    }
+
+    void write(const unsigned int        number,
+               const std::vector<Slide> &slides,
+               const Contact            &contact)
+    {
       constexpr unsigned int n_rows = 180, n_within = 50;
 
       std::filesystem::create_directories(folder.path() / "measured");
@@ -97,19 +156,11 @@ namespace
           {
             const double step =
               slide.duration / (n_rows / slides.size()) / n_within;
-            const double strength =
-              slide.speed == 0. ?
-                std::abs(friction) :
-                0.2 *
-                  (1. + per_decade * std::log10(std::abs(slide.speed) / 0.2)) *
-                  factor_at(displacement);
             for (unsigned int i = 0; i < n_within; ++i)
               {
                 time += step;
                 displacement += slide.speed * step;
-                friction = std::clamp(friction + stiffness * slide.speed * step,
-                                      -strength,
-                                      strength);
+                friction = contact(friction, slide.speed, displacement, step);
               }
             out << time << ',' << displacement << ",5,"
                 << gain * friction + 0.002 * normal(random) << '\n';
@@ -162,6 +213,26 @@ TEST_F(OwnRecords, ALengthBelowThatBetweenRowsIsTold)
   EXPECT_NE(diagnosis.warnings[0].find("between rows, 0.033 mm"),
             std::string::npos)
     << diagnosis.warnings[0];
+}
+
+
+
+// Contacts that had rested for an hour before the tests: their first state is
+// found, and its fall is not taken for softening.
+TEST_F(OwnRecords, ContactsMayBeOldAtFirst)
+{
+  write_slip_law(0.004, 0.008, 0.4, 3600.);
+  const Judgement judgement =
+    judged("subloading, overstress",
+           "; Friction/overstress/Viscosity from 1 to 1e8 log; "
+           "Friction/overstress/Exponent from 4 to 200");
+  const Model &model = judgement.found.model;
+  EXPECT_EQ(effect_names(model.parts), std::vector<std::string>{"slip_law"});
+  const Values values = model.values();
+  EXPECT_NEAR(values.at("Friction/slip_law/Slip length"), 0.4, 0.04);
+  EXPECT_NEAR(std::log(values.at("Friction/slip_law/First state") / 3600.),
+              0.,
+              1.5);
 }
 
 
