@@ -29,6 +29,19 @@ namespace
       settings.emplace_back("Calibration/Noise", noise);
     return calibration_case(settings);
   }
+
+  MeasuredTest steady_sliding()
+  {
+    MeasuredTest sliding;
+    for (unsigned int i = 0; i < 100; ++i)
+      {
+        sliding.time.push_back(i);
+        sliding.displacement.push_back(0.1 * i);
+        sliding.pressure.push_back(5.);
+        sliding.friction.push_back(0.1 + 0.001 * (i % 2));
+      }
+    return sliding;
+  }
 } // namespace
 
 
@@ -184,4 +197,57 @@ TEST(CalibrationWarnings, TestsWithoutAnOrderAreTold)
   EXPECT_TRUE(contains(words({"0", "10", "4"}),
                        "2 of the tests were made before Friction/run_order/"
                        "First test = 1 or after"));
+}
+
+
+
+// A soft machine whose spring is longer than the lead-in; a stiff one slides.
+TEST(CalibrationWarnings, TheLeadInIsTooShort)
+{
+  const TemporaryFolder folder;
+  const MeasuredTest    sliding = steady_sliding();
+  for (const char *name : {"a", "b"})
+    write_measured_test(folder.path() / (std::string(name) + ".csv"), sliding);
+  const auto words = [&](const std::string &stiffness) {
+    Parameters parameters = one_coefficient(folder);
+    parameters.set("Calibration/Lead-in", "0.2 mm", "test");
+    parameters.set("Loading/Machine stiffness", stiffness, "test");
+    std::string result;
+    for (const std::string &warning : Campaign(parameters).warnings())
+      if (contains(warning, "Lead-in"))
+        result += warning;
+    return result;
+  };
+  EXPECT_TRUE(contains(words("1 MPa/mm"), "give by 0.5 mm"))
+    << words("1 MPa/mm");
+  EXPECT_TRUE(contains(words("1 MPa/mm"), "a.csv"));
+  EXPECT_TRUE(contains(words("1 MPa/mm"), "(and so in 1 more)"));
+  EXPECT_EQ(words("10 MPa/mm"), "");
+}
+
+
+
+TEST(CalibrationWarnings, TwoTestsHaveOneName)
+{
+  const TemporaryFolder folder;
+  MeasuredTest          sliding = steady_sliding();
+  for (const char *name : {"a", "b"})
+    {
+      sliding.name = name;
+      write_measured_test(folder.path() / (std::string(name) + ".csv"),
+                          sliding);
+      for (double &friction : sliding.friction)
+        friction *= 1.01;
+    }
+  const auto n_warnings = [&]() {
+    unsigned int n = 0;
+    for (const std::string &warning :
+         Campaign(one_coefficient(folder)).warnings())
+      n += contains(warning, "b.csv have one name, 'a'");
+    return n;
+  };
+  EXPECT_EQ(n_warnings(), 0u);
+  sliding.name = "a";
+  write_measured_test(folder.path() / "b.csv", sliding);
+  EXPECT_EQ(n_warnings(), 1u);
 }
