@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace SlipStep
@@ -273,21 +274,29 @@ namespace SlipStep
 
 
     // As noise_level(), but of rows at uneven times, where that takes a motion
-    // for noise; of motion that bends it is too much.
-    double noise_about_lines(const std::vector<double> &time,
-                             const std::vector<double> &values)
+    // for noise: about the polynomial through the neighbours, a line for a
+    // reach of 1, a cubic for 2. Of motion that bends more it is too much.
+    double noise_about_neighbours(const std::vector<double> &time,
+                                  const std::vector<double> &values,
+                                  const std::size_t          reach)
     {
       std::vector<double> distances;
-      for (std::size_t i = 1; i + 1 < values.size(); ++i)
+      for (std::size_t i = reach; i + reach < values.size(); ++i)
         {
-          const double there =
-            (time[i] - time[i - 1]) / (time[i + 1] - time[i - 1]);
-          const double here = 1. - there;
-          distances.push_back(
-            std::abs(values[i] - here * values[i - 1] - there * values[i + 1]) /
-            std::sqrt(1. + here * here + there * there));
+          double there = 0., squares = 1.;
+          for (std::size_t j = i - reach; j <= i + reach; ++j)
+            {
+              double weight = j == i ? 0. : 1.;
+              for (std::size_t k = i - reach; k <= i + reach && j != i; ++k)
+                if (k != i && k != j)
+                  weight *= (time[i] - time[k]) / (time[j] - time[k]);
+              there += weight * values[j];
+              squares += weight * weight;
+            }
+          distances.push_back(std::abs(values[i] - there) / std::sqrt(squares));
         }
-      return median(std::move(distances)) / 0.6745;
+      return distances.empty() ? std::numeric_limits<double>::infinity() :
+                                 median(std::move(distances)) / 0.6745;
     }
 
 
@@ -318,7 +327,9 @@ namespace SlipStep
     {
       return is_counted(values) ?
                0. :
-               std::min(noise_level(values), noise_about_lines(time, values));
+               std::min({noise_level(values),
+                         noise_about_neighbours(time, values, 1),
+                         noise_about_neighbours(time, values, 2)});
     }
 
 

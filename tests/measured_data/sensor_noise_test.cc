@@ -195,3 +195,28 @@ TEST(SensorNoise, UnevenTimesAreNone)
   EXPECT_EQ(test.displacement, as_recorded);
   EXPECT_TRUE(test.warnings.empty());
 }
+
+
+
+// A stroke of a crank in few rows, of which some were left out.
+TEST(SensorNoise, AStrokeThatBendsIsNone)
+{
+  for (unsigned int seed = 1; seed <= 10; ++seed)
+    {
+      std::mt19937_64                 generator(seed);
+      std::uniform_int_distribution<> leap(1, 4);
+      MeasuredTest                    test;
+      constexpr std::size_t           n = 120;
+      for (unsigned int row = 0; test.time.size() < n; row += leap(generator))
+        {
+          test.time.push_back(0.025 * row);
+          test.displacement.push_back(
+            1e-5 * std::round(1e5 * std::sin(0.025 * row * 3.14)));
+          test.pressure.push_back(5.);
+        }
+      const std::vector<double> as_recorded = test.displacement;
+      take_off_noise_of_motion(test, 1e-5);
+      EXPECT_EQ(test.displacement, as_recorded) << seed;
+      EXPECT_TRUE(test.warnings.empty()) << seed;
+    }
+}
