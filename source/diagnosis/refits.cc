@@ -268,7 +268,7 @@ namespace SlipStep
   {
     std::size_t n = model.scaled.size();
     for (const Part &part : model.parts)
-      n += part.formula.n_in_texts;
+      n += part.formula.n_in_texts + part.formula.n_assumed;
     return model.objective + cost_of_parameter * n;
   }
 

@@ -36,24 +36,35 @@ namespace SlipStep
       const double ages = std::log(fastest / slowest);
       TrialFormula formula;
       formula.is_one_sided = true;
-      formula.parameters   = {
-          {"Growth", 0., 1., false},
-          {"Time", 1e-6 * path / fastest, path / slowest, true, true, true},
-          {length, 1e-5 * path, 0.3 * path, true}};
-      if (!first.empty())
-        formula.parameters.push_back(
-          {first,
-           1e-6 * path / fastest,
-           std::max(1e9, 10. * path / slowest), // [s], 30 years
-           true,
-           true,
-           false});
+      // With an old state that falls to one which hardly depends on the speed
+      // it would be softening: at the slowest the state is always felt.
+      const bool   is_young = first.empty();
+      const double shortest = (is_young ? 1e-5 : 3e-4) * path;
+      formula.parameters    = {{"Growth", 0., 1., false},
+                               {"Time",
+                                1e-6 * path / fastest,
+                                (is_young ? path : shortest) / slowest,
+                                true,
+                                true,
+                                is_young},
+                               {length, shortest, 0.3 * path, true}};
+      if (!is_young)
+        {
+          formula.n_assumed = 2;
+          formula.parameters.push_back(
+            {first,
+             1e-6 * path / fastest,
+             std::max(1e9, 10. * path / slowest), // [s], 30 years
+             true,
+             true,
+             false});
+        }
       // Younger than contacts are at the fastest: its share of the age is felt
       // everywhere.
       for (const double L : ladder(3e-3 * path, 0.1 * path, 4))
         {
           Values others = {{"Time", 0.1 * L / fastest}, {length, L}};
-          if (!first.empty())
+          if (!is_young)
             others[first] = 1e3 * L / slowest;
           formula.add_shape("Growth", 1e-6, 0.9, others, ages);
         }

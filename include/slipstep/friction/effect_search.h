@@ -91,6 +91,8 @@ namespace SlipStep
     std::string along;
     /// How many parameters were fitted that stand in the texts.
     unsigned int n_in_texts = 0;
+    /// As how many more it counts, since it assumes what no record says.
+    unsigned int n_assumed = 0;
     /// Why it cannot be tried; "" if it can.
     std::string why_not;
 
