@@ -18,6 +18,10 @@ namespace SlipStep
     static const std::vector<ColumnKey> all = {
       {"Time", D::time, "Time."},
       {"Displacement", D::length, "Displacement, or distance slid."},
+      {"Speed",
+       D::speed,
+       "Speed of sliding, instead of the displacement: its integral over "
+       "time, by trapezia."},
       {"Pressure", D::stress, "Nominal pressure."},
       {"Normal load", D::force, "Normal load, instead of the pressure."},
       {"Friction", D::number, "Coefficient of friction."},

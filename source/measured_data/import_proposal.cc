@@ -328,10 +328,14 @@ namespace SlipStep
       guess("Columns/" + key,
             is_negative ? "-1*{" + in + "}" : in,
             range +
-              (is_known ? "" :
-               seen.unit.empty() ?
-                          "; the file does not say the unit" :
-                          "; no unit is known as '" + seen.unit + "'") +
+              (is_known          ? "" :
+               seen.unit.empty() ? "; the file does not say the unit" :
+                                   "; no unit is known as '" + seen.unit + "'" +
+                                     (key == "Speed" ?
+                                        " (of a rotation: 2*pi*25/60*{" + name +
+                                          " as recorded}, for a track of 25 mm "
+                                          "radius)" :
+                                        "")) +
               (is_negative ? "; compression counts positive here" : ""),
             !is_known);
     }
@@ -344,7 +348,8 @@ namespace SlipStep
         {
           std::size_t best = best_column(words.key);
           if (best == values.size() ||
-              (words.key == "Tangential load" && taken_as("Friction")))
+              (words.key == "Tangential load" && taken_as("Friction")) ||
+              (words.key == "Speed" && taken_as("Displacement")))
             continue;
           if (words.key == "Displacement")
             best = motion_of_friction(words, best);
@@ -497,12 +502,14 @@ namespace SlipStep
     {
       if (!taken_as("Time"))
         guess_time();
-      if (!taken_as("Displacement"))
-        guess("Constants/Speed",
-              "1 mm/s",
-              "no column is called like a displacement: which one is it "
-              "(Columns/Displacement), or how fast did it slide?",
-              true);
+      if (!taken_as("Displacement") && !taken_as("Speed"))
+        guess(
+          "Constants/Speed",
+          "1 mm/s",
+          "no column is called like a displacement or a speed: which one is "
+          "it (Columns/Displacement, Columns/Speed), or how fast did it "
+          "slide?",
+          true);
       if (!taken_as("Friction") && !taken_as("Tangential load"))
         guess("Columns/Friction",
               "column " + std::to_string(first_column_left() + 1),

@@ -218,14 +218,40 @@ namespace SlipStep
 
 
 
+    // From the first row that has both, by trapezia; rows without are none.
+    std::vector<double> integral(const std::vector<double> &time,
+                                 const std::vector<double> &rate)
+    {
+      std::vector<double>        result(time.size());
+      std::optional<std::size_t> last;
+      for (std::size_t i = 0; i < time.size(); ++i)
+        if (!std::isfinite(time[i] * rate[i]))
+          result[i] = std::numeric_limits<double>::quiet_NaN();
+        else
+          {
+            result[i] = last.has_value() ?
+                          result[*last] + (time[i] - time[*last]) *
+                                            (rate[i] + rate[*last]) / 2. :
+                          0.;
+            last      = i;
+          }
+      return result;
+    }
+
+
+
     std::vector<double> Converter::displacement(const std::vector<double> &time)
     {
       const auto speed = constant("Constants/Speed", Dimension::speed, false);
-      if (columns.has("Displacement") == speed.has_value())
+      if (columns.has("Displacement") + columns.has("Speed") +
+            speed.has_value() !=
+          1)
         map.reject("Columns/Displacement",
-                   "give either this column or Constants/Speed");
+                   "give either this column, Columns/Speed or Constants/Speed");
       if (columns.has("Displacement"))
         return values("Displacement");
+      if (columns.has("Speed"))
+        return integral(time, values("Speed"));
       const auto first = // a gap may begin the record
         std::find_if(time.begin(), time.end(), [](const double value) {
           return std::isfinite(value);
@@ -568,8 +594,10 @@ namespace SlipStep
       record.file         = raw_file.file;
       record.time         = values("Time");
       record.displacement = displacement(record.time);
-      record.pressure     = pressure();
-      record.friction     = friction("", record.time, record.displacement);
+      if (columns.has("Speed"))
+        notes["positions"] = "integral of the recorded speed";
+      record.pressure = pressure();
+      record.friction = friction("", record.time, record.displacement);
       if (columns.has("Displacement y"))
         {
           record.displacement_y = values("Displacement y");

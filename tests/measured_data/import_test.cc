@@ -139,6 +139,39 @@ TEST(Import, SpeedRowsAndNumberedColumns)
 
 
 
+// Ramps of speed, forth and back; a row without a speed is left out.
+TEST(Import, ARecordedSpeedIsIntegrated)
+{
+  std::string rows = "t,v,mu\n";
+  for (int i = 0; i <= 40; ++i)
+    rows += std::to_string(0.5 * i) + "," +
+            (i == 7 ? "" : std::to_string(3.6 * (1. - 0.1 * i))) +
+            (i <= 10 ? ",0.1\n" : ",-0.1\n");
+  const auto settings = [](const std::string &speed) {
+    return map_of({{"Columns/Time", "t in s"},
+                   {"Columns/Speed", speed},
+                   {"Columns/Friction", "mu"},
+                   {"Constants/Pressure", "2 MPa"}});
+  };
+  const auto test = import_test(settings("v in m/h"), write("v.csv", rows));
+  ASSERT_EQ(test.time.size(), 40u);
+  for (std::size_t i = 0; i < test.time.size(); ++i)
+    {
+      const double t = test.time[i];
+      EXPECT_NEAR(test.displacement[i], t - 0.1 * t * t, 1e-12) << t;
+    }
+  EXPECT_NEAR(import_test(settings("v in km/h"), write("v.csv", rows))
+                .displacement.back(),
+              1e3 * test.displacement.back(),
+              1e-9);
+  auto both = settings("v in m/h");
+  both.set("Constants/Speed", "1 mm/s", "test");
+  EXPECT_TRUE(contains(message(both, write("v.csv", rows)),
+                       "either this column, Columns/Speed or"));
+}
+
+
+
 TEST(Import, MistakesInTheMapAreNamed)
 {
   const auto raw = write("raw.csv", "t,x,mu,mu\n0,0,0,0\n1,1,0.1,0.1\n");
@@ -157,7 +190,7 @@ TEST(Import, MistakesInTheMapAreNamed)
   EXPECT_EQ(message(map_of(single), raw), "");
   for (const auto &[path, value, words] :
        std::vector<std::array<std::string, 3>>{
-         {"Constants/Speed", "1 mm/s", "either this column or"},
+         {"Constants/Speed", "1 mm/s", "either this column, Columns/Speed or"},
          {"Constants/Pressure", "5", "the unit is missing"},
          {"Constants/Pressure", "-5 MPa", "must be positive"},
          {"Columns/Tangential load", "column 3 in N", "either this column or"},
