@@ -95,9 +95,10 @@ namespace SlipStep
       "1 h",
       Quantity(Dimension::time, 0., 1e9, true, true),
       "Of the search, and of the intervals. Starts that have not begun after "
-      "half of it are left out, and intervals that have not been followed to "
-      "their ends by then are symmetric ones, from the curvature at the "
-      "optimum, with a warning that says so. More than 0, with its unit.");
+      "half of it are left out. Behind its end the best that is known has to "
+      "do, and intervals that have not been followed to their ends are "
+      "symmetric ones, from the curvature at the optimum, with a warning that "
+      "says so. More than 0, with its unit.");
   }
 
 
