@@ -120,15 +120,13 @@ namespace SlipStep
       std::filesystem::create_directories(folder);
       std::mt19937 random(seed);
       for (std::size_t i = 0; i < speeds.size(); ++i)
-        write_measured_test(folder / ("test_" + std::to_string(i) + ".csv"),
-                            planted_test(truth,
-                                         speeds[i] / 60.,
-                                         length,
-                                         n_rows,
-                                         noise,
-                                         random,
-                                         power,
-                                         kept));
+        {
+          MeasuredTest test = planted_test(
+            truth, speeds[i] / 60., length, n_rows, noise, random, power, kept);
+          test.name += ", " + std::to_string(i);
+          write_measured_test(folder / ("test_" + std::to_string(i) + ".csv"),
+                              test);
+        }
     }
 
 
