@@ -247,6 +247,11 @@ TEST(Candidates, StatesAreTriedBesideADirectEffect)
   // Where something rested, ageing is a formula of healing.
   EXPECT_EQ(found("overstress", 100.), "ageing(-)slip_law(slip_law)");
   EXPECT_EQ(found("overstress, ageing", 0.), "ageing(-)slip_law(slip_law)");
+  // The same form has one name.
+  start.set("Diagnosis/Candidates", "healing, ageing", "test");
+  EXPECT_EQ(found("overstress", 0.), "ageing(ageing)healing(-)");
+  EXPECT_EQ(found("overstress", 100.), "ageing(-)healing(ageing)");
+  start.set("Diagnosis/Candidates", "ageing, slip_law", "test");
   range.fastest = range.slowest;
   EXPECT_EQ(found("overstress", 0.), "ageing(-)slip_law(-)");
 }

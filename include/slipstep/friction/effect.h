@@ -42,6 +42,16 @@ namespace SlipStep
     {
       return slip / time_step;
     }
+
+    /// What a memory that begins with a parameter, see StrengthEffect::begin(),
+    /// is at the end: @p closed in contact; what opens begins anew with 0, and
+    /// what was open stays as it was.
+    double remembered(const ContactMemory &memory, const double closed) const
+    {
+      return normal_traction > 0.       ? closed :
+             start.normal_traction > 0. ? 0. :
+                                          start[memory];
+    }
   };
 
   /// A rate and its derivative with respect to the evolving variable.

@@ -62,12 +62,13 @@ namespace SlipStep
           TrialFormula::state_of_contacts("Renewal length", "First age");
         info.search.beside_formulas = {
           TrialFormula::state_of_contacts("Renewal length"), aged};
-        // Alone, friction that falls with speed makes sliding jump.
+        // Alone, friction that falls with speed makes sliding jump; without
+        // rests it is a candidate of its own.
         info.search.other_forms = {[=](const Circumstances &now) {
-          return now.has("overstress") ?
+          return now.has("overstress") && now.range.longest_rest > 0. ?
                    aged(now) :
-                   TrialFormula::none("nothing holds friction that falls with "
-                                      "speed");
+                   TrialFormula::none("nothing rested, or nothing holds "
+                                      "friction that falls with speed");
         }};
         return info;
       }
@@ -94,15 +95,12 @@ namespace SlipStep
         state[contact_age] = first_age;
       }
 
-      // What opens begins anew.
       virtual void remember(const SlipStepData &step,
                             ContactState       &end) const override
       {
-        end[contact_age] =
-          step.normal_traction > 0. ?
-            contact_age_after(step.start[contact_age], step, L).value :
-          step.start.normal_traction > 0. ? 0. :
-                                            step.start[contact_age];
+        end[contact_age] = step.remembered(
+          contact_age,
+          contact_age_after(step.start[contact_age], step, L).value);
       }
 
     private:

@@ -88,14 +88,11 @@ namespace SlipStep
         state[slip_law_state] = first_state;
       }
 
-      // What opens begins anew.
       virtual void remember(const SlipStepData &step,
                             ContactState       &end) const override
       {
         end[slip_law_state] =
-          step.normal_traction > 0.       ? state_after(step).value :
-          step.start.normal_traction > 0. ? 0. :
-                                            step.start[slip_law_state];
+          step.remembered(slip_law_state, state_after(step).value);
       }
 
     private:
