@@ -193,13 +193,13 @@ namespace SlipStep
       View                                view;
       view.candidates.resize(candidates.size());
       side_by_side(candidates.size(), [&](const std::size_t c) {
-        Model          own  = model.copy();
         CandidateView &seen = view.candidates[c];
         seen.candidate      = candidates[c];
         seen.number         = c;
         seen.is_late = std::chrono::steady_clock::now() > workspace.deadline;
         if (seen.is_late)
           return;
+        Model      own          = model.copy();
         const auto see_all_from = [&](const Ground &ground) {
           for (std::size_t f = 0; f < candidates[c].formulas.size(); ++f)
             add_directions(

@@ -29,4 +29,13 @@ namespace SlipStep
                   static_cast<unsigned int>(Standing::in_the_model) + 1);
     return names[static_cast<unsigned int>(standing)];
   }
+
+
+
+  bool was_left_out(const Standing standing)
+  {
+    return standing == Standing::not_tried ||
+           standing == Standing::not_simulated ||
+           standing == Standing::not_testable;
+  }
 } // namespace SlipStep

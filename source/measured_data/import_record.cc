@@ -251,7 +251,10 @@ namespace SlipStep
       if (columns.has("Displacement"))
         return values("Displacement");
       if (columns.has("Speed"))
-        return integral(time, values("Speed"));
+        {
+          notes["positions"] = "integral of the recorded speed";
+          return integral(time, values("Speed"));
+        }
       const auto first = // a gap may begin the record
         std::find_if(time.begin(), time.end(), [](const double value) {
           return std::isfinite(value);
@@ -594,10 +597,8 @@ namespace SlipStep
       record.file         = raw_file.file;
       record.time         = values("Time");
       record.displacement = displacement(record.time);
-      if (columns.has("Speed"))
-        notes["positions"] = "integral of the recorded speed";
-      record.pressure = pressure();
-      record.friction = friction("", record.time, record.displacement);
+      record.pressure     = pressure();
+      record.friction     = friction("", record.time, record.displacement);
       if (columns.has("Displacement y"))
         {
           record.displacement_y = values("Displacement y");

@@ -40,9 +40,7 @@ namespace SlipStep
       const std::string style =
         candidate.standing == Standing::named ? "named" :
         candidate.standing == Standing::rival ? "rival" :
-        candidate.standing == Standing::not_tried ||
-            candidate.standing == Standing::not_simulated ||
-            candidate.standing == Standing::not_testable ||
+        was_left_out(candidate.standing) ||
             candidate.standing == Standing::in_the_model ?
                                                 "grey" :
                                                 "";

@@ -102,9 +102,7 @@ namespace SlipStep
       // Those of one reason together, in the order of the first of them.
       std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
       for (const CandidateResult &candidate : diagnosis.candidates)
-        if (candidate.standing == Standing::not_tried ||
-            candidate.standing == Standing::not_simulated ||
-            candidate.standing == Standing::not_testable)
+        if (was_left_out(candidate.standing))
           {
             auto found = std::find_if(reasons.begin(),
                                       reasons.end(),

@@ -95,6 +95,9 @@ namespace SlipStep
   /// "not needed"
   std::string name_of(const Standing standing);
 
+  /// Whether the tests say nothing of it: it could not be tried.
+  bool was_left_out(const Standing standing);
+
   /// An effect of the catalogue.
   struct CandidateResult
   {
