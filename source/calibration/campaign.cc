@@ -207,17 +207,6 @@ namespace SlipStep
 
 
 
-    // By which the load point moves before the contact slides.
-    double elastic_slip(const MeasuredTest &test, const Parameters &parameters)
-    {
-      const FrictionLaw law(parameters);
-      const double traction = law.static_coefficient() * median(test.pressure);
-      return traction / law.tangential_stiffness() +
-             traction / Machine(parameters).stiffness();
-    }
-
-
-
     // Of the tests that were led in the same way, as replicates on a good
     // machine are, one that does not depend on their names and order.
     std::size_t leader_of_motion(const std::vector<MeasuredTest> &tests,
@@ -252,9 +241,13 @@ namespace SlipStep
       // what is less is not felt.
       constexpr double stick_share = 0.1;
 
-      MeasuredTest test = measured;
-      double       step = rounding_of_motion(test, rounding);
-      const double felt = stick_share * elastic_slip(test, parameters);
+      MeasuredTest      test = measured;
+      double            step = rounding_of_motion(test, rounding);
+      const FrictionLaw law(parameters);
+      const double felt = stick_share * elastic_slip(law.static_coefficient() *
+                                                       median(test.pressure),
+                                                     law,
+                                                     Machine(parameters));
       if (step > 0. && step > felt)
         undo_rounding_of_motion(test, rounding);
       else

@@ -80,6 +80,15 @@ namespace SlipStep
 
 
 
+    std::string and_so_in(const std::size_t n_others)
+    {
+      return n_others == 0 ?
+               "" :
+               " (and so in " + std::to_string(n_others) + " more)";
+    }
+
+
+
     // A lead-in that ends before sliding has begun: of the first such test.
     std::string warning_of_lead_in(const Parameters                &parameters,
                                    const std::vector<CampaignTest> &tests)
@@ -87,38 +96,28 @@ namespace SlipStep
       const double lead_in = parameters.number("Calibration/Lead-in");
       if (!(lead_in > 0.))
         return "";
-      const double compliance =
-        1. / parameters.number("Friction/Tangential stiffness") +
-        1. / Machine(parameters).stiffness();
-      const CampaignTest *first    = nullptr;
-      std::size_t         n_others = 0;
-      double              given    = 0.;
+      const FrictionLaw law(parameters);
+      const Machine     machine(parameters);
+      const auto        give = [&](const CampaignTest &test) {
+        return elastic_slip(std::abs(test.rows.friction.front()) *
+                              test.rows.pressure.front(),
+                            law,
+                            machine);
+      };
+      std::vector<const CampaignTest *> early;
       for (const CampaignTest &test : tests)
-        {
-          const double give = std::abs(test.rows.friction.front()) *
-                              test.rows.pressure.front() * compliance;
-          if (!(give > lead_in))
-            continue;
-          if (first != nullptr)
-            ++n_others;
-          else
-            {
-              first = &test;
-              given = give;
-            }
-        }
-      if (first == nullptr)
+        if (give(test) > lead_in)
+          early.push_back(&test);
+      if (early.empty())
         return "";
-      return first->rows.file.string() + ": Calibration/Lead-in = " +
+      return early.front()->rows.file.string() + ": Calibration/Lead-in = " +
              parameters.text("Calibration/Lead-in") +
              " ends before sliding has begun: contact and machine of the case "
              "give by " +
-             rounded_text(given, 2) +
+             rounded_text(give(*early.front()), 2) +
              " mm under the friction of the first row; a lead-in of twice that "
              "would do" +
-             (n_others == 0 ?
-                "" :
-                " (and so in " + std::to_string(n_others) + " more)");
+             and_so_in(early.size() - 1);
     }
 
 
@@ -161,8 +160,7 @@ namespace SlipStep
     for (const auto &[kind, warnings] : alike)
       if (warnings.size() > most_alike)
         *std::find(result.begin(), result.end(), warnings[most_alike - 1]) +=
-          " (and so in " + std::to_string(warnings.size() - most_alike) +
-          " more)";
+          and_so_in(warnings.size() - most_alike);
     for (const std::string &words :
          {warning_of_order(parameters, tests),
           warning_of_lead_in(parameters, tests),

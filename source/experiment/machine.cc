@@ -424,4 +424,14 @@ namespace SlipStep
             slider.velocity[0],
             pressure > 0. ? slider.load[0] / pressure : 0.};
   }
+
+
+
+  double elastic_slip(const double       traction,
+                      const FrictionLaw &law,
+                      const Machine     &machine)
+  {
+    return traction / law.tangential_stiffness() +
+           traction / machine.stiffness();
+  }
 } // namespace SlipStep

@@ -158,9 +158,7 @@ namespace SlipStep
     // Off the plane.
     if (!(traction > 0.))
       return std::numeric_limits<double>::infinity();
-    const double elastic_slip =
-      traction / law.tangential_stiffness() + traction / machine.stiffness();
-    return first_slip * elastic_slip /
+    return first_slip * elastic_slip(traction, law, machine) /
            std::max(rate.norm(), rate_before.norm());
   }
 

@@ -159,6 +159,12 @@ namespace SlipStep
     double compliance = 0.; ///< c = 1 / k [mm/MPa]
     double areal_mass = 0.; ///< m [MPa s^2/mm]
   };
+
+  /// By which the load point moves before the contact slides [mm].
+  /// @param traction that it carries then [MPa]
+  double elastic_slip(const double       traction,
+                      const FrictionLaw &law,
+                      const Machine     &machine);
 } // namespace SlipStep
 
 #endif
