@@ -3,6 +3,7 @@
 // What is unusual about the tests of a campaign, before anything is fitted.
 
 #include <slipstep/calibration/campaign.h>
+#include <slipstep/measured_data/stick_slip.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
@@ -122,6 +123,39 @@ namespace SlipStep
 
 
 
+    // Stick-slip on a spring that the case does not have.
+    std::string warning_of_stick_slip(const Parameters &parameters,
+                                      const std::vector<CampaignTest> &tests)
+    {
+      constexpr double alike = 1.5;
+
+      const double of_case =
+        1. / elastic_slip(1., FrictionLaw(parameters), Machine(parameters));
+      std::string words;
+      std::size_t n_others = 0;
+      for (const CampaignTest &test : tests)
+        {
+          const auto found = find_stick_slip(test.rows, test.noise);
+          if (!found.has_value() ||
+              std::abs(std::log(found->stiffness / of_case)) < std::log(alike))
+            continue;
+          if (!words.empty())
+            ++n_others;
+          else
+            words = test.rows.file.string() + ": friction falls at once " +
+                    std::to_string(found->n_falls) +
+                    " times, and rises between as on a spring of " +
+                    rounded_text(found->stiffness, 2) +
+                    " MPa/mm: stick-slip of a machine that the case does not "
+                    "have, where contact and machine together have " +
+                    rounded_text(of_case, 2) +
+                    " MPa/mm (Loading/Machine stiffness)";
+        }
+      return words + and_so_in(n_others);
+    }
+
+
+
     // Results are told by the names of tests.
     std::string warning_of_names(const std::vector<CampaignTest> &tests)
     {
@@ -164,6 +198,7 @@ namespace SlipStep
     for (const std::string &words :
          {warning_of_order(parameters, tests),
           warning_of_lead_in(parameters, tests),
+          warning_of_stick_slip(parameters, tests),
           warning_of_names(tests),
           depends_on_position(parameters) ? warning_of_positions(tests) :
                                             std::string()})

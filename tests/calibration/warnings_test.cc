@@ -227,6 +227,31 @@ TEST(CalibrationWarnings, TheLeadInIsTooShort)
 
 
 
+// Friction of a spring of 1 MPa/mm that slips every 0.5 mm.
+TEST(CalibrationWarnings, StickSlipWithoutItsSpring)
+{
+  const TemporaryFolder folder;
+  MeasuredTest          sliding = steady_sliding();
+  for (std::size_t i = 0; i < sliding.time.size(); ++i)
+    sliding.friction[i] =
+      0.1 + std::fmod(sliding.displacement[i], 0.5) / sliding.pressure[i];
+  write_measured_test(folder.path() / "a.csv", sliding);
+  const auto words = [&](const std::string &stiffness) {
+    Parameters parameters = one_coefficient(folder);
+    parameters.set("Loading/Machine stiffness", stiffness, "test");
+    std::string result;
+    for (const std::string &warning : Campaign(parameters).warnings())
+      if (contains(warning, "stick-slip"))
+        result += warning;
+    return result;
+  };
+  EXPECT_TRUE(contains(words("rigid"), "on a spring of 1 MPa/mm"))
+    << words("rigid");
+  EXPECT_EQ(words("1 MPa/mm"), "");
+}
+
+
+
 TEST(CalibrationWarnings, TwoTestsHaveOneName)
 {
   const TemporaryFolder folder;
