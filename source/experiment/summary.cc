@@ -449,31 +449,42 @@ namespace SlipStep
       // The row before it, and its own.
       std::vector<SlideRow> rows = {{0., 0., 0., 0.}};
       slide.is_complete = history.back().time >= motion.end_time - tolerance;
-      for (const HistoryRow &row : history)
-        if (row.time <= motion.start_time + tolerance)
-          {
-            slide.before = along(direction, row.friction, row.friction_y);
-            start[0]     = row.displacement;
-            start[1]     = row.displacement_y;
-            rows[0]      = {0., row.slip, slide.before, row.loading_ratio.mean};
-          }
-        else if (row.time <= motion.end_time + tolerance)
-          {
-            slide.kinetic  = along(direction, row.friction, row.friction_y);
-            slide.length   = along(direction,
-                                 row.displacement - start[0],
-                                 row.displacement_y - start[1]);
-            slide.pressure = row.pressure;
-            slide.dynamic_ratio = row.loading_ratio.mean;
-            slide.coefficient   = row.coefficient.mean;
-            slide.slip_fraction = row.slip_fraction;
-            slide.dip           = std::min(slide.dip, slide.kinetic);
-            peak.consider(slide.kinetic, slide.length);
-            rows.push_back(
-              {slide.length, row.slip, slide.kinetic, row.loading_ratio.mean});
-          }
-      if (rows.size() == 1)
+      // Of many thousands of strokes each has its part of the history only.
+      const auto until = [&](const double time) {
+        return std::upper_bound(history.begin(),
+                                history.end(),
+                                time + tolerance,
+                                [](const double time, const HistoryRow &row) {
+                                  return time < row.time;
+                                });
+      };
+      const auto begin = until(motion.start_time);
+      const auto end   = until(motion.end_time);
+      if (begin == end)
         return false;
+      if (begin != history.begin())
+        {
+          const HistoryRow &row = *(begin - 1);
+          slide.before = along(direction, row.friction, row.friction_y);
+          start[0]     = row.displacement;
+          start[1]     = row.displacement_y;
+          rows[0]      = {0., row.slip, slide.before, row.loading_ratio.mean};
+        }
+      for (auto row = begin; row != end; ++row)
+        {
+          slide.kinetic  = along(direction, row->friction, row->friction_y);
+          slide.length   = along(direction,
+                               row->displacement - start[0],
+                               row->displacement_y - start[1]);
+          slide.pressure = row->pressure;
+          slide.dynamic_ratio = row->loading_ratio.mean;
+          slide.coefficient   = row->coefficient.mean;
+          slide.slip_fraction = row->slip_fraction;
+          slide.dip           = std::min(slide.dip, slide.kinetic);
+          peak.consider(slide.kinetic, slide.length);
+          rows.push_back(
+            {slide.length, row->slip, slide.kinetic, row->loading_ratio.mean});
+        }
       slide.peak              = peak.value;
       slide.peak_displacement = peak.place;
       look_at_end(rows, motion.is_even, slide);

@@ -271,6 +271,28 @@ TEST(Summary, SlidesAreSeenAlongTheirOwnDirection)
 
 // A plateau is as high everywhere but for round-off: its peak is where it
 // begins.
+// Each looks at its own part of the history: were it all of it, this would take
+// a minute.
+TEST(Summary, ThereMayBeVeryManySlides)
+{
+  const Programme programme(
+    "press 1 MPa in 1 s; repeat 20000 times { slide 1 mm/s for 0.02 mm; slide "
+    "-1 mm/s for 0.02 mm }",
+    0.,
+    ".");
+  Summary summary;
+  summarise_history(sampled(programme, 20), programme, summary);
+  ASSERT_EQ(summary.slides.size(), 40000u);
+  for (const std::size_t i : {0, 20001, 39999})
+    {
+      EXPECT_NEAR(summary.slides[i].peak, 0.12, 1e-9);
+      EXPECT_NEAR(summary.slides[i].kinetic, 0.1, 1e-9);
+      EXPECT_NEAR(summary.slides[i].length, 0.02, 1e-9);
+    }
+}
+
+
+
 TEST(Summary, APlateauHasItsPeakWhereItBegins)
 {
   const Programme programme("press 1 MPa in 1 s; slide 1 mm/s for 10 mm",
