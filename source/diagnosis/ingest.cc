@@ -54,10 +54,12 @@ namespace SlipStep
 
 
 
-    // Scales of which only a product with another parameter is felt.
+    // Scales of which only a product with another parameter is felt, and
+    // limits.
     bool is_reference(const std::string &path)
     {
       for (const std::string end : {"Maximum ratio",
+                                    "Largest coefficient",
                                     "Reference pressure",
                                     "Weakening",
                                     "Angle",

@@ -525,9 +525,13 @@ namespace SlipStep
     drive.accept(totals.normal_load / parameters.nominal_contact_area());
 
     const double load = totals.normal_load;
+    // What round-off leaves of a load that was taken off has no friction.
+    constexpr double round_off = 1e-9;
     for (unsigned int i = 0; i < 2; ++i)
       (i == 0 ? row.friction : row.friction_y) =
-        load > 0. ? totals.tangential_load[i] / load : 0.;
+        load > round_off * largest_normal_load ?
+          totals.tangential_load[i] / load :
+          0.;
     row.displacement    = drive.load_point()[0];
     row.displacement_y  = drive.load_point()[1];
     row.pressure        = load / parameters.nominal_contact_area();

@@ -161,9 +161,6 @@ namespace SlipStep
   std::string Block<dim>::remedy_of_jumps() const
   {
     const Segment &now = programme.segment_at(control.end_of_step());
-    if (opening.has_happened() && contact.friction_law().has("adhesion"))
-      return "; where the face lifts off, its bonds (effect adhesion) break at "
-             "once, and there may be no equilibrium between";
     if (inertia.exists() || now.end.velocity.norm() == 0.)
       return "";
     return "; where friction falls with slip or speed a block this soft may "
@@ -242,6 +239,24 @@ namespace SlipStep
                  "subdivisions make it smoother";
       return message.str();
     }
+
+
+
+    // Of few cells along the motion, that is, about whose edge it turns.
+    bool turns_early(const BlockParameters &parameters,
+                     const Programme       &programme)
+    {
+      for (unsigned int i = 0; i + 1 < parameters.dimension; ++i)
+        if (parameters.subdivisions[parameters.tangential_axis(i)] < 3 &&
+            std::any_of(programme.segments().begin(),
+                        programme.segments().end(),
+                        [&](const Segment &segment) {
+                          return segment.end.velocity[i] != 0. ||
+                                 segment.push[i] != 0.;
+                        }))
+          return true;
+      return false;
+    }
   } // namespace
 
 
@@ -266,13 +281,18 @@ namespace SlipStep
       message << "waves lift a block with density, or friction turns it; "
                  "slower statements or a 'Damping time' calm waves";
     else
-      message << (parameters.subdivisions[0] < 3 ?
+      message << (turns_early(parameters, programme) ?
                     "a block of so few cells along its length turns early, "
                     "take more Block/Subdivisions; else " :
                     "")
               << "friction turns a block that is high for its length, or what "
                  "holds and pulls its faces lifts it";
     message << ')';
+    if (!is_curved && !inertia.exists() && opening.share > 0.6)
+      message << ": where a block stands on its edge, friction is what turns "
+                 "it, not what the contact can bear, and is the lower the "
+                 "farther the outermost contact points are from the edge: more "
+                 "Block/Subdivisions along the motion raise it";
     return message.str();
   }
 

@@ -382,7 +382,7 @@ namespace
       if (name == "shear_cap")
         return ratio * 0.7 * std::tanh(pressure * mu / 0.7);
       if (name == "adhesion")
-        return f + ratio * 0.3;
+        return f + ratio * 0.05 * pressure;
       if (name == "viscous")
         return f + ratio * 0.2 * speed * std::pow(1. + speed / 0.1, -0.4);
       if (name == "resonance")

@@ -238,6 +238,25 @@ TEST(BlockProbes, opening_of_the_contact_is_told)
   EXPECT_NE(open.summary.warnings[0].find("lifted off the plane"),
             std::string::npos);
 
+  // Few cells along the motion, which is along y for a block on its side, turn
+  // it early.
+  const auto warning = [&](const std::string &subdivisions) {
+    const auto result = run_block_case<2>(make_parameters(
+      tall + Settings{{"Block/Faces/bottom", "free"},
+                      {"Block/Faces/top", "free"},
+                      {"Block/Faces/left", "contact"},
+                      {"Block/Faces/right", "pressure programme; drive"},
+                      {"Friction/Static coefficient", "0.45"},
+                      {"Block/Subdivisions", subdivisions}}));
+    return result.summary.warnings.empty() ? "" : result.summary.warnings[0];
+  };
+  EXPECT_EQ(warning("2, 8").find("so few cells along its length"),
+            std::string::npos)
+    << warning("2, 8");
+  EXPECT_NE(warning("8, 2").find("so few cells along its length"),
+            std::string::npos)
+    << warning("8, 2");
+
   // A gap, as small as it is, tells of what had touched before.
   const auto gap = run_block_case<2>(
     make_parameters(tall + Settings{{"Block/Subdivisions", "64, 4"},
@@ -246,6 +265,31 @@ TEST(BlockProbes, opening_of_the_contact_is_told)
   ASSERT_FALSE(gap.summary.warnings.empty());
   EXPECT_NE(gap.summary.warnings[0].find("lifted off the plane"),
             std::string::npos);
+}
+
+
+
+// What needs no pressure is lost by and by where the face lifts off: lost at
+// once, there was no equilibrium. Only the last corner lifts here, under which
+// friction is that of all the others and what is added.
+TEST(BlockProbes, a_face_that_bonds_or_drags_lifts_off)
+{
+  const auto peak = [](const std::string &effect, const std::string &key) {
+    const auto result = run_block_case<2>(make_parameters(
+      {{"Loading/Programme", "press 5 MPa in 1 s; slide 20 mm/s for 1 mm"},
+       {"Friction/Effects", effect},
+       {"Friction/Static coefficient", "0.3"},
+       {"Friction/" + effect + "/" + key, "0.01"},
+       {"Block/Dimension", "2"},
+       {"Block/Size", "10 mm, 10 mm"},
+       {"Block/Subdivisions", "4, 4"},
+       {"Block/Faces/top", "pressure programme; drive"}}));
+    EXPECT_GT(result.summary.opening.share, 0.);
+    return result.summary.final_friction;
+  };
+  // Of the share that stays closed.
+  EXPECT_NEAR(peak("viscous", "Drag"), 0.3 + 0.01 * 20. / 5., 0.02);
+  EXPECT_NEAR(peak("adhesion", "Strength"), 0.3 + 0.01 / 5., 1e-3);
 }
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/friction/effect.h>
+#include <slipstep/friction/largest_coefficient.h>
 
 namespace SlipStep
 {
@@ -15,16 +15,18 @@ namespace SlipStep
         EffectInfo info;
         info.name    = "adhesion";
         info.words   = "surfaces that stick even without pressure";
-        info.formula = "tau_y = f_n mu G_1 G_2 ... + c";
-        info.latex   = R"(\tau_y = f_n \mu\,G_1 G_2 \cdots + c)";
+        info.formula = "tau_y = f_n mu G_1 G_2 ... + min(c, m f_n)";
+        info.latex   = R"(\tau_y = f_n \mu\,G_1 G_2 \cdots + \min(c, m f_n))";
         info.source =
           "Bowden and Tabor (1950); Derjaguin (1934), Z. Phys. 88, 661-675";
         info.parameters = {
           {{"Strength", "c", "0.01", Quantity(Dimension::stress, 0.)},
            "shear strength of the adhesive bonds, lost when "
-           "the contact opens"}};
+           "the contact opens"},
+          largest_coefficient()};
         info.neutral_settings = {{"Strength", "0 MPa"}};
-        info.typical_settings = {{"Strength", "0.3"}};
+        info.typical_settings = {{"Strength", "0.3"},
+                                 {"Largest coefficient", "0.05"}};
         info.search           = {"only low pressures rise, as 1/p", search};
         info.search.along     = "pressure";
         return info;
@@ -32,13 +34,15 @@ namespace SlipStep
 
       Adhesion(const EffectSection &section, const CoefficientBasis &)
         : c(section.number("Strength"))
+        , m(section.number("Largest coefficient"))
       {}
 
-      virtual Strength additive_strength(const SlipStepData &) const override
+      virtual Strength
+      additive_strength(const SlipStepData &step) const override
       {
         Strength strength;
         strength.value = c;
-        return strength;
+        return bounded(strength, m, step);
       }
 
     private:
@@ -51,7 +55,7 @@ namespace SlipStep
         return formula;
       }
 
-      const double c;
+      const double c, m;
     };
 
     const RegisterEffect adhesion_registration = register_effect<Adhesion>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/friction/effect.h>
+#include <slipstep/friction/largest_coefficient.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,11 +23,11 @@ namespace SlipStep
         EffectInfo info;
         info.name    = "viscous";
         info.words   = "a drag that grows with speed, as of a fluid film";
-        info.formula = "tau_y = f_n mu G_1 G_2 ... + c_v lambda (1 + "
-                       "lambda/V_v)^(n_v - 1)";
+        info.formula = "tau_y = f_n mu G_1 G_2 ... + min(c_v lambda (1 + "
+                       "lambda/V_v)^(n_v - 1), m f_n)";
         info.latex =
-          R"(\tau_y = f_n \mu\,G_1 G_2 \cdots + c_v \lambda \left(1 + )"
-          R"(\frac{\lambda}{V_v}\right)^{n_v - 1})";
+          R"(\tau_y = f_n \mu\,G_1 G_2 \cdots + \min\left(c_v \lambda \left(1 + )"
+          R"(\frac{\lambda}{V_v}\right)^{n_v - 1}, m f_n\right))";
         info.source     = "Reynolds (1886), Phil. Trans. R. Soc. 177, 157-234; "
                           "Carreau (1972), Trans. Soc. Rheol. 16, 99-127";
         info.parameters = {
@@ -38,7 +38,8 @@ namespace SlipStep
            "less for one that thins with shear"},
           {{"Speed", "V_v", "1", positive(Dimension::speed)},
            "slip rate from which the power is felt; for Exponents other than "
-           "1"}};
+           "1"},
+          largest_coefficient()};
         info.neutral_settings = {{"Drag", "0 MPa s/mm"}};
         info.typical_settings = {{"Drag", "0.2"},
                                  {"Exponent", "0.6"},
@@ -53,6 +54,7 @@ namespace SlipStep
         : c_v(section.number("Drag"))
         , n_v(section.number("Exponent"))
         , V_v(section.number("Speed"))
+        , m(section.number("Largest coefficient"))
       {}
 
       virtual bool depends_on_rate() const override
@@ -68,7 +70,7 @@ namespace SlipStep
         Strength     strength;
         strength.value  = c_v * step.slip_rate() * power;
         strength.d_rate = c_v * power * (1. + (n_v - 1.) * x / (1. + x));
-        return strength;
+        return bounded(strength, m, step);
       }
 
     private:
@@ -110,7 +112,7 @@ namespace SlipStep
         return formula;
       }
 
-      const double c_v, n_v, V_v;
+      const double c_v, n_v, V_v, m;
     };
 
     const RegisterEffect viscous_registration = register_effect<Viscous>();
