@@ -5,13 +5,13 @@
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace SlipStep
 {
   namespace
   {
-    const char *const compliance_name = "compliance";
-
     bool lists(const std::vector<FitParameter> &fitted, const std::string &path)
     {
       return std::any_of(fitted.begin(),
@@ -23,23 +23,27 @@ namespace SlipStep
 
 
 
+    bool is_fitted(const std::string               &path,
+                   const Circumstances             &now,
+                   const std::vector<FitParameter> &fitted)
+    {
+      return now.parameters.text("Calibration/Parameters").find(path + " ") !=
+               std::string::npos ||
+             lists(fitted, path);
+    }
+
+
+
     // A spring in series with the contact's own stiffness: for a contact point
     // the same as a smaller alpha_t, which the block understands, too.
-    Candidate compliance(const Circumstances             &now,
-                         const std::vector<FitParameter> &fitted)
+    void complete_compliance(const Circumstances             &now,
+                             const std::vector<FitParameter> &fitted,
+                             Candidate                       &candidate)
     {
       const std::string stiffness = "Friction/Tangential stiffness";
-      Candidate  candidate{compliance_name, "loading flanks only", {}, ""};
-      const auto is_fitted = [&](const std::string &path) {
-        return now.parameters.text("Calibration/Parameters").find(path + " ") !=
-                 std::string::npos ||
-               lists(fitted, path);
-      };
-      if (is_fitted(stiffness) || is_fitted("Loading/Machine stiffness"))
-        {
-          candidate.leave_to_model("the stiffness is fitted already");
-          return candidate;
-        }
+      if (is_fitted(stiffness, now, fitted) ||
+          is_fitted("Loading/Machine stiffness", now, fitted))
+        return candidate.leave_to_model("the stiffness is fitted already");
       const double alpha   = now.number(stiffness);
       const double largest = now.friction() * now.range.highest;
       // A flank longer by a thousandth of the path.
@@ -56,16 +60,124 @@ namespace SlipStep
                     1.01 * least)}};
       }}};
       candidate.formulas   = {formula};
-      return candidate;
     }
 
 
 
-    bool acts(const EffectInfo &info, const Circumstances &now)
+    bool acts(const EffectInfo                &info,
+              const Circumstances             &now,
+              const std::vector<FitParameter> &fitted)
     {
       const std::string &amplitude = info.search.amplitude;
+      const std::string  path      = info.section() + amplitude;
       return now.has(info.name) &&
-             (amplitude.empty() || now.number(info.section() + amplitude) > 0.);
+             (amplitude.empty() || now.number(path) > 0. ||
+              is_fitted(path, now, fitted));
+    }
+
+
+
+    // What contacts remember is added to an effect of the model. It may be
+    // much: then what was fitted without it is elsewhere, too, but for the
+    // growth, which steady sliding tells.
+    TrialFormula with_first_state(const TrialFormula              &whole,
+                                  const Circumstances             &now,
+                                  const std::vector<FitParameter> &fitted)
+    {
+      const CandidateParameter &growth = whole.parameters[0],
+                               &time   = whole.parameters[1],
+                               &length = whole.parameters[2],
+                               &first  = whole.parameters.back();
+      const double present = std::max(now.number(growth.path), just_noticed);
+      const double oldest =
+        now.number(time.path) + now.number(length.path) / now.range.slowest;
+
+      TrialFormula formula = whole;
+      formula.n_assumed    = 0;
+      formula.parameters   = {first};
+      for (const CandidateParameter &parameter : {growth, time, length})
+        if (is_fitted(parameter.path, now, fitted))
+          formula.parameters.push_back(parameter);
+      const auto keep_free = [free = formula.parameters](Values values) {
+        Values result;
+        for (const CandidateParameter &parameter : free)
+          if (const auto value = values.find(parameter.path);
+              value != values.end())
+            result.insert(*value);
+        return result;
+      };
+      for (TrialFormula::Shape &shape : formula.shapes)
+        shape = [=, young = shape](const double strength) {
+          Values values       = young(strength);
+          values[growth.path] = present * strength;
+          return keep_free(values);
+        };
+      // Or contacts are only a little older than at the slowest.
+      formula.shapes.push_back([=](const double strength) {
+        const double grown = std::min(just_noticed * strength / present, 100.);
+        return Values{{first.path,
+                       std::clamp(oldest * std::exp(grown),
+                                  2. * first.lower,
+                                  0.5 * first.upper)}};
+      });
+      return formula;
+    }
+
+
+
+    // What contacts remember that rested or slid before the tests, by an effect
+    // of the model that lets them begin young.
+    void complete_initial_state(const Circumstances             &now,
+                                const std::vector<FitParameter> &fitted,
+                                Candidate                       &candidate)
+    {
+      candidate.why_not = "no effect of the model has contacts that remember";
+      for (const auto &[name, info] : effect_registry())
+        {
+          if (!info.search.first_state || !acts(info, now, fitted))
+            continue;
+          const TrialFormula whole = info.search.first_state(now);
+          candidate.why_not        = whole.why_not;
+          if (!whole.why_not.empty())
+            continue;
+          const std::string &path = whole.parameters.back().path;
+          if (is_fitted(path, now, fitted) || now.number(path) > 0.)
+            return candidate.leave_to_model("the model has " + path);
+          candidate.formulas.push_back(with_first_state(whole, now, fitted));
+        }
+      if (!candidate.formulas.empty())
+        candidate.why_not = "";
+    }
+
+
+
+    /// A candidate that adds no effect, but a number of the model.
+    struct NumberOfModel
+    {
+      const char *name, *words, *signature;
+      void (*complete)(const Circumstances &,
+                       const std::vector<FitParameter> &,
+                       Candidate &);
+    };
+
+    const std::array<NumberOfModel, 2> numbers_of_model = {
+      {{"compliance",
+        "another elastic stiffness of contact or machine",
+        "loading flanks only",
+        complete_compliance},
+       {"initial_state",
+        "contacts that had rested or slid before the tests",
+        "where tests begin, until slip has renewed the contacts",
+        complete_initial_state}}};
+
+
+
+    const NumberOfModel *number_of_model(const std::string &name)
+    {
+      for (const NumberOfModel &one : numbers_of_model)
+        if (name == one.name)
+          return &one;
+      return nullptr;
     }
 
 
@@ -83,7 +195,9 @@ namespace SlipStep
 
 
     // By its own formula and by others of the same.
-    Candidate candidate_of(const EffectInfo &own, const Circumstances &now)
+    Candidate candidate_of(const EffectInfo                &own,
+                           const Circumstances             &now,
+                           const std::vector<FitParameter> &fitted)
     {
       std::vector<const EffectInfo *> effects = {&own};
       for (const auto &entry : effect_registry())
@@ -94,7 +208,7 @@ namespace SlipStep
       std::vector<std::string> reasons;
       for (const EffectInfo *info : effects)
         {
-          if (acts(*info, now))
+          if (acts(*info, now, fitted))
             {
               const std::string which =
                 info == &own ? "it" : info->name + ", another formula of it,";
@@ -194,7 +308,8 @@ namespace SlipStep
           (entry.second.search.formula &&
            entry.second.search.candidate.empty()))
         names.push_back(entry.first);
-    names.push_back(compliance_name);
+    for (const NumberOfModel &one : numbers_of_model)
+      names.push_back(one.name);
     return names;
   }
 
@@ -213,8 +328,8 @@ namespace SlipStep
 
   std::string plain_words(const std::string &candidate)
   {
-    if (candidate == compliance_name)
-      return "another elastic stiffness of contact or machine";
+    if (const NumberOfModel *number = number_of_model(candidate))
+      return number->words;
     const auto found = effect_registry().find(candidate);
     return found == effect_registry().end() ? candidate : found->second.words;
   }
@@ -234,14 +349,15 @@ namespace SlipStep
     for (const std::string &name : candidate_names())
       if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
         {
-          if (name == compliance_name)
+          if (const NumberOfModel *number = number_of_model(name))
             {
-              result.push_back(compliance(now, fitted));
+              result.push_back({name, number->signature, {}, ""});
+              number->complete(now, fitted, result.back());
               continue;
             }
           const EffectInfo &info = effect_registry().at(name);
           result.push_back(info.search.beside.empty() ?
-                             candidate_of(info, now) :
+                             candidate_of(info, now, fitted) :
                              candidate_beside(info, now));
         }
     return result;

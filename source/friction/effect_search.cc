@@ -147,6 +147,7 @@ namespace SlipStep
         };
     };
     complete(formula);
+    complete(first_state);
     std::for_each(beside_formulas.begin(), beside_formulas.end(), complete);
     std::for_each(other_forms.begin(), other_forms.end(), complete);
   }

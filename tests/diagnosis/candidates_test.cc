@@ -258,6 +258,52 @@ TEST(Candidates, StatesAreTriedBesideADirectEffect)
 
 
 
+// An effect of the model whose contacts begin young may lack what they remember
+// of before the tests.
+TEST(Candidates, ContactsOfTheModelMayHaveAnInitialState)
+{
+  Parameters start = coulomb_case();
+  start.set("Diagnosis/Candidates", "initial_state", "test");
+  start.set("Friction/Effects", "overstress, ageing", "test");
+  const auto found = [&]() {
+    const Candidate candidate = make_candidates(start, usual_range()).at(0);
+    return candidate.formulas.empty() ?
+             candidate.why_not :
+             candidate.formulas[0].effect + "+" +
+               candidate.formulas[0].parameters.at(0).path;
+  };
+  EXPECT_EQ(found(), "no effect of the model has contacts that remember");
+  start.set("Friction/ageing/Growth", "0.1", "test");
+  EXPECT_EQ(found(), "+Friction/ageing/First age");
+  // One per cent more at first than at the slowest.
+  const TrialFormula formula =
+    make_candidates(start, usual_range())[0].formulas.at(0);
+  const double age = formula.shapes.back()(1.).at("Friction/ageing/First age");
+  EXPECT_NEAR(0.1 * std::log(age / (1. + 0.1 / usual_range().slowest)),
+              just_noticed,
+              1e-9);
+  // What is fitted of the effect may be elsewhere then.
+  EXPECT_EQ(formula.parameters.size(), 1u);
+  EXPECT_EQ(formula.shapes.at(0)(1.).size(), 1u);
+  start.set("Calibration/Parameters",
+            "Friction/ageing/Growth from 0.01 to 1",
+            "test");
+  const TrialFormula both =
+    make_candidates(start, usual_range())[0].formulas.at(0);
+  EXPECT_EQ(both.parameters.size(), 2u);
+  EXPECT_EQ(both.shapes.at(0)(1.).size(), 2u);
+  start.set("Calibration/Lead-in", "1 mm", "test");
+  EXPECT_EQ(found(), "the contacts slide before the tests begin");
+  start.set("Calibration/Lead-in", "0 mm", "test");
+  start.set("Friction/ageing/First age", "5 s", "test");
+  EXPECT_EQ(found(), "the model has Friction/ageing/First age");
+  start.set("Friction/Effects", "overstress, slip_law", "test");
+  start.set("Friction/slip_law/Growth", "0.1", "test");
+  EXPECT_EQ(found(), "+Friction/slip_law/First state");
+}
+
+
+
 // What a jump of speed spreads over shows beside an effect that jumps; a
 // texture where there are waves.
 TEST(Candidates, NeedWhatTheyShowIn)
@@ -325,9 +371,9 @@ TEST(Candidates, LeaveOutWhatTheModelHas)
   for (const Candidate &candidate : make_candidates(start, usual_range()))
     {
       // Where something rests, ageing is a formula of healing.
-      const bool is_out = candidate.name == "overstress" ||
-                          candidate.name == "pressure" ||
-                          candidate.name == "ageing";
+      const bool is_out =
+        candidate.name == "overstress" || candidate.name == "pressure" ||
+        candidate.name == "ageing" || candidate.name == "initial_state";
       EXPECT_EQ(candidate.formulas.empty(), is_out) << candidate.name;
       EXPECT_EQ(candidate.why_not.empty(), !is_out) << candidate.name;
     }

@@ -161,6 +161,11 @@ namespace SlipStep
     std::string       beside_signature = "";
     std::vector<Form> beside_formulas  = {};
 
+    /// With contacts that remember what was before the tests, of which the last
+    /// parameter tells: where the model has the effect without that, it is a
+    /// candidate of its own.
+    Form first_state = {};
+
     /// The effect that holds what this one would let jump, as a direct effect
     /// of speed holds friction that falls with it. Where sliding is not stable
     /// with this effect alone, it is tried beside that. "" if there is none.

@@ -62,6 +62,7 @@ namespace SlipStep
           TrialFormula::state_of_contacts("Renewal length", "First age");
         info.search.beside_formulas = {
           TrialFormula::state_of_contacts("Renewal length"), aged};
+        info.search.first_state = aged;
         // Alone, friction that falls with speed makes sliding jump; without
         // rests it is a candidate of its own.
         info.search.other_forms = {[=](const Circumstances &now) {

@@ -60,9 +60,11 @@ namespace SlipStep
         info.search.beside_signature =
           "friction that falls over some slip after a step up in speed and "
           "rises as fast after one down; rests change nothing";
-        info.search.beside_formulas = {
-          TrialFormula::state_of_contacts("Slip length"),
-          TrialFormula::state_of_contacts("Slip length", "First state")};
+        info.search.first_state =
+          TrialFormula::state_of_contacts("Slip length", "First state");
+        info.search.beside_formulas = {TrialFormula::state_of_contacts(
+                                         "Slip length"),
+                                       info.search.first_state};
         return info;
       }
 

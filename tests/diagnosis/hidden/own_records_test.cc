@@ -237,6 +237,29 @@ TEST_F(OwnRecords, ContactsMayBeOldAtFirst)
 
 
 
+// The same where the model has the slip law already, young at first.
+TEST_F(OwnRecords, ContactsOfTheModelMayBeOldAtFirst)
+{
+  write_slip_law(0.004, 0.008, 0.4, 3600.);
+  const Judgement judgement =
+    judged("subloading, overstress, slip_law",
+           "; Friction/overstress/Viscosity from 1 to 1e8 log; "
+           "Friction/overstress/Exponent from 4 to 200; "
+           "Friction/slip_law/Growth from 1e-3 to 0.2; "
+           "Friction/slip_law/Slip length from 0.02 to 4 log\n"
+           "set Friction/slip_law/Growth = 0.03\n"
+           "set Friction/slip_law/Time = 0.001 s");
+  const Model &model = judgement.found.model;
+  EXPECT_EQ(effect_names(model.parts),
+            std::vector<std::string>{"initial_state"});
+  EXPECT_NEAR(std::log(model.values().at("Friction/slip_law/First state") /
+                       3600.),
+              0.,
+              1.5);
+}
+
+
+
 // A disc that wobbles, with a pattern on it: one is a texture, what the other
 // leaves is no damage and no running in.
 TEST_F(OwnRecords, ASecondWaveAlongTheTrackIsNotDamage)
