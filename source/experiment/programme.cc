@@ -494,7 +494,11 @@ namespace SlipStep
       const std::filesystem::path file = directory / with_home(name.text);
       std::error_code             error;
       if (!std::filesystem::is_regular_file(file, error))
-        fail(name.column, "there is no file " + excerpt(file.string(), 300));
+        fail(name.column,
+             std::filesystem::is_directory(file, error) ?
+               excerpt(file.string(), 300) +
+                 " is a folder: follow one of its tests" :
+               "there is no file " + excerpt(file.string(), 300));
 
       if (tests.count(name.text) == 0)
         {

@@ -90,9 +90,11 @@ namespace SlipStep
 
     bool is_gap(const std::string_view cell)
     {
-      // Most are numbers.
-      if (std::isdigit(static_cast<unsigned char>(cell.back())) != 0)
-        return false;
+      // Most are numbers, but for those as Windows has them: "-1.#IND00".
+      const bool is_of_windows = cell.find(".#") != std::string_view::npos;
+      if (is_of_windows ||
+          std::isdigit(static_cast<unsigned char>(cell.back())) != 0)
+        return is_of_windows;
       // "---", "**", "--.--"
       if (cell.find_first_not_of("-*.?#_~") == std::string_view::npos)
         return true;
@@ -100,10 +102,10 @@ namespace SlipStep
         return false;
       // As loggers and spreadsheets have them.
       static const std::set<std::string> gaps = {
-        "nan",      "na",       "n/a",       "null",    "none",  "nil",
-        "#n/a",     "#na",      "#nv",       "#value!", "#num!", "#div/0!",
-        "overflow", "overload", "overrange", "ovrflw",  "ovld",  "ol",
-        "error",    "err",      "invalid",   "missing", "bad"};
+        "nan",      "na",       "n/a",       "null",    "none",    "nil",
+        "#n/a",     "#na",      "#nv",       "#value!", "#num!",   "#div/0!",
+        "overflow", "overload", "overrange", "ovrflw",  "ovld",    "ol",
+        "ovl",      "error",    "err",       "invalid", "missing", "bad"};
       return gaps.count(lower_case(cell)) > 0;
     }
 

@@ -576,7 +576,7 @@ TEST(Import, ValuesThatAreMissingAreLeftOut)
     text += std::to_string(i) + "," + std::to_string(0.1 * i) + "," +
             (i % 7 == 3 ?
                std::vector<std::string>{
-                 "---", "#N/A", "OVERFLOW", "**", "NaN"}[i % 5] :
+                 "---", "#N/A", "OVL", "-1.#IND", "1.#QNAN0"}[i % 5] :
                std::to_string(10 + i % 3)) +
             "," + std::to_string(100 + i % 2) + "\n";
   const auto test = import_test(map_of({{"Columns/Time", "t in s"},
