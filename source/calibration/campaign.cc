@@ -8,6 +8,7 @@
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <slipstep/calibration/fit_parameter.h>
 #include <slipstep/friction/law.h>
-#include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/trim.hpp>

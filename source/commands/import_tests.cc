@@ -10,7 +10,7 @@
 #include <slipstep/report/import_report.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/variants.h>
-#include <slipstep/utilities/home_folder.h>
+#include <slipstep/utilities/paths.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 

@@ -4,7 +4,7 @@
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/report/case_text.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/path_from.h>
+#include <slipstep/utilities/paths.h>
 #include <slipstep/utilities/write_file.h>
 
 namespace SlipStep

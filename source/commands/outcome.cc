@@ -4,9 +4,8 @@
 
 #include <slipstep/commands/outcome.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/message_lines.h>
-#include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/process.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <chrono>

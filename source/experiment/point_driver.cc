@@ -4,7 +4,7 @@
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/contact_under_load.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/path_from.h>
+#include <slipstep/utilities/paths.h>
 
 #include <cmath>
 

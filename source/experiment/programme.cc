@@ -4,13 +4,10 @@
 
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/measured_data/sensor_noise.h>
-#include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/home_folder.h>
-#include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/paths.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
-#include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 

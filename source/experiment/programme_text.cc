@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/programme.h>
 #include <slipstep/experiment/programme_text.h>
-#include <slipstep/utilities/home_folder.h>
-#include <slipstep/utilities/letter_case.h>
-#include <slipstep/utilities/path_from.h>
-#include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/paths.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 

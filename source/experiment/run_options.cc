@@ -4,7 +4,7 @@
 
 #include <slipstep/experiment/run_options.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/home_folder.h>
+#include <slipstep/utilities/paths.h>
 
 namespace SlipStep
 {

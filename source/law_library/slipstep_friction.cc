@@ -4,8 +4,6 @@
 #include <slipstep/friction/contact_point.h>
 #include <slipstep/friction/state_numbers.h>
 #include <slipstep/law_library/slipstep_friction.h>
-#include <slipstep/utilities/letter_case.h>
-#include <slipstep/utilities/message_lines.h>
 #include <slipstep/utilities/text.h>
 
 #include <unistd.h>

@@ -3,11 +3,10 @@
 
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/home_folder.h>
-#include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/paths.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
-#include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/version.h>
 
 #include <boost/algorithm/string/join.hpp>

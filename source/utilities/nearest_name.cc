@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 

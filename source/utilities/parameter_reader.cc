@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/utilities.h>
 
-#include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/home_folder.h>
+#include <slipstep/utilities/paths.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/parameter_reader.h>
-#include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/variants.h>
 
 #include <algorithm>

@@ -2,9 +2,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
 
-#include <slipstep/utilities/decimal_comma.h>
-#include <slipstep/utilities/home_folder.h>
-#include <slipstep/utilities/letter_case.h>
+#include <slipstep/utilities/paths.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/parameter_printer.h>
 #include <slipstep/utilities/parameter_reader.h>

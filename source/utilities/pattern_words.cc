@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/utilities.h>
 
-#include <slipstep/utilities/decimal_comma.h>
-#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
 #include <boost/algorithm/string/join.hpp>
@@ -277,24 +276,5 @@ namespace SlipStep
     return "\"" + excerpt(unknown) + "\" is not known" + nearest +
            (nearest.empty() ? "; allowed" : " Allowed") +
            allowed.substr(std::string("allowed").size());
-  }
-
-
-
-  std::string excerpt(const std::string &text, const std::size_t most)
-  {
-    const std::size_t half = most / 2 - 2;
-    if (text.size() <= most)
-      return text;
-    // Characters of several bytes are not cut in two.
-    const auto is_inside = [&](const std::size_t i) {
-      return (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80;
-    };
-    std::size_t begin = half, end = text.size() - half;
-    while (begin > 0 && is_inside(begin))
-      --begin;
-    while (end < text.size() && is_inside(end))
-      ++end;
-    return text.substr(0, begin) + " ... " + text.substr(end);
   }
 } // namespace SlipStep

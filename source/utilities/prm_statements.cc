@@ -2,11 +2,10 @@
 #include <deal.II/base/utilities.h>
 
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/letter_case.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/parameter_reader.h>
-#include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <fstream>

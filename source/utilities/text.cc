@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/utilities.h>
+
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -121,5 +126,113 @@ namespace SlipStep
   std::string in_quotes(const std::string &text)
   {
     return "'" + text + "'";
+  }
+
+
+
+  std::string lower_case(const std::string_view text)
+  {
+    std::string result(text);
+    for (char &c : result)
+      if (c >= 'A' && c <= 'Z')
+        c = static_cast<char>(c - 'A' + 'a');
+    return result;
+  }
+
+
+
+  bool is_same_word(const std::string_view a, const std::string_view b)
+  {
+    return a.size() == b.size() && lower_case(a) == lower_case(b);
+  }
+
+
+
+  std::string excerpt(const std::string &text, const std::size_t most)
+  {
+    const std::size_t half = most / 2 - 2;
+    if (text.size() <= most)
+      return text;
+    // Characters of several bytes are not cut in two.
+    const auto is_inside = [&](const std::size_t i) {
+      return (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80;
+    };
+    std::size_t begin = half, end = text.size() - half;
+    while (begin > 0 && is_inside(begin))
+      --begin;
+    while (end < text.size() && is_inside(end))
+      ++end;
+    return text.substr(0, begin) + " ... " + text.substr(end);
+  }
+
+
+
+  std::string essential_lines(const std::string &text,
+                              const unsigned int n_lines)
+  {
+    std::istringstream in(text);
+    std::string        line, result;
+    for (unsigned int n = 0; n < n_lines && std::getline(in, line);)
+      {
+        line = dealii::Utilities::trim(line);
+        if (line.empty())
+          continue;
+        result += (n == 0 ? "" : " ") + line;
+        ++n;
+      }
+    return result;
+  }
+
+
+
+  // Of a name of 5000 letters the ends are enough.
+  std::string readable(const std::string &message)
+  {
+    constexpr std::size_t longest = 1000;
+
+    std::istringstream in(message);
+    std::string        result;
+    for (std::string line; std::getline(in, line);)
+      result += (result.empty() ? "" : "\n") + excerpt(line, longest);
+    return result;
+  }
+
+
+
+  std::string decimal_comma_hint(const std::string &text)
+  {
+    const auto is_digit = [&](const std::size_t i) {
+      return i < text.size() && text[i] >= '0' && text[i] <= '9';
+    };
+    std::size_t comma = std::string::npos;
+    while ((comma = text.find(',', comma + 1)) != std::string::npos)
+      {
+        std::size_t begin = comma, end = comma + 1;
+        while (begin > 0 && is_digit(begin - 1))
+          --begin;
+        while (is_digit(end))
+          ++end;
+        const bool is_number = begin < comma && end > comma + 1;
+        // The exponent of 1e-3 is no number.
+        if (begin > 1 && (text[begin - 1] == '-' || text[begin - 1] == '+') &&
+            std::isalnum(static_cast<unsigned char>(text[begin - 2])) != 0)
+          continue;
+        const char before = begin == 0 ? ' ' : text[begin - 1];
+        const bool is_list =
+          end < text.size() && text[end] == ',' && is_digit(end + 1);
+        const char after   = end == text.size() ? ' ' : text[end];
+        const bool is_pair = before == '(' && after == ')';
+        if (is_number && before != '.' && before != ',' && before != '_' &&
+            std::isalnum(static_cast<unsigned char>(before)) == 0 &&
+            after != '.' && !is_list && !is_pair)
+          {
+            // With its exponent and unit.
+            end = std::min(text.find_first_of(",;)", end), text.size());
+            return "decimals begin with a point: " +
+                   text.substr(begin, comma - begin) + "." +
+                   text.substr(comma + 1, end - comma - 1);
+          }
+      }
+    return "";
   }
 } // namespace SlipStep

@@ -2,9 +2,9 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
-#include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
 #include <boost/algorithm/string/join.hpp>

@@ -2,7 +2,7 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
-#include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/variants.h>
 
 #include <boost/algorithm/string/find.hpp>

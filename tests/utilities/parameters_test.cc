@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/utilities.h>
 
-#include <slipstep/utilities/decimal_comma.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/parameters.h>
 #include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/text.h>
 
 #include <gtest/gtest.h>
 

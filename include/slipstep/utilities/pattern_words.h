@@ -39,10 +39,6 @@ namespace SlipStep
 
     const std::vector<std::string> words;
   };
-
-  /// What the user wrote, fit for one line of a message: the middle of a long
-  /// text is left out.
-  std::string excerpt(const std::string &text, const std::size_t most = 60);
 } // namespace SlipStep
 
 #endif

@@ -3,6 +3,7 @@
 #define slipstep_utilities_text_h
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace SlipStep
@@ -48,6 +49,34 @@ namespace SlipStep
 
   /// In quotation marks.
   std::string in_quotes(const std::string &text);
+
+  /// The text with small letters for capitals (ASCII only: other letters and
+  /// the locale do not matter).
+  std::string lower_case(const std::string_view text);
+
+  /// Whether two words differ in capitals only.
+  bool is_same_word(const std::string_view a, const std::string_view b);
+  ///@}
+
+  /// @name Messages
+  ///@{
+
+  /// What the user wrote, fit for one line of a message: the middle of a long
+  /// text is left out.
+  std::string excerpt(const std::string &text, const std::size_t most = 60);
+
+  /// The first lines with something in them, in one: deal.II's messages are
+  /// pages.
+  std::string essential_lines(const std::string &text,
+                              const unsigned int n_lines);
+
+  /// A message whose lines have a length that can be read.
+  std::string readable(const std::string &message);
+
+  /// "decimals begin with a point: 0.05" if a number such as 0,05 is in the
+  /// text; "" if there is none. Commas in a list of more numbers without blanks
+  /// (4,4,4), and one alone in parentheses, are no decimals.
+  std::string decimal_comma_hint(const std::string &text);
   ///@}
 } // namespace SlipStep
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/utilities/path_from.h>
+#include <slipstep/utilities/paths.h>
 
 #include <gtest/gtest.h>
 
