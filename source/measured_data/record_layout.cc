@@ -2,12 +2,11 @@
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/measured_data/record_layout.h>
+#include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 
@@ -15,37 +14,20 @@ namespace SlipStep
 {
   namespace
   {
-    bool is_digit_at(const std::string &text, const std::size_t i)
+    using Cells = std::vector<std::string_view>;
+
+    bool is_digit_at(const std::string_view text, const std::size_t i)
     {
       return i < text.size() &&
              std::isdigit(static_cast<unsigned char>(text[i])) != 0;
     }
 
-    std::string without_blanks(const std::string &text)
-    {
-      const char       *blanks = " \t\r";
-      const std::size_t first  = text.find_first_not_of(blanks);
-      return first == std::string::npos ?
-               "" :
-               text.substr(first, text.find_last_not_of(blanks) - first + 1);
-    }
-
     std::vector<std::string> lines_of(const std::filesystem::path &file)
     {
-      std::ifstream in(file, std::ios::binary);
-      if (!in || std::filesystem::is_directory(file))
-        throw InputError(file.string() + ": this file cannot be read");
-      std::string text{std::istreambuf_iterator<char>(in), {}};
-      if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0)
-        throw InputError(file.string() +
-                         ": this text is in UTF-16; save it as UTF-8");
+      const std::string text = read_text(file);
       if (text.find('\0') != std::string::npos)
         throw InputError(file.string() +
                          ": this is no text; export the record as one");
-      if (text.rfind("\xEF\xBB\xBF", 0) == 0)
-        text.erase(0, 3);
-      if (text.find('\n') == std::string::npos)
-        std::replace(text.begin(), text.end(), '\r', '\n');
       std::vector<std::string> lines;
       for (std::size_t begin = 0; begin < text.size();)
         {
@@ -54,34 +36,6 @@ namespace SlipStep
           begin = end + 1;
         }
       return lines;
-    }
-
-    std::vector<std::string> cells_of(const std::string &line,
-                                      const char         delimiter)
-    {
-      std::vector<std::string> cells;
-      const std::string text = delimiter == ' ' ? without_blanks(line) : line;
-      for (std::size_t begin = 0; begin <= text.size();)
-        {
-          const bool is_quoted = begin < text.size() && text[begin] == '"';
-          const std::size_t quote =
-            is_quoted ? text.find('"', begin + 1) : std::string::npos;
-          const std::size_t from = quote == std::string::npos ? begin : quote;
-          const std::size_t end =
-            std::min(delimiter == ' ' ? text.find_first_of(" \t", from) :
-                                        text.find(delimiter, from),
-                     text.size());
-          std::string cell = without_blanks(text.substr(begin, end - begin));
-          if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
-            cell = without_blanks(cell.substr(1, cell.size() - 2));
-          cells.push_back(cell);
-          begin = end + 1;
-          if (delimiter == ' ')
-            while (begin < text.size() &&
-                   (text[begin] == ' ' || text[begin] == '\t'))
-              ++begin;
-        }
-      return cells;
     }
 
     /// What a number is written with.
@@ -93,7 +47,7 @@ namespace SlipStep
       bool is_doubtful = false; ///< the mark might part thousands
     };
 
-    NumberMarks marks_of(const std::string &cell)
+    NumberMarks marks_of(const std::string_view cell)
     {
       NumberMarks marks;
       std::size_t i =
@@ -161,13 +115,12 @@ namespace SlipStep
       std::vector<bool> is_row;
     };
 
-    std::size_t n_filled_in(const std::vector<std::string> &cells)
+    std::size_t n_filled_in(const Cells &cells)
     {
       return count_if(cells, [](const auto &cell) { return !cell.empty(); });
     }
 
-    bool is_row_of(const std::vector<std::string> &cells,
-                   std::size_t                    &n_numbers)
+    bool is_row_of(const Cells &cells, std::size_t &n_numbers)
     {
       n_numbers =
         count_if(cells, [](const auto &c) { return marks_of(c).is_number; });
@@ -222,20 +175,20 @@ namespace SlipStep
       return table;
     }
 
-    bool is_unit(const std::string &cell)
+    bool is_unit(const std::string_view cell)
     {
       const bool has_brackets =
         cell.size() > 2 && ((cell.front() == '[' && cell.back() == ']') ||
                             (cell.front() == '(' && cell.back() == ')'));
       return has_brackets || cell == "%" || cell == "V" || cell == "mV" ||
-             dimension_of_unit(cell).has_value();
+             dimension_of_unit(std::string(cell)).has_value();
     }
 
     // Mostly units and gaps.
-    bool is_line_of_units(const std::vector<std::string> &cells)
+    bool is_line_of_units(const Cells &cells)
     {
       std::size_t n_units = 0, n_others = 0;
-      for (const std::string &cell : cells)
+      for (const std::string_view cell : cells)
         if (is_unit(cell))
           ++n_units;
         else if (!cell.empty() && cell != "-")
@@ -243,7 +196,7 @@ namespace SlipStep
       return n_units >= 2 && n_others <= n_units / 2;
     }
 
-    bool has_names(const std::vector<std::string> &cells)
+    bool has_names(const Cells &cells)
     {
       return n_filled_in(cells) >= 2 && none_of(cells, [](const auto &cell) {
                return marks_of(cell).is_number;
@@ -251,9 +204,10 @@ namespace SlipStep
     }
 
     // Names may be behind a hash.
-    std::string without_hash(const std::string &line)
+    std::string_view without_hash(std::string_view line)
     {
-      return line.substr(std::min(line.find_first_not_of("#"), line.size()));
+      line.remove_prefix(std::min(line.find_first_not_of('#'), line.size()));
+      return line;
     }
 
     void find_header(const std::vector<std::string> &lines,
@@ -267,7 +221,7 @@ namespace SlipStep
       };
       const auto cells = [&]() {
         return line == 0 ?
-                 std::vector<std::string>() :
+                 Cells() :
                  cells_of(without_hash(lines[line - 1]), layout.delimiter);
       };
       go_up();
@@ -296,14 +250,14 @@ namespace SlipStep
       std::set<std::string> marks;
       for (std::size_t i = table.first; i < lines.size(); ++i)
         {
-          const std::string line = without_blanks(lines[i]);
+          const std::string_view line = without_blanks(lines[i]);
           if (table.is_row[i] || line.empty() || line[0] == '#' ||
               std::isalpha(static_cast<unsigned char>(line[0])) == 0)
             continue;
-          const std::string mark = without_blanks(
+          const std::string_view mark = without_blanks(
             line.substr(0, line.find_first_of("0123456789,;\t:")));
           if (!mark.empty() && marks.size() < most_marks)
-            marks.insert(mark);
+            marks.emplace(mark);
         }
       layout.comment_marks.assign(marks.begin(), marks.end());
     }
@@ -360,7 +314,8 @@ namespace SlipStep
               if (marks.is_number && marks.decimal == '\0' &&
                   marks.thousands == '\0')
                 {
-                  const double value = std::abs(std::atof(cells[k].c_str()));
+                  const double value =
+                    std::abs(std::atof(std::string(cells[k]).c_str()));
                   n_whole[k] += value >= 1. && value < 1000.;
                   has_large = has_large || value >= 1000.;
                 }

@@ -11,7 +11,6 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <cstring>
 #include <fstream>
 #include <limits>
 #include <set>
@@ -19,75 +18,83 @@
 
 namespace SlipStep
 {
+  std::string_view without_blanks(std::string_view text)
+  {
+    const char *const blanks = " \t\r";
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    return text.substr(0, text.find_last_not_of(blanks) + 1);
+  }
+
+
+
+  std::string read_text(const std::filesystem::path &file)
+  {
+    std::ifstream in(file, std::ios::binary | std::ios::ate);
+    if (!in || std::filesystem::is_directory(file))
+      throw InputError(file.string() + ": this file cannot be read");
+    std::string text(static_cast<std::size_t>(in.tellg()), '\0');
+    in.seekg(0);
+    if (!text.empty() && !in.read(text.data(), text.size()))
+      throw InputError(file.string() + ": this file cannot be read");
+    if (boost::algorithm::starts_with(text, "\xFF\xFE") ||
+        boost::algorithm::starts_with(text, "\xFE\xFF"))
+      throw InputError(file.string() +
+                       ": this text is in UTF-16; save it as UTF-8");
+    if (boost::algorithm::starts_with(text, "\xEF\xBB\xBF"))
+      text.erase(0, 3);
+    // Old Macintoshes end lines with CR alone.
+    if (text.find('\n') == std::string::npos)
+      std::replace(text.begin(), text.end(), '\r', '\n');
+    return text;
+  }
+
+
+
   namespace
   {
-    bool is_blank(const char c)
+    // A delimiter inside quotes separates nothing.
+    std::size_t length_of_cell(const std::string_view rest,
+                               const char             delimiter)
     {
-      return c == ' ' || c == '\t' || c == '\r';
+      const std::size_t first =
+        rest.find_first_not_of(delimiter == '\t' ? " \r" : " \t\r");
+      const std::size_t quote = first < rest.size() && rest[first] == '"' ?
+                                  rest.find('"', first + 1) :
+                                  std::string_view::npos;
+      const std::size_t from  = quote == std::string_view::npos ? 0 : quote;
+      return std::min(delimiter == ' ' ? rest.find_first_of(" \t", from) :
+                                         rest.find(delimiter, from),
+                      rest.size());
     }
+  } // namespace
 
-    std::string_view trim(std::string_view text)
-    {
-      while (!text.empty() && is_blank(text.front()))
-        text.remove_prefix(1);
-      while (!text.empty() && is_blank(text.back()))
-        text.remove_suffix(1);
-      return text;
-    }
 
-    /// Cuts a line into cells.
-    class Cells
-    {
-    public:
-      Cells(const std::string_view line, const char delimiter)
-        : rest(delimiter == ' ' ? trim(line) : line)
-        , delimiter(delimiter)
-      {}
 
-      /// @return whether there is one more cell
-      bool next(std::string_view &cell)
+  std::vector<std::string_view> cells_of(const std::string_view line,
+                                         const char             delimiter,
+                                         std::vector<std::string_view> cells)
+  {
+    cells.clear();
+    std::string_view rest = delimiter == ' ' ? without_blanks(line) : line;
+    for (bool is_last = false; !is_last;)
       {
-        if (at_end)
-          return false;
-        const std::size_t length = length_of_next();
-        cell                     = trim(rest.substr(0, length));
+        const std::size_t length = length_of_cell(rest, delimiter);
+        std::string_view  cell   = without_blanks(rest.substr(0, length));
         if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
-          cell = trim(cell.substr(1, cell.size() - 2));
-        at_end = length == rest.size();
-        rest.remove_prefix(at_end ? length : length + 1);
+          cell = without_blanks(cell.substr(1, cell.size() - 2));
+        cells.push_back(cell);
+        is_last = length == rest.size();
+        rest.remove_prefix(is_last ? length : length + 1);
         if (delimiter == ' ')
-          rest = trim(rest);
-        return true;
+          rest = without_blanks(rest);
       }
+    return cells;
+  }
 
-    private:
-      std::size_t length_of_next() const
-      {
-        // A delimiter inside quotes separates nothing.
-        std::size_t begin = 0;
-        while (begin < rest.size() && is_blank(rest[begin]) &&
-               rest[begin] != delimiter)
-          ++begin;
-        const bool        is_quoted = begin < rest.size() && rest[begin] == '"';
-        const std::size_t quote =
-          is_quoted ? rest.find('"', begin + 1) : std::string_view::npos;
-        begin = quote == std::string_view::npos ? 0 : quote;
-        if (delimiter == ' ')
-          return std::min(rest.find_first_of(" \t", begin), rest.size());
-        const void *found =
-          begin == rest.size() ?
-            nullptr :
-            std::memchr(rest.data() + begin, delimiter, rest.size() - begin);
-        return found == nullptr ?
-                 rest.size() :
-                 static_cast<const char *>(found) - rest.data();
-      }
 
-      std::string_view rest;
-      const char       delimiter;
-      bool             at_end = false;
-    };
 
+  namespace
+  {
     bool is_gap(const std::string_view cell)
     {
       // Most are numbers, but for those as Windows has them: "-1.#IND00".
@@ -163,9 +170,11 @@ namespace SlipStep
 
 
   CsvTable::CsvTable(const std::filesystem::path &file, const CsvFormat &format)
-    : format(format)
+    : file(file)
+    , format(format)
+    , text(std::make_shared<const std::string>(read_text(file)))
+    , next(text->data())
   {
-    load(file);
     read_header();
   }
 
@@ -194,42 +203,14 @@ namespace SlipStep
 
 
 
-  void CsvTable::load(const std::filesystem::path &name)
-  {
-    file = name;
-    std::ifstream in(file, std::ios::binary | std::ios::ate);
-    if (!in || std::filesystem::is_directory(file))
-      throw InputError(file.string() + ": this file cannot be read");
-    std::string content(static_cast<std::size_t>(in.tellg()), '\0');
-    in.seekg(0);
-    if (!content.empty() && !in.read(content.data(), content.size()))
-      throw InputError(file.string() + ": this file cannot be read");
-    // Old Macintoshes end lines with CR alone.
-    if (content.find('\n') == std::string::npos)
-      std::replace(content.begin(), content.end(), '\r', '\n');
-    text = std::make_shared<const std::string>(std::move(content));
-    next = text->data();
-    if (boost::algorithm::starts_with(*text, "\xEF\xBB\xBF"))
-      next += 3;
-    if (boost::algorithm::starts_with(*text, "\xFF\xFE") ||
-        boost::algorithm::starts_with(*text, "\xFE\xFF"))
-      throw InputError(file.string() +
-                       ": this text is in UTF-16; save it as UTF-8");
-  }
-
-
-
   bool CsvTable::next_line(std::string_view &line)
   {
     const char *const end = text->data() + text->size();
     while (next != end)
       {
-        const void *const newline = std::memchr(next, '\n', end - next);
-        const char *const stop =
-          newline == nullptr ? end : static_cast<const char *>(newline);
-        line                           = {next, std::size_t(stop - next)};
-        next                           = newline == nullptr ? end : stop + 1;
-        const std::string_view content = trim(line);
+        line                           = line_at(next);
+        next                           = behind(line);
+        const std::string_view content = without_blanks(line);
         if (content.empty())
           continue;
         const bool is_comment =
@@ -254,7 +235,7 @@ namespace SlipStep
     {
       return name.empty() || (name.back() != ']' && name.back() != ')') ?
                name :
-               trim(name.substr(0, name.find_last_of("[(")));
+               without_blanks(name.substr(0, name.find_last_of("[(")));
     }
   } // namespace
 
@@ -266,11 +247,7 @@ namespace SlipStep
   CsvTable::refuse_other_header(const std::string_view          line,
                                 const std::vector<std::string> &first) const
   {
-    Cells                         cells(line, format.delimiter);
-    std::string_view              cell;
-    std::vector<std::string_view> here;
-    while (cells.next(cell))
-      here.push_back(cell);
+    const auto here = cells_of(line, format.delimiter);
     if (!format.has_header || here.size() != first.size())
       return;
     std::size_t n_known = 0, other = here.size();
@@ -297,10 +274,11 @@ namespace SlipStep
     const auto colon = line.find(':');
     if (line.front() != '#' || colon == std::string_view::npos)
       return;
-    const std::string key = lower_case(trim(line.substr(1, colon - 1)));
+    const std::string key =
+      lower_case(without_blanks(line.substr(1, colon - 1)));
     if (key.empty())
       return;
-    const std::string value(trim(line.substr(colon + 1)));
+    const std::string value(without_blanks(line.substr(colon + 1)));
     const auto [old, is_new] = comment_values.emplace(key, value);
     if (!is_new && old->second != value)
       contradictions.emplace(key, value);
@@ -310,37 +288,26 @@ namespace SlipStep
 
   void CsvTable::read_header()
   {
-    const char *const end = text->data() + text->size();
-    for (std::size_t n = 1; n < format.header_line && next != end; ++n)
-      {
-        next = std::find(next, end, '\n');
-        next += next != end;
-      }
+    next                    = begin_of_line(format.header_line);
     const char *const begin = next;
     std::string_view  line;
     if (format.header_line > 0 && format.has_header)
       {
         // Told where it is, even if it looks like a comment.
-        line = {next, std::size_t(std::find(next, end, '\n') - next)};
-        next += line.size() + (next + line.size() != end);
-        if (!line.empty() && line.front() == '#')
-          line.remove_prefix(line.find_first_not_of('#') ==
-                                 std::string_view::npos ?
-                               line.size() :
-                               line.find_first_not_of('#'));
+        line = line_at(next);
+        next = behind(line);
+        line.remove_prefix(std::min(line.find_first_not_of('#'), line.size()));
       }
     else
       next_line(line);
-    if (trim(line).empty())
+    if (without_blanks(line).empty())
       fail(begin,
            format.has_header ?
              "the header line with the names of the columns is missing" :
              "there are no rows");
     choose_delimiter(line);
     header_text = line;
-    Cells            cells(line, format.delimiter);
-    std::string_view cell;
-    while (cells.next(cell))
+    for (const std::string_view cell : cells_of(line, format.delimiter))
       names.emplace_back(cell);
     n_cells = names.size();
     if (!format.has_header)
@@ -360,29 +327,19 @@ namespace SlipStep
 
   void CsvTable::read_units()
   {
-    const char *const end   = text->data() + text->size();
-    const char       *begin = text->data();
-    for (std::size_t n = 1; n < format.units_line && begin != end; ++n)
-      {
-        begin = std::find(begin, end, '\n');
-        begin += begin != end;
-      }
-    std::string_view line{begin,
-                          std::size_t(std::find(begin, end, '\n') - begin)};
-    if (trim(line).empty())
-      fail(begin,
+    std::string_view line = line_at(begin_of_line(format.units_line));
+    if (without_blanks(line).empty())
+      fail(line.data(),
            "line " + std::to_string(format.units_line) +
              " is said to have the units of the columns, but it is empty");
-    next =
-      std::max(next,
-               line.data() + line.size() + (line.data() + line.size() != end));
+    next = std::max(next, behind(line));
     if (line.front() == '#')
       line.remove_prefix(1);
-    Cells            cells(line, format.delimiter);
-    std::string_view cell;
-    for (std::size_t i = 0; cells.next(cell); ++i)
+    const auto cells = cells_of(line, format.delimiter);
+    for (std::size_t i = 0; i < cells.size(); ++i)
       {
-        double value = 0.;
+        std::string_view cell  = cells[i];
+        double           value = 0.;
         if (read_number(cell, value) || read_number_with_comma(cell, value))
           fail(cell.data(),
                "line " + std::to_string(format.units_line) +
@@ -390,7 +347,7 @@ namespace SlipStep
                  std::string(cell) + "' is a number");
         if (cell.size() > 1 && ((cell.front() == '[' && cell.back() == ']') ||
                                 (cell.front() == '(' && cell.back() == ')')))
-          cell = trim(cell.substr(1, cell.size() - 2));
+          cell = without_blanks(cell.substr(1, cell.size() - 2));
         if (i < n_cells)
           unit_names[i] = cell == "-" ? "" : std::string(cell);
         else if (!cell.empty())
@@ -428,49 +385,35 @@ namespace SlipStep
     for (std::size_t i = 0; i < columns.size(); ++i)
       index_of_column[columns[i].name] = i;
 
-    const char *const end = text->data() + text->size();
-    std::string_view  line;
+    const char *const             end = text->data() + text->size();
+    std::string_view              line;
+    std::vector<std::string_view> cells;
     while (next_line(line))
       if (!format.may_be_cut || line.data() + line.size() != end)
-        read_row(line);
+        {
+          cells = cells_of(line, format.delimiter, std::move(cells));
+          begin_of_row.push_back(line.data());
+          read_row(cells);
+        }
   }
 
 
 
-  void CsvTable::read_row(const std::string_view line)
+  void CsvTable::read_row(const std::vector<std::string_view> &cells)
   {
-    begin_of_row.push_back(line.data());
-    Cells            cells(line, format.delimiter);
-    std::string_view cell;
-    std::size_t      n = 0, column = 0;
-    bool             is_too_long = false;
-    for (; cells.next(cell); ++n)
-      {
-        // Spreadsheets like to end a row with delimiters.
-        is_too_long = is_too_long || (n >= n_cells && !cell.empty());
-        for (; column < columns.size() && columns[column].position == n;
-             ++column)
-          columns[column].values.push_back(read_cell(cell, column));
-      }
-    if (n < n_cells || is_too_long)
-      fail_at_length(line);
-  }
-
-
-
-  void CsvTable::fail_at_length(const std::string_view line) const
-  {
-    std::string_view cell;
-    std::size_t      n = 0;
-    for (Cells cells(line, format.delimiter); cells.next(cell);)
-      ++n;
-    Cells again(line, format.delimiter);
-    for (std::size_t i = 0; i <= std::min(n - 1, n_cells); ++i)
-      again.next(cell);
-    fail(cell.data(),
-         "this row has " + std::to_string(n) + " cells, the header has " +
-           std::to_string(n_cells) +
-           (n > n_cells && format.delimiter == ',' ?
+    // Spreadsheets like to end a row with delimiters.
+    bool is_too_long = false;
+    for (std::size_t n = n_cells; n < cells.size(); ++n)
+      is_too_long = is_too_long || !cells[n].empty();
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (columns[i].position < cells.size())
+        columns[i].values.push_back(read_cell(cells[columns[i].position], i));
+    if (cells.size() >= n_cells && !is_too_long)
+      return;
+    fail(cells[std::min(cells.size() - 1, n_cells)].data(),
+         "this row has " + std::to_string(cells.size()) +
+           " cells, the header has " + std::to_string(n_cells) +
+           (cells.size() > n_cells && format.delimiter == ',' ?
               " (numbers with a decimal comma need ';' or tabs between the "
               "columns)" :
               ""));
@@ -557,42 +500,6 @@ namespace SlipStep
 
 
 
-  std::string CsvTable::name() const
-  {
-    return file.string();
-  }
-
-
-
-  const std::vector<std::string> &CsvTable::header() const
-  {
-    return names;
-  }
-
-
-
-  const std::vector<std::string> &CsvTable::units() const
-  {
-    return unit_names;
-  }
-
-
-
-  const std::map<std::string, std::string> &
-  CsvTable::contradicting_comments() const
-  {
-    return contradictions;
-  }
-
-
-
-  const std::map<std::string, std::string> &CsvTable::comments() const
-  {
-    return comment_values;
-  }
-
-
-
   bool CsvTable::has(const std::string &column) const
   {
     return index_of_column.count(column) > 0;
@@ -611,13 +518,6 @@ namespace SlipStep
 
 
 
-  std::size_t CsvTable::size() const
-  {
-    return begin_of_row.size();
-  }
-
-
-
   std::size_t CsvTable::line(const std::size_t row) const
   {
     return 1 + std::count(text->data(), begin_of_row.at(row), '\n');
@@ -629,16 +529,13 @@ namespace SlipStep
                         const std::string &column,
                         const std::string &why) const
   {
-    const char *const begin = begin_of_row.at(row);
-    const char *const end   = text->data() + text->size();
-    Cells cells({begin, std::size_t(std::find(begin, end, '\n') - begin)},
-                format.delimiter);
-    std::string_view cell{begin, 0};
-    const auto       found = index_of_column.find(column);
-    if (found != index_of_column.end())
-      for (std::size_t i = 0; i <= columns[found->second].position; ++i)
-        cells.next(cell);
-    fail(cell.data(), why);
+    const std::string_view line  = line_at(begin_of_row.at(row));
+    const auto             found = index_of_column.find(column);
+    fail(found == index_of_column.end() ? line.data() :
+                                          cells_of(line, format.delimiter)
+                                            .at(columns[found->second].position)
+                                            .data(),
+         why);
   }
 
 
@@ -661,27 +558,44 @@ namespace SlipStep
   void CsvTable::reject_header(const std::size_t  position,
                                const std::string &why) const
   {
-    Cells            cells(header_text, format.delimiter);
-    std::string_view cell = header_text;
-    for (std::size_t i = 0; i <= position; ++i)
-      cells.next(cell);
-    fail(cell.data(), why);
+    fail(cells_of(header_text, format.delimiter).at(position).data(), why);
+  }
+
+
+
+  const char *CsvTable::begin_of_line(const std::size_t number) const
+  {
+    const char *begin = text->data();
+    for (std::size_t n = 1; n < number; ++n)
+      begin = behind(line_at(begin));
+    return begin;
+  }
+
+
+
+  std::string_view CsvTable::line_at(const char *const begin) const
+  {
+    const std::string_view rest(begin, text->data() + text->size() - begin);
+    return rest.substr(0, rest.find('\n'));
+  }
+
+
+
+  const char *CsvTable::behind(const std::string_view line) const
+  {
+    return std::min(line.data() + line.size() + 1, text->data() + text->size());
   }
 
 
 
   void CsvTable::fail(const char *place, const std::string &why) const
   {
-    const char *const begin =
-      text->data() +
-      (boost::algorithm::starts_with(*text, "\xEF\xBB\xBF") ? 3 : 0);
-    const std::size_t line =
-      1 + std::count(text->data(), std::max(text->data(), place), '\n');
-    const char *start = std::max(begin, place);
-    const char *here  = start;
+    const char *const begin = text->data();
+    const std::size_t line  = 1 + std::count(begin, place, '\n');
+    const char       *start = place;
     while (start > begin && start[-1] != '\n')
       --start;
     throw InputError(file.string() + ":" + std::to_string(line) + ":" +
-                     std::to_string(here - start + 1) + ": " + why);
+                     std::to_string(place - start + 1) + ": " + why);
   }
 } // namespace SlipStep

@@ -13,6 +13,21 @@
 
 namespace SlipStep
 {
+  /// Without blanks, tabs and CR around it.
+  std::string_view without_blanks(std::string_view text);
+
+  /// A text file, without its byte-order mark.
+  /// @throws InputError if it cannot be read, or is in UTF-16
+  std::string read_text(const std::filesystem::path &file);
+
+  /// The cells of a line, without blanks and quotation marks around them.
+  /// @param delimiter between cells; ' ': any number of blanks and tabs
+  /// @param cells of another line, whose memory is used
+  std::vector<std::string_view>
+  cells_of(const std::string_view        line,
+           const char                    delimiter,
+           std::vector<std::string_view> cells = {});
+
   /// How a table of numbers is written.
   struct CsvFormat
   {
@@ -77,24 +92,39 @@ namespace SlipStep
     void read(const std::map<std::string, std::size_t> &columns);
 
     /// Of the file.
-    std::string name() const;
+    std::string name() const
+    {
+      return file.string();
+    }
 
     /// The names in the header line.
-    const std::vector<std::string> &header() const;
+    const std::vector<std::string> &header() const
+    {
+      return names;
+    }
 
     /// What the line of units has for each column, without brackets; "" where
     /// there is none.
-    const std::vector<std::string> &units() const;
+    const std::vector<std::string> &units() const
+    {
+      return unit_names;
+    }
 
     /// The names in the header for a message: printable, and no longer than
     /// that.
     std::string header_words() const;
 
     /// What the `# key: value` comments say, keys in lower case.
-    const std::map<std::string, std::string> &comments() const;
+    const std::map<std::string, std::string> &comments() const
+    {
+      return comment_values;
+    }
 
     /// What comments say of a key that another one says something else of.
-    const std::map<std::string, std::string> &contradicting_comments() const;
+    const std::map<std::string, std::string> &contradicting_comments() const
+    {
+      return contradictions;
+    }
 
     bool has(const std::string &column) const;
 
@@ -102,7 +132,10 @@ namespace SlipStep
     const std::vector<double> &operator[](const std::string &column) const;
 
     /// Number of rows.
-    std::size_t size() const;
+    std::size_t size() const
+    {
+      return begin_of_row.size();
+    }
 
     /// The line in which a row stands, counted from 1.
     std::size_t line(const std::size_t row) const;
@@ -118,17 +151,13 @@ namespace SlipStep
                                     const std::string &why) const;
 
   private:
-    void load(const std::filesystem::path &file);
-
     void read_header();
 
     void read_units();
 
     void choose_delimiter(const std::string_view line);
 
-    void read_row(const std::string_view line);
-
-    [[noreturn]] void fail_at_length(const std::string_view line) const;
+    void read_row(const std::vector<std::string_view> &cells);
 
     double read_cell(const std::string_view cell,
                      const std::size_t      column) const;
@@ -142,6 +171,16 @@ namespace SlipStep
 
     void refuse_other_header(const std::string_view          line,
                              const std::vector<std::string> &first) const;
+
+    /// Where a line begins, counted from 1; the end of the text if it has
+    /// fewer.
+    const char *begin_of_line(const std::size_t number) const;
+
+    /// What is left of a line from there on.
+    std::string_view line_at(const char *const begin) const;
+
+    /// Where the next one begins.
+    const char *behind(const std::string_view line) const;
 
     /// @param place a character of the text
     [[noreturn]] void fail(const char *place, const std::string &why) const;
