@@ -62,7 +62,21 @@ namespace SlipStep
         proposal.layout = record_layout(file);
       }
 
-      ImportProposal propose();
+      ImportProposal propose()
+      {
+        guess_layout();
+        read_columns();
+        choose_columns();
+        guess_shear_stress();
+        guess_loads();
+        guess_signs();
+        guess("Test/Condition",
+              condition(),
+              "tests of the same condition are replicates: say all in which "
+              "they differ",
+              true);
+        return proposal;
+      }
 
     private:
       void guess(const std::string &path,
@@ -73,539 +87,465 @@ namespace SlipStep
         proposal.guesses.push_back({path, value, reason, is_open});
       }
 
-      void guess_layout();
+      void guess_layout()
+      {
+        const RecordLayout &layout = proposal.layout;
+        guess("Raw file/Name",
+              name_in_map(proposal.file),
+              counted(layout.n_rows, "row") + " of " +
+                counted(layout.n_cells, "cell") + ", the first is line " +
+                std::to_string(layout.first_row));
+        guess("Raw file/Delimiter",
+              layout.delimiter == '\t' ? "tab" :
+              layout.delimiter == ';'  ? "semicolon" :
+              layout.delimiter == ','  ? "comma" :
+                                         "blanks",
+              "makes the most numbers of the rows");
+        if (layout.decimal_mark != '\0')
+          guess("Raw file/Decimal mark",
+                layout.decimal_mark == ',' ? "comma" : "point",
+                layout.has_doubtful_marks ?
+                  std::string("all numbers with a ") +
+                    (layout.decimal_mark == ',' ? "comma" : "point") +
+                    " have three digits behind it: does it part thousands?" :
+                  "as the numbers have it");
+        if (layout.thousands_mark != '\0')
+          guess("Raw file/Thousands mark",
+                layout.thousands_mark == '.' ? "point" :
+                layout.thousands_mark == ',' ? "comma" :
+                                               "apostrophe",
+                layout.has_doubtful_marks ?
+                  "three digits stand behind each, where there is one" :
+                  "numbers have a second mark",
+                layout.has_doubtful_marks);
+        if (layout.header_line == 0 || layout.has_unclear_header)
+          {
+            guess("Raw file/Has header",
+                  "false",
+                  layout.header_line == 0 ?
+                    "no line of names before the rows" :
+                    "line " + std::to_string(layout.header_line) +
+                      " has not as many names as rows have cells");
+            guess("Raw file/Header line",
+                  std::to_string(layout.first_row),
+                  "where the rows begin");
+          }
+        else
+          guess("Raw file/Header line",
+                std::to_string(layout.header_line),
+                "the last line of words before the rows");
+        if (layout.units_line > 0 && !layout.has_unclear_header)
+          guess("Raw file/Units line",
+                std::to_string(layout.units_line),
+                "it has units, mostly");
+        if (!layout.comment_marks.empty())
+          {
+            std::string marks;
+            for (const std::string &mark : layout.comment_marks)
+              marks += (marks.empty() ? "" : ", ") + mark;
+            guess("Raw file/Comment marks",
+                  marks,
+                  "lines between or behind the rows begin like this");
+          }
+      }
 
-      void read_columns();
+      void read_columns()
+      {
+        CsvTable table(proposal.file, raw_format(proposal.map()));
+        std::map<std::string, std::size_t> positions;
+        const bool is_named = proposal.layout.header_line > 0 &&
+                              !proposal.layout.has_unclear_header;
+        for (std::size_t i = 0; i < table.header().size(); ++i)
+          {
+            SeenColumn column;
+            column.number = i + 1;
+            if (is_named)
+              split_name(table.header()[i], column.name, column.unit);
+            if (!table.units()[i].empty())
+              column.unit = table.units()[i];
+            const auto &numbers = proposal.layout.numbers;
+            column.has_numbers  = holds(numbers, i);
+            if (column.has_numbers)
+              positions["column " + std::to_string(i + 1)] = i;
+            proposal.columns.push_back(column);
+          }
+        table.read(positions);
+        values.resize(proposal.columns.size());
+        finite.resize(proposal.columns.size());
+        for (const auto &[name, i] : positions)
+          {
+            values[i] = table[name];
+            for (const double value : values[i])
+              if (!std::isnan(value))
+                finite[i].push_back(value);
+            if (finite[i].empty())
+              continue;
+            const auto range =
+              std::minmax_element(finite[i].begin(), finite[i].end());
+            proposal.columns[i].least = *range.first;
+            proposal.columns[i].most  = *range.second;
+          }
+      }
 
-      int score(const KeyWords &words, const std::size_t column) const;
+      // Above 0: it may be; a name and a unit are worth more than either.
+      int score(const KeyWords &words, const std::size_t column) const
+      {
+        const SeenColumn &seen = proposal.columns[column];
+        if (!seen.has_numbers || !seen.taken_as.empty() ||
+            has_word(seen.name, words.against))
+          return 0;
+        Dimension dimension = Dimension::number;
+        for (const ColumnKey &key : column_keys())
+          if (key.name == words.key)
+            dimension = key.dimension;
+        const auto known    = seen.unit.empty() ? std::optional<Dimension>() :
+                                                  dimension_of_unit(seen.unit);
+        const bool has_unit = !seen.unit.empty() && seen.unit != "-" &&
+                              seen.unit != "1" && seen.unit != "/" &&
+                              seen.unit != "%";
+        if (known.has_value() ? *known != dimension :
+                                has_unit && dimension == Dimension::number)
+          return 0;
+        int points = 0;
+        for (const std::string &word : words.words)
+          points += seen.name.find(word) != std::string::npos ? 4 : 0;
+        for (const std::string &label : words.labels)
+          points += without_qualifier(seen.name) == label ? 4 : 0;
+        const bool varies = seen.most > seen.least;
+        if (known.has_value() && dimension != Dimension::force)
+          points += 3;
+        if (points == 0)
+          return 0;
+        if (known.has_value())
+          points += 2;
+        if (varies)
+          points += 2;
+        if (words.key == "Time")
+          {
+            const std::vector<double> &time = finite[column];
+            // The newest row may stand first.
+            if (!varies || !(std::is_sorted(time.begin(), time.end()) ||
+                             std::is_sorted(time.rbegin(), time.rend())))
+              return 0;
+          }
+        if (words.key == "Displacement" && !varies)
+          return 0;
+        if (has_word(seen.name, ordered_words))
+          --points;
+        if (words.key == "Friction" && seen.unit != "%" &&
+            !finite[column].empty() &&
+            median(finite[column]) > 3.) // a percentage, or a force
+          return 0;
+        return points;
+      }
 
-      std::string reference(const std::size_t column) const;
+      // How a map names a column.
+      std::string reference(const std::size_t column) const
+      {
+        const CsvTable     table(proposal.file, raw_format(proposal.map()));
+        const std::string &name = table.header()[column];
+        const bool         is_unique =
+          std::count(table.header().begin(), table.header().end(), name) == 1;
+        const bool is_plain = !name.empty() && all_of(name, [](char c) {
+          const auto byte = static_cast<unsigned char>(c);
+          return byte >= 0x20 && byte < 0x7f && c != '#' && c != '\\' &&
+                 c != '{' && c != '}';
+        });
+        return is_unique && is_plain ? name :
+                                       "column " + std::to_string(column + 1);
+      }
 
-      void choose_columns();
+      void choose_columns()
+      {
+        for (const KeyWords &words : key_words())
+          {
+            std::size_t best = best_column(words.key);
+            if (best == values.size() ||
+                (words.key == "Tangential load" && taken_as("Friction")) ||
+                (words.key == "Speed" && taken_as("Displacement")))
+              continue;
+            if (words.key == "Displacement")
+              best = motion_of_friction(words, best);
+            guess_column(words.key, best);
+          }
+      }
 
-      void guess_column(const std::string &key, const std::size_t column);
+      void guess_column(const std::string &key, const std::size_t column)
+      {
+        SeenColumn &seen    = proposal.columns[column];
+        seen.taken_as       = key;
+        Dimension dimension = Dimension::number;
+        for (const ColumnKey &known : column_keys())
+          if (known.name == key)
+            dimension = known.dimension;
+        const std::string name  = reference(column);
+        const std::string range = "from " + rounded_text(seen.least, 5) +
+                                  " to " + rounded_text(seen.most, 5);
+        if (dimension == Dimension::number)
+          {
+            const bool may_be_force = seen.name == "f" && seen.unit.empty();
+            guess("Columns/" + key,
+                  name,
+                  range + (may_be_force ? "; or is it a force?" : ""),
+                  may_be_force);
+            return;
+          }
+        const bool is_known =
+          !seen.unit.empty() && dimension_of_unit(seen.unit) == dimension;
+        const std::string unit = is_plain(seen.unit) ?
+                                   seen.unit :
+                                 dimension == Dimension::temperature ?
+                                   "degC" :
+                                 dimension == Dimension::stress ?
+                                   "N/mm^2" :
+                                   "u" + seen.unit.substr(seen.unit.size() - 1);
+        const bool is_negative = (key == "Normal load" || key == "Pressure") &&
+                                 !finite[column].empty() &&
+                                 median(finite[column]) < 0.;
+        // Nothing that would be taken where nobody looks.
+        const std::string in = name + " in " +
+                               (is_known          ? unit :
+                                seen.unit.empty() ? base_unit(dimension) :
+                                                    "?");
+        guess("Columns/" + key,
+              is_negative ? "-1*{" + in + "}" : in,
+              range +
+                (is_known ?
+                   "" :
+                 seen.unit.empty() ?
+                   "; the file does not say the unit" :
+                   "; no unit is known as '" + seen.unit + "'" +
+                     (key == "Speed" ? " (of a rotation: 2*pi*25/60*{" + name +
+                                         " as recorded}, for a track of 25 mm "
+                                         "radius)" :
+                                       "")) +
+                (is_negative ? "; compression counts positive here" : ""),
+              !is_known);
+      }
 
-      std::size_t best_column(const std::string &key) const;
+      // With the most points for a key; none: one beyond the last.
+      std::size_t best_column(const std::string &key) const
+      {
+        std::size_t best   = values.size();
+        int         points = 0;
+        for (const KeyWords &words : key_words())
+          for (std::size_t i = 0; words.key == key && i < values.size(); ++i)
+            if (const int found = score(words, i); found > points)
+              {
+                best   = i;
+                points = found;
+              }
+        return best;
+      }
 
+      // A way that only grows may be called like a displacement as well: beside
+      // friction of both signs that which it resists is taken.
       std::size_t motion_of_friction(const KeyWords   &displacement,
-                                     const std::size_t best) const;
+                                     const std::size_t best) const
+      {
+        constexpr double hardly = 0.5, clearly = 0.9;
 
-      void guess_shear_stress();
+        std::size_t friction = best_column("Friction");
+        if (friction == values.size())
+          friction = best_column("Tangential load");
+        if (friction == values.size())
+          return best;
+        const auto has_sign = [&](const double sign) {
+          const auto &signal = finite[friction];
+          return 10 * count_if(signal,
+                               [&](const double value) {
+                                 return sign * value > 0.;
+                               }) >
+                 static_cast<std::ptrdiff_t>(signal.size());
+        };
+        const auto share = [&](const std::size_t i) {
+          return std::abs(share_of_resistance(values[i], values[friction]));
+        };
+        if (share(best) >= hardly || !has_sign(1.) || !has_sign(-1.))
+          return best;
+        std::size_t other = best;
+        for (std::size_t i = 0; i < values.size(); ++i)
+          if (score(displacement, i) > 0 && share(i) > clearly &&
+              share(i) > share(other))
+            other = i;
+        return other;
+      }
 
-      std::size_t first_column_left() const;
+      // Friction of a laboratory that records stresses.
+      void guess_shear_stress()
+      {
+        if (taken_as("Friction") || taken_as("Tangential load") ||
+            !taken_as("Pressure"))
+          return;
+        for (std::size_t i = 0; i < proposal.columns.size(); ++i)
+          {
+            SeenColumn &seen = proposal.columns[i];
+            if (!seen.has_numbers || !has_word(seen.name, shear_words) ||
+                dimension_of_unit(seen.unit) != Dimension::stress)
+              continue;
+            seen.taken_as = "Friction";
+            // With its unit and sign, as far as they are known.
+            const ImportGuess &pressure =
+              *std::find_if(proposal.guesses.begin(),
+                            proposal.guesses.end(),
+                            [](auto &guess) {
+                              return guess.path == "Columns/Pressure";
+                            });
+            const bool is_formula =
+              pressure.value.find('{') != std::string::npos;
+            const std::string divisor = is_formula ?
+                                          "(" + pressure.value + ")" :
+                                          "{" + pressure.value + "}";
+            guess("Columns/Friction",
+                  "{" + reference(i) + " in " + seen.unit + "}/" + divisor,
+                  "shear stress over normal stress",
+                  pressure.is_open);
+            return;
+          }
+      }
 
-      void guess_time();
+      std::size_t first_column_left() const
+      {
+        // The first is the time, if none is called so.
+        for (std::size_t i = taken_as("Time") ? 0 : 1;
+             i < proposal.columns.size();
+             ++i)
+          if (proposal.columns[i].has_numbers &&
+              proposal.columns[i].taken_as.empty())
+            return i;
+        return proposal.columns.size() - 1;
+      }
 
-      void guess_loads();
+      // Where nothing that is called so grows from row to row.
+      void guess_time()
+      {
+        for (std::size_t i = 0; i < values.size(); ++i)
+          {
+            const SeenColumn          &seen = proposal.columns[i];
+            const std::vector<double> &time = finite[i];
+            const auto back = std::is_sorted_until(time.begin(), time.end());
+            if (back == time.end() ||
+                dimension_of_unit(seen.unit) != Dimension::time)
+              continue;
+            guess(
+              "Columns/Time",
+              reference(i) + " in " + seen.unit,
+              "it goes back from " + rounded_text(*std::prev(back), 6) +
+                " to " + rounded_text(*back, 6) +
+                ": a clock that begins anew has to be made to go on, or the "
+                "file to be parted, before",
+              true);
+            return;
+          }
+        guess("Columns/Time",
+              "column 1 in s",
+              "no column of increasing numbers is called like a time (clock "
+              "times have to be made seconds before)",
+              true);
+      }
 
-      void guess_signs();
+      // What only a notebook knows.
+      void guess_loads()
+      {
+        if (!taken_as("Time"))
+          guess_time();
+        if (!taken_as("Displacement") && !taken_as("Speed"))
+          guess(
+            "Constants/Speed",
+            "1 mm/s",
+            "no column is called like a displacement or a speed: which one is "
+            "it (Columns/Displacement, Columns/Speed), or how fast did it "
+            "slide?",
+            true);
+        if (!taken_as("Friction") && !taken_as("Tangential load"))
+          guess("Columns/Friction",
+                "column " + std::to_string(first_column_left() + 1),
+                "no column is called like a coefficient or a tangential load",
+                true);
+        const bool has_load = taken_as("Normal load");
+        if (!has_load && !taken_as("Pressure"))
+          {
+            if (taken_as("Tangential load"))
+              guess("Constants/Normal load",
+                    "5 N assumed",
+                    "no column is called like a normal load; without 'assumed' "
+                    "if it is known",
+                    true);
+            else
+              guess("Constants/Pressure",
+                    "5 MPa",
+                    "no column is called like a pressure",
+                    true);
+          }
+        const bool has_pressure = taken_as("Pressure");
+        const bool has_force    = taken_as("Tangential load");
+        if (has_pressure ? has_force && !has_load : has_force || has_load)
+          guess("Constants/Area",
+                "1 mm^2 assumed",
+                has_pressure ?
+                  "turns the pressure into a normal load" :
+                  "turns the normal load into a pressure; without 'assumed' if "
+                  "it is known",
+                true);
+      }
 
-      const SeenColumn *taken_as(const std::string &key) const;
+      void guess_signs()
+      {
+        const SeenColumn *displacement = taken_as("Displacement");
+        const SeenColumn *friction     = taken_as("Friction");
+        if (friction == nullptr)
+          friction = taken_as("Tangential load");
+        if (displacement == nullptr || friction == nullptr)
+          return;
+        const SeenColumn *time = taken_as("Time");
+        const bool        is_later =
+          time == nullptr || std::is_sorted(finite[time->number - 1].begin(),
+                                            finite[time->number - 1].end());
+        const double share =
+          (is_later ? 1. : -1.) *
+          share_of_resistance(values[displacement->number - 1],
+                              values[friction->number - 1]);
+        const std::string words =
+          rounded_text(50. * (1. + share), 3) +
+          " % of the work of friction as recorded is done against the motion";
+        if (share < -0.5)
+          guess("Convention/Friction sign", "reversed", words);
+        else if (share < 0.5)
+          guess("Convention/Friction sign",
+                "as recorded",
+                words + ": is a zero of the sensor to be taken off "
+                        "(Correction/Zero), or is this displacement a way that "
+                        "only grows?");
+      }
 
-      std::string condition() const;
+      const SeenColumn *taken_as(const std::string &key) const
+      {
+        for (const SeenColumn &column : proposal.columns)
+          if (column.taken_as == key)
+            return &column;
+        return nullptr;
+      }
+
+      // "dry, 50 N": of this load, and who knows what else.
+      std::string condition() const
+      {
+        for (const std::string key : {"Normal load", "Pressure"})
+          if (const SeenColumn *seen = taken_as(key); seen != nullptr)
+            {
+              return "dry, " +
+                     rounded_text(std::abs(median(finite[seen->number - 1])),
+                                  2) +
+                     (seen->unit.empty() || !is_plain(seen->unit) ?
+                        "" :
+                        " " + seen->unit);
+            }
+        return "dry, 5 N";
+      }
 
       ImportProposal                   proposal;
       std::vector<std::vector<double>> values; ///< of each column
       std::vector<std::vector<double>> finite; ///< the same without gaps
     };
-
-
-
-    void Observer::guess_layout()
-    {
-      const RecordLayout &layout = proposal.layout;
-      guess("Raw file/Name",
-            name_in_map(proposal.file),
-            counted(layout.n_rows, "row") + " of " +
-              counted(layout.n_cells, "cell") + ", the first is line " +
-              std::to_string(layout.first_row));
-      guess("Raw file/Delimiter",
-            layout.delimiter == '\t' ? "tab" :
-            layout.delimiter == ';'  ? "semicolon" :
-            layout.delimiter == ','  ? "comma" :
-                                       "blanks",
-            "makes the most numbers of the rows");
-      if (layout.decimal_mark != '\0')
-        guess("Raw file/Decimal mark",
-              layout.decimal_mark == ',' ? "comma" : "point",
-              layout.has_doubtful_marks ?
-                std::string("all numbers with a ") +
-                  (layout.decimal_mark == ',' ? "comma" : "point") +
-                  " have three digits behind it: does it part thousands?" :
-                "as the numbers have it");
-      if (layout.thousands_mark != '\0')
-        guess("Raw file/Thousands mark",
-              layout.thousands_mark == '.' ? "point" :
-              layout.thousands_mark == ',' ? "comma" :
-                                             "apostrophe",
-              layout.has_doubtful_marks ?
-                "three digits stand behind each, where there is one" :
-                "numbers have a second mark",
-              layout.has_doubtful_marks);
-      if (layout.header_line == 0 || layout.has_unclear_header)
-        {
-          guess("Raw file/Has header",
-                "false",
-                layout.header_line == 0 ?
-                  "no line of names before the rows" :
-                  "line " + std::to_string(layout.header_line) +
-                    " has not as many names as rows have cells");
-          guess("Raw file/Header line",
-                std::to_string(layout.first_row),
-                "where the rows begin");
-        }
-      else
-        guess("Raw file/Header line",
-              std::to_string(layout.header_line),
-              "the last line of words before the rows");
-      if (layout.units_line > 0 && !layout.has_unclear_header)
-        guess("Raw file/Units line",
-              std::to_string(layout.units_line),
-              "it has units, mostly");
-      if (!layout.comment_marks.empty())
-        {
-          std::string marks;
-          for (const std::string &mark : layout.comment_marks)
-            marks += (marks.empty() ? "" : ", ") + mark;
-          guess("Raw file/Comment marks",
-                marks,
-                "lines between or behind the rows begin like this");
-        }
-    }
-
-
-
-    void Observer::read_columns()
-    {
-      CsvTable table(proposal.file, raw_format(proposal.map()));
-      std::map<std::string, std::size_t> positions;
-      const bool                         is_named =
-        proposal.layout.header_line > 0 && !proposal.layout.has_unclear_header;
-      for (std::size_t i = 0; i < table.header().size(); ++i)
-        {
-          SeenColumn column;
-          column.number = i + 1;
-          if (is_named)
-            split_name(table.header()[i], column.name, column.unit);
-          if (!table.units()[i].empty())
-            column.unit = table.units()[i];
-          const auto &numbers = proposal.layout.numbers;
-          column.has_numbers  = holds(numbers, i);
-          if (column.has_numbers)
-            positions["column " + std::to_string(i + 1)] = i;
-          proposal.columns.push_back(column);
-        }
-      table.read(positions);
-      values.resize(proposal.columns.size());
-      finite.resize(proposal.columns.size());
-      for (const auto &[name, i] : positions)
-        {
-          values[i] = table[name];
-          for (const double value : values[i])
-            if (!std::isnan(value))
-              finite[i].push_back(value);
-          if (finite[i].empty())
-            continue;
-          const auto range =
-            std::minmax_element(finite[i].begin(), finite[i].end());
-          proposal.columns[i].least = *range.first;
-          proposal.columns[i].most  = *range.second;
-        }
-    }
-
-
-
-    // Above 0: it may be; a name and a unit are worth more than either.
-    int Observer::score(const KeyWords &words, const std::size_t column) const
-    {
-      const SeenColumn &seen = proposal.columns[column];
-      if (!seen.has_numbers || !seen.taken_as.empty() ||
-          has_word(seen.name, words.against))
-        return 0;
-      Dimension dimension = Dimension::number;
-      for (const ColumnKey &key : column_keys())
-        if (key.name == words.key)
-          dimension = key.dimension;
-      const auto known    = seen.unit.empty() ? std::optional<Dimension>() :
-                                                dimension_of_unit(seen.unit);
-      const bool has_unit = !seen.unit.empty() && seen.unit != "-" &&
-                            seen.unit != "1" && seen.unit != "/" &&
-                            seen.unit != "%";
-      if (known.has_value() ? *known != dimension :
-                              has_unit && dimension == Dimension::number)
-        return 0;
-      int points = 0;
-      for (const std::string &word : words.words)
-        points += seen.name.find(word) != std::string::npos ? 4 : 0;
-      for (const std::string &label : words.labels)
-        points += without_qualifier(seen.name) == label ? 4 : 0;
-      const bool varies = seen.most > seen.least;
-      if (known.has_value() && dimension != Dimension::force)
-        points += 3;
-      if (points == 0)
-        return 0;
-      if (known.has_value())
-        points += 2;
-      if (varies)
-        points += 2;
-      if (words.key == "Time")
-        {
-          const std::vector<double> &time = finite[column];
-          // The newest row may stand first.
-          if (!varies || !(std::is_sorted(time.begin(), time.end()) ||
-                           std::is_sorted(time.rbegin(), time.rend())))
-            return 0;
-        }
-      if (words.key == "Displacement" && !varies)
-        return 0;
-      if (has_word(seen.name, ordered_words))
-        --points;
-      if (words.key == "Friction" && seen.unit != "%" &&
-          !finite[column].empty() &&
-          median(finite[column]) > 3.) // a percentage, or a force
-        return 0;
-      return points;
-    }
-
-
-
-    // How a map names a column.
-    std::string Observer::reference(const std::size_t column) const
-    {
-      const CsvTable     table(proposal.file, raw_format(proposal.map()));
-      const std::string &name = table.header()[column];
-      const bool         is_unique =
-        std::count(table.header().begin(), table.header().end(), name) == 1;
-      const bool is_plain = !name.empty() && all_of(name, [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return byte >= 0x20 && byte < 0x7f && c != '#' && c != '\\' &&
-               c != '{' && c != '}';
-      });
-      return is_unique && is_plain ? name :
-                                     "column " + std::to_string(column + 1);
-    }
-
-
-
-    void Observer::guess_column(const std::string &key,
-                                const std::size_t  column)
-    {
-      SeenColumn &seen    = proposal.columns[column];
-      seen.taken_as       = key;
-      Dimension dimension = Dimension::number;
-      for (const ColumnKey &known : column_keys())
-        if (known.name == key)
-          dimension = known.dimension;
-      const std::string name  = reference(column);
-      const std::string range = "from " + rounded_text(seen.least, 5) + " to " +
-                                rounded_text(seen.most, 5);
-      if (dimension == Dimension::number)
-        {
-          const bool may_be_force = seen.name == "f" && seen.unit.empty();
-          guess("Columns/" + key,
-                name,
-                range + (may_be_force ? "; or is it a force?" : ""),
-                may_be_force);
-          return;
-        }
-      const bool is_known =
-        !seen.unit.empty() && dimension_of_unit(seen.unit) == dimension;
-      const std::string unit = is_plain(seen.unit) ?
-                                 seen.unit :
-                               dimension == Dimension::temperature ?
-                                 "degC" :
-                               dimension == Dimension::stress ?
-                                 "N/mm^2" :
-                                 "u" + seen.unit.substr(seen.unit.size() - 1);
-      const bool is_negative = (key == "Normal load" || key == "Pressure") &&
-                               !finite[column].empty() &&
-                               median(finite[column]) < 0.;
-      // Nothing that would be taken where nobody looks.
-      const std::string in = name + " in " +
-                             (is_known          ? unit :
-                              seen.unit.empty() ? base_unit(dimension) :
-                                                  "?");
-      guess("Columns/" + key,
-            is_negative ? "-1*{" + in + "}" : in,
-            range +
-              (is_known          ? "" :
-               seen.unit.empty() ? "; the file does not say the unit" :
-                                   "; no unit is known as '" + seen.unit + "'" +
-                                     (key == "Speed" ?
-                                        " (of a rotation: 2*pi*25/60*{" + name +
-                                          " as recorded}, for a track of 25 mm "
-                                          "radius)" :
-                                        "")) +
-              (is_negative ? "; compression counts positive here" : ""),
-            !is_known);
-    }
-
-
-
-    void Observer::choose_columns()
-    {
-      for (const KeyWords &words : key_words())
-        {
-          std::size_t best = best_column(words.key);
-          if (best == values.size() ||
-              (words.key == "Tangential load" && taken_as("Friction")) ||
-              (words.key == "Speed" && taken_as("Displacement")))
-            continue;
-          if (words.key == "Displacement")
-            best = motion_of_friction(words, best);
-          guess_column(words.key, best);
-        }
-    }
-
-
-
-    // A way that only grows may be called like a displacement as well: beside
-    // friction of both signs that which it resists is taken.
-    std::size_t Observer::motion_of_friction(const KeyWords   &displacement,
-                                             const std::size_t best) const
-    {
-      constexpr double hardly = 0.5, clearly = 0.9;
-
-      std::size_t friction = best_column("Friction");
-      if (friction == values.size())
-        friction = best_column("Tangential load");
-      if (friction == values.size())
-        return best;
-      const auto has_sign = [&](const double sign) {
-        const auto &signal = finite[friction];
-        return 10 * count_if(signal,
-                             [&](const double value) {
-                               return sign * value > 0.;
-                             }) >
-               static_cast<std::ptrdiff_t>(signal.size());
-      };
-      const auto share = [&](const std::size_t i) {
-        return std::abs(share_of_resistance(values[i], values[friction]));
-      };
-      if (share(best) >= hardly || !has_sign(1.) || !has_sign(-1.))
-        return best;
-      std::size_t other = best;
-      for (std::size_t i = 0; i < values.size(); ++i)
-        if (score(displacement, i) > 0 && share(i) > clearly &&
-            share(i) > share(other))
-          other = i;
-      return other;
-    }
-
-
-
-    // With the most points for a key; none: one beyond the last.
-    std::size_t Observer::best_column(const std::string &key) const
-    {
-      std::size_t best   = values.size();
-      int         points = 0;
-      for (const KeyWords &words : key_words())
-        for (std::size_t i = 0; words.key == key && i < values.size(); ++i)
-          if (const int found = score(words, i); found > points)
-            {
-              best   = i;
-              points = found;
-            }
-      return best;
-    }
-
-
-
-    // Friction of a laboratory that records stresses.
-    void Observer::guess_shear_stress()
-    {
-      if (taken_as("Friction") || taken_as("Tangential load") ||
-          !taken_as("Pressure"))
-        return;
-      for (std::size_t i = 0; i < proposal.columns.size(); ++i)
-        {
-          SeenColumn &seen = proposal.columns[i];
-          if (!seen.has_numbers || !has_word(seen.name, shear_words) ||
-              dimension_of_unit(seen.unit) != Dimension::stress)
-            continue;
-          seen.taken_as = "Friction";
-          // With its unit and sign, as far as they are known.
-          const ImportGuess &pressure =
-            *std::find_if(proposal.guesses.begin(),
-                          proposal.guesses.end(),
-                          [](auto &guess) {
-                            return guess.path == "Columns/Pressure";
-                          });
-          const bool is_formula = pressure.value.find('{') != std::string::npos;
-          const std::string divisor = is_formula ? "(" + pressure.value + ")" :
-                                                   "{" + pressure.value + "}";
-          guess("Columns/Friction",
-                "{" + reference(i) + " in " + seen.unit + "}/" + divisor,
-                "shear stress over normal stress",
-                pressure.is_open);
-          return;
-        }
-    }
-
-
-
-    const SeenColumn *Observer::taken_as(const std::string &key) const
-    {
-      for (const SeenColumn &column : proposal.columns)
-        if (column.taken_as == key)
-          return &column;
-      return nullptr;
-    }
-
-
-
-    std::size_t Observer::first_column_left() const
-    {
-      // The first is the time, if none is called so.
-      for (std::size_t i = taken_as("Time") ? 0 : 1;
-           i < proposal.columns.size();
-           ++i)
-        if (proposal.columns[i].has_numbers &&
-            proposal.columns[i].taken_as.empty())
-          return i;
-      return proposal.columns.size() - 1;
-    }
-
-
-
-    // Where nothing that is called so grows from row to row.
-    void Observer::guess_time()
-    {
-      for (std::size_t i = 0; i < values.size(); ++i)
-        {
-          const SeenColumn          &seen = proposal.columns[i];
-          const std::vector<double> &time = finite[i];
-          const auto back = std::is_sorted_until(time.begin(), time.end());
-          if (back == time.end() ||
-              dimension_of_unit(seen.unit) != Dimension::time)
-            continue;
-          guess("Columns/Time",
-                reference(i) + " in " + seen.unit,
-                "it goes back from " + rounded_text(*std::prev(back), 6) +
-                  " to " + rounded_text(*back, 6) +
-                  ": a clock that begins anew has to be made to go on, or the "
-                  "file to be parted, before",
-                true);
-          return;
-        }
-      guess("Columns/Time",
-            "column 1 in s",
-            "no column of increasing numbers is called like a time (clock "
-            "times have to be made seconds before)",
-            true);
-    }
-
-
-
-    // What only a notebook knows.
-    void Observer::guess_loads()
-    {
-      if (!taken_as("Time"))
-        guess_time();
-      if (!taken_as("Displacement") && !taken_as("Speed"))
-        guess(
-          "Constants/Speed",
-          "1 mm/s",
-          "no column is called like a displacement or a speed: which one is "
-          "it (Columns/Displacement, Columns/Speed), or how fast did it "
-          "slide?",
-          true);
-      if (!taken_as("Friction") && !taken_as("Tangential load"))
-        guess("Columns/Friction",
-              "column " + std::to_string(first_column_left() + 1),
-              "no column is called like a coefficient or a tangential load",
-              true);
-      const bool has_load = taken_as("Normal load");
-      if (!has_load && !taken_as("Pressure"))
-        {
-          if (taken_as("Tangential load"))
-            guess("Constants/Normal load",
-                  "5 N assumed",
-                  "no column is called like a normal load; without 'assumed' "
-                  "if it is known",
-                  true);
-          else
-            guess("Constants/Pressure",
-                  "5 MPa",
-                  "no column is called like a pressure",
-                  true);
-        }
-      const bool has_pressure = taken_as("Pressure");
-      const bool has_force    = taken_as("Tangential load");
-      if (has_pressure ? has_force && !has_load : has_force || has_load)
-        guess("Constants/Area",
-              "1 mm^2 assumed",
-              has_pressure ?
-                "turns the pressure into a normal load" :
-                "turns the normal load into a pressure; without 'assumed' if "
-                "it is known",
-              true);
-    }
-
-
-
-    void Observer::guess_signs()
-    {
-      const SeenColumn *displacement = taken_as("Displacement");
-      const SeenColumn *friction     = taken_as("Friction");
-      if (friction == nullptr)
-        friction = taken_as("Tangential load");
-      if (displacement == nullptr || friction == nullptr)
-        return;
-      const SeenColumn *time = taken_as("Time");
-      const bool        is_later =
-        time == nullptr || std::is_sorted(finite[time->number - 1].begin(),
-                                          finite[time->number - 1].end());
-      const double share = (is_later ? 1. : -1.) *
-                           share_of_resistance(values[displacement->number - 1],
-                                               values[friction->number - 1]);
-      const std::string words =
-        rounded_text(50. * (1. + share), 3) +
-        " % of the work of friction as recorded is done against the motion";
-      if (share < -0.5)
-        guess("Convention/Friction sign", "reversed", words);
-      else if (share < 0.5)
-        guess("Convention/Friction sign",
-              "as recorded",
-              words + ": is a zero of the sensor to be taken off "
-                      "(Correction/Zero), or is this displacement a way that "
-                      "only grows?");
-    }
-
-
-
-    // "dry, 50 N": of this load, and who knows what else.
-    std::string Observer::condition() const
-    {
-      for (const std::string key : {"Normal load", "Pressure"})
-        if (const SeenColumn *seen = taken_as(key); seen != nullptr)
-          {
-            return "dry, " +
-                   rounded_text(std::abs(median(finite[seen->number - 1])), 2) +
-                   (seen->unit.empty() || !is_plain(seen->unit) ?
-                      "" :
-                      " " + seen->unit);
-          }
-      return "dry, 5 N";
-    }
-
-
-
-    ImportProposal Observer::propose()
-    {
-      guess_layout();
-      read_columns();
-      choose_columns();
-      guess_shear_stress();
-      guess_loads();
-      guess_signs();
-      guess("Test/Condition",
-            condition(),
-            "tests of the same condition are replicates: say all in which "
-            "they differ",
-            true);
-      return proposal;
-    }
 
 
 

@@ -72,152 +72,6 @@ namespace SlipStep
 
 
 
-    /// Converts one file. Columns are called by their keys in the map.
-    class Converter
-    {
-    public:
-      Converter(const Parameters  &map,
-                const RawFile     &raw_file,
-                const std::string &name)
-        : map(map)
-        , raw_file(raw_file)
-        , name(name)
-        , table(raw_file.file, raw_format(map))
-        , columns(map, table)
-      {}
-
-      std::vector<MeasuredTest> convert();
-
-    private:
-      std::string filled_text(const std::string                  &path,
-                              std::map<std::string, std::string> &values) const;
-
-      std::optional<double> constant(const std::string &path,
-                                     const Dimension    dimension,
-                                     const bool         is_positive);
-
-      void select_rows();
-
-      std::vector<double> values(const std::string &key) const;
-
-      std::vector<double> displacement(const std::vector<double> &time);
-
-      std::vector<double> normal_load();
-
-      std::vector<double> pressure();
-
-      std::vector<double> friction(const std::string         &axis,
-                                   const std::vector<double> &time,
-                                   const std::vector<double> &motion);
-
-      void correct_sensor(const std::string         &key,
-                          const std::vector<double> &time,
-                          const std::vector<double> &motion,
-                          std::vector<double>       &signal);
-
-      void tidy(MeasuredTest &test) const;
-
-      std::vector<MeasuredTest> parts_of(const MeasuredTest &record) const;
-
-      void start_from_zero(MeasuredTest &test) const;
-
-      void thin_out(MeasuredTest &test) const;
-
-      const Parameters        &map;
-      const RawFile            raw_file;
-      const std::string        name;
-      CsvTable                 table;
-      ImportColumns            columns;
-      std::vector<std::size_t> selected;
-
-      /// What was done and supposed, for the comments of the tests.
-      std::map<std::string, std::string> notes;
-      std::vector<std::string>           doubts;
-    };
-
-
-
-    // With what is known in place of {1}, {part} and so on.
-    std::string
-    Converter::filled_text(const std::string                  &path,
-                           std::map<std::string, std::string> &values) const
-    {
-      try
-        {
-          return filled_in(map.text(path), values);
-        }
-      catch (const InputError &error)
-        {
-          map.reject(path, error.what());
-        }
-    }
-
-
-
-    std::optional<double> Converter::constant(const std::string &path,
-                                              const Dimension    dimension,
-                                              const bool         is_positive)
-    {
-      std::map<std::string, std::string> found = raw_file.found;
-      std::string                        text  = filled_text(path, found);
-      if (text.empty())
-        return {};
-      const std::string mark = " assumed";
-      if (text.size() > mark.size() &&
-          text.compare(text.size() - mark.size(), mark.size(), mark) == 0)
-        {
-          text.resize(text.size() - mark.size());
-          const std::string word =
-            path.substr(path.find('/') + 1) + " = " + text;
-          std::string &assumed = notes["assumed"];
-          if (assumed.find(word) == std::string::npos)
-            assumed += (assumed.empty() ? "" : ", ") + word;
-        }
-      try
-        {
-          const double value = parse_quantity(text, dimension, true);
-          if (is_positive && value <= 0.)
-            throw InputError("must be positive");
-          return value;
-        }
-      catch (const InputError &error)
-        {
-          map.reject(path, error.what());
-        }
-    }
-
-
-
-    void Converter::select_rows()
-    {
-      const double infinity = std::numeric_limits<double>::infinity();
-      const double begin =
-        constant("Selection/Begin", Dimension::time, false).value_or(-infinity);
-      const double end =
-        constant("Selection/End", Dimension::time, false).value_or(infinity);
-      const std::vector<double> time = columns.values("Time");
-      for (std::size_t i = 0; i < time.size(); ++i)
-        if (!(time[i] < begin) && !(time[i] > end))
-          selected.push_back(i);
-      if (selected.size() < 2)
-        throw InputError(table.name() + ": " + std::to_string(selected.size()) +
-                         " of " + std::to_string(time.size()) +
-                         " rows are between Selection/Begin and End");
-    }
-
-
-
-    std::vector<double> Converter::values(const std::string &key) const
-    {
-      const std::vector<double> all = columns.values(key);
-      std::vector<double>       result(selected.size());
-      for (std::size_t i = 0; i < selected.size(); ++i)
-        result[i] = all[selected[i]];
-      return result;
-    }
-
-
-
     // From the first row that has both, by trapezia; rows without are none.
     std::vector<double> integral(const std::vector<double> &time,
                                  const std::vector<double> &rate)
@@ -240,390 +94,478 @@ namespace SlipStep
 
 
 
-    std::vector<double> Converter::displacement(const std::vector<double> &time)
+    /// Converts one file. Columns are called by their keys in the map.
+    class Converter
     {
-      const auto speed = constant("Constants/Speed", Dimension::speed, false);
-      if (columns.has("Displacement") + columns.has("Speed") +
-            speed.has_value() !=
-          1)
-        map.reject("Columns/Displacement",
-                   "give either this column, Columns/Speed or Constants/Speed");
-      if (columns.has("Displacement"))
-        return values("Displacement");
-      if (columns.has("Speed"))
-        {
-          notes["positions"] = "integral of the recorded speed";
-          return integral(time, values("Speed"));
-        }
-      const auto first = // a gap may begin the record
-        std::find_if(time.begin(), time.end(), [](const double value) {
-          return std::isfinite(value);
-        });
-      std::vector<double> result(time);
-      for (double &value : result)
-        value = first == time.end() ? value : *speed * (value - *first);
-      return result;
-    }
+    public:
+      Converter(const Parameters  &map,
+                const RawFile     &raw_file,
+                const std::string &name)
+        : map(map)
+        , raw_file(raw_file)
+        , name(name)
+        , table(raw_file.file, raw_format(map))
+        , columns(map, table)
+      {}
 
+      std::vector<MeasuredTest> convert()
+      {
+        if (!columns.has("Time"))
+          map.reject("Columns/Time", "this column is needed");
+        columns.read();
+        select_rows();
 
+        MeasuredTest record;
+        record.file         = raw_file.file;
+        record.time         = values("Time");
+        record.displacement = displacement(record.time);
+        record.pressure     = pressure();
+        record.friction     = friction("", record.time, record.displacement);
+        if (columns.has("Displacement y"))
+          {
+            record.displacement_y = values("Displacement y");
+            record.friction_y =
+              friction(" y", record.time, record.displacement_y);
+          }
+        if (columns.has("Temperature"))
+          record.temperature = values("Temperature");
+        if (map.text("Convention/Displacement sign") == "reversed")
+          for (auto *series : {&record.displacement, &record.displacement_y})
+            for (double &value : *series)
+              value = -value;
+        tidy(record);
+        for (const std::string &words : doubts)
+          record.warnings.push_back(raw_file.file.string() + ": " + words);
+        for (const std::string &words : columns.contradictions())
+          {
+            record.warnings.push_back(raw_file.file.string() + ": " + words);
+            std::string &note = notes["units"];
+            note += (note.empty() ? "" : "; ") + words;
+          }
+        record.notes                   = notes;
+        record.notes["converted from"] = raw_file.file.filename().string();
+        return parts_of(record);
+      }
 
-    std::vector<double> Converter::normal_load()
-    {
-      const auto load =
-        constant("Constants/Normal load", Dimension::force, true);
-      if (columns.has("Normal load") && load.has_value())
-        map.reject("Columns/Normal load",
-                   "give either this column or Constants/Normal load");
-      if (columns.has("Normal load"))
-        return values("Normal load");
-      return load.has_value() ? std::vector<double>(selected.size(), *load) :
-                                std::vector<double>();
-    }
-
-
-
-    std::vector<double> Converter::pressure()
-    {
-      const auto given =
-        constant("Constants/Pressure", Dimension::stress, true);
-      const auto area = constant("Constants/Area", Dimension::area, true);
-      std::vector<double> load = normal_load();
-      if (columns.has("Pressure") && given.has_value())
-        map.reject("Columns/Pressure",
-                   "give either this column or Constants/Pressure");
-      if (columns.has("Pressure"))
-        return values("Pressure");
-      if (given.has_value())
-        return std::vector<double>(selected.size(), *given);
-      if (load.empty() || !area.has_value())
-        map.reject(load.empty() ? "Columns/Pressure" : "Constants/Area",
-                   load.empty() ? "the pressure is needed: a column, "
-                                  "Constants/Pressure, or a normal load with "
-                                  "Constants/Area" :
-                                  "the area is needed to turn the normal load "
-                                  "into a pressure");
-      for (double &value : load)
-        value /= *area;
-      notes["area"] = exact_text(*area) + " mm^2";
-      return load;
-    }
-
-
-
-    // axis: "" or " y".
-    std::vector<double> Converter::friction(const std::string         &axis,
-                                            const std::vector<double> &time,
-                                            const std::vector<double> &motion)
-    {
-      const std::string coefficient = "Friction" + axis;
-      const std::string tangential  = "Tangential load" + axis;
-      if (columns.has(coefficient) == columns.has(tangential))
-        map.reject("Columns/" + coefficient,
-                   "give either this column or '" + tangential + "'");
-      const std::string key =
-        columns.has(coefficient) ? coefficient : tangential;
-      std::vector<double> result = values(key);
-      correct_sensor(key, time, motion, result);
-      if (key == tangential)
-        {
-          std::vector<double> load = normal_load();
-          // Where the normal load varies, the quotient does not repeat itself.
-          if (const auto found = repeated_value(result);
-              found.has_value() && range_of(load) > 0.)
-            doubts.push_back(
-              "the tangential load" + axis + " [N] " + found->words +
-              " (first: line " +
-              std::to_string(table.line(selected[found->first])) + ")");
-          const auto area = constant("Constants/Area", Dimension::area, true);
-          if (load.empty() && !area.has_value())
-            map.reject("Columns/" + tangential,
-                       "a coefficient needs the normal load, too: a column, "
-                       "Constants/Normal load ('5 N assumed' if nobody knows "
-                       "it), or the pressure with Constants/Area");
-          if (load.empty())
-            {
-              for (const double value : pressure())
-                load.push_back(value * *area);
-              notes["area"] = exact_text(*area) + " mm^2";
-            }
-          // Before the first touch there is no load, and no friction.
-          for (std::size_t i = 0; i < result.size(); ++i)
-            result[i] =
-              load[i] == 0. && result[i] == 0. ? 0. : result[i] / load[i];
-        }
-      const std::string sign = map.text("Convention/Friction sign");
-      if (sign == "reversed")
-        for (double &value : result)
-          value = -value;
-      else if (sign == "of the motion")
+    private:
+      // With what is known in place of {1}, {part} and so on.
+      std::string filled_text(const std::string                  &path,
+                              std::map<std::string, std::string> &values) const
+      {
         try
           {
-            give_sign_of_motion(time, motion, result);
+            return filled_in(map.text(path), values);
           }
         catch (const InputError &error)
           {
-            map.reject("Convention/Friction sign", error.what());
+            map.reject(path, error.what());
           }
-      return result;
-    }
+      }
 
-
-
-    void Converter::correct_sensor(const std::string         &key,
-                                   const std::vector<double> &time,
-                                   const std::vector<double> &motion,
-                                   std::vector<double>       &signal)
-    {
-      constexpr double alike = 2.;
-
-      std::string       what  = key;
-      const std::string unit  = key.rfind("Tangential", 0) == 0 ? " N" : "";
-      const std::string drift = map.text("Correction/Drift"),
-                        zero  = map.text("Correction/Zero");
-      std::string path        = "Correction/Drift";
-      what[0]                 = std::tolower(what[0]);
-      try
-        {
-          const double slope = take_off_drift(drift, time, motion, signal);
-          path               = "Correction/Zero";
-          const auto   sign  = zero == "mean of strokes" ?
-                                 friction_of_one_sign(time, motion, signal) :
-                                 std::nullopt;
-          const double value = take_off_zero(zero, time, motion, signal);
-          if (zero.rfind("mean of the first", 0) == 0 && std::abs(value) > 0. &&
-              moves_in_first(zero, time, motion))
-            doubts.push_back(
-              "Correction/Zero = " + zero +
-              ": the record moves in that time. If it touches the plane then, "
-              "friction is taken off the " +
-              what + " with the zero");
-          if (sign.has_value() &&
-              std::abs(sign->forth - sign->back) <= alike * sign->scatter)
-            throw InputError("it takes off nearly all, " +
-                             rounded_text(value, 4) + unit +
-                             ": has the record no sign (Convention/Friction "
-                             "sign = of the motion)?");
-          std::string &note = notes["corrected"];
-          if (drift != "none")
-            note += (note.empty() ? "" : "; ") + what + " less a drift of " +
-                    rounded_text(slope, 4) + unit + "/s about mid-time";
-          if (zero != "none")
-            note += (note.empty() ? "" : "; ") + what + " less " +
-                    rounded_text(value, 4) + unit + ", its " + zero;
-        }
-      catch (const InputError &error)
-        {
-          map.reject(path, error.what());
-        }
-    }
-
-
-
-    void Converter::tidy(MeasuredTest &test) const
-    {
-      const auto key_of = [this](const std::string &channel) {
-        const std::string axis =
-          channel.size() > 2 && channel.substr(channel.size() - 2) == "_y" ?
-            " y" :
-            "";
-        if (channel.rfind("friction", 0) == 0)
-          return (columns.has("Friction" + axis) ? "Friction" :
-                                                   "Tangential load") +
-                 axis;
-        if (channel.rfind("displacement", 0) == 0)
-          return "Displacement" + axis;
-        if (channel == "pressure")
-          return std::string(columns.has("Pressure") ? "Pressure" :
-                                                       "Normal load");
-        return std::string(channel == "time" ? "Time" : "Temperature");
-      };
-      tidy_rows(test,
-                {[&](const std::size_t  row,
-                     const std::string &channel,
-                     const std::string &why) {
-                   columns.reject(selected[row], key_of(channel), why);
-                 },
-                 [&](const std::size_t row) {
-                   return table.line(selected[row]);
-                 }});
-    }
-
-
-
-    void Converter::start_from_zero(MeasuredTest &test) const
-    {
-      if (!map.boolean("Convention/Start from zero"))
-        return;
-      for (auto *series :
-           {&test.time, &test.displacement, &test.displacement_y})
-        if (!series->empty())
+      std::optional<double> constant(const std::string &path,
+                                     const Dimension    dimension,
+                                     const bool         is_positive)
+      {
+        std::map<std::string, std::string> found = raw_file.found;
+        std::string                        text  = filled_text(path, found);
+        if (text.empty())
+          return {};
+        const std::string mark = " assumed";
+        if (text.size() > mark.size() &&
+            text.compare(text.size() - mark.size(), mark.size(), mark) == 0)
           {
-            const double first = series->front();
-            for (double &value : *series)
-              value -= first;
-            if (series != &test.time && first != 0.)
-              {
-                std::string &note = test.notes["positions"];
-                note += (note.empty() ? "counted from " : " and ") +
-                        rounded_text(first, 6) +
-                        (series == &test.displacement ? " mm" : " mm (y)");
-              }
+            text.resize(text.size() - mark.size());
+            const std::string word =
+              path.substr(path.find('/') + 1) + " = " + text;
+            std::string &assumed = notes["assumed"];
+            if (assumed.find(word) == std::string::npos)
+              assumed += (assumed.empty() ? "" : ", ") + word;
           }
-    }
+        try
+          {
+            const double value = parse_quantity(text, dimension, true);
+            if (is_positive && value <= 0.)
+              throw InputError("must be positive");
+            return value;
+          }
+        catch (const InputError &error)
+          {
+            map.reject(path, error.what());
+          }
+      }
 
+      void select_rows()
+      {
+        const double infinity = std::numeric_limits<double>::infinity();
+        const double begin = constant("Selection/Begin", Dimension::time, false)
+                               .value_or(-infinity);
+        const double end =
+          constant("Selection/End", Dimension::time, false).value_or(infinity);
+        const std::vector<double> time = columns.values("Time");
+        for (std::size_t i = 0; i < time.size(); ++i)
+          if (!(time[i] < begin) && !(time[i] > end))
+            selected.push_back(i);
+        if (selected.size() < 2)
+          throw InputError(table.name() + ": " +
+                           std::to_string(selected.size()) + " of " +
+                           std::to_string(time.size()) +
+                           " rows are between Selection/Begin and End");
+      }
 
+      std::vector<double> values(const std::string &key) const
+      {
+        const std::vector<double> all = columns.values(key);
+        std::vector<double>       result(selected.size());
+        for (std::size_t i = 0; i < selected.size(); ++i)
+          result[i] = all[selected[i]];
+        return result;
+      }
 
-    void Converter::thin_out(MeasuredTest &test) const
-    {
-      const std::size_t n_recorded = test.time.size();
-      const std::size_t step       = map.integer("Selection/Row step");
-      if (step > 1)
-        {
-          std::vector<std::size_t> rows;
-          for (std::size_t i = 0; i < n_recorded; i += step)
-            rows.push_back(i);
-          if (rows.size() < 2)
-            map.reject("Selection/Row step",
-                       "of " + std::to_string(n_recorded) +
-                         " rows fewer than two are left");
-          keep_rows(test, rows);
-          test.notes["row step"] = std::to_string(step) + ", " +
-                                   std::to_string(rows.size()) + " of " +
-                                   std::to_string(n_recorded) + " rows";
-        }
-      const std::size_t most = map.integer("Selection/Most rows");
-      const std::size_t n    = test.time.size();
-      if (most == 0 || n <= most)
-        return;
-      ResampleOptions options;
-      options.most_rows = most;
-      // The few rows left no longer show it: peaks and bends look like noise.
-      const double noise = noise_of_friction(test);
-      if (noise > 0.)
-        test.notes.emplace("noise", rounded_text(noise, 3));
-      const auto resampled    = resample(test, options);
-      test                    = resampled.test;
-      test.notes["resampled"] = std::to_string(test.time.size()) + " of " +
-                                std::to_string(n) + " rows; friction within " +
-                                rounded_text(resampled.friction_tolerance, 3) +
-                                " of every row left out";
-    }
+      std::vector<double> displacement(const std::vector<double> &time)
+      {
+        const auto speed = constant("Constants/Speed", Dimension::speed, false);
+        if (columns.has("Displacement") + columns.has("Speed") +
+              speed.has_value() !=
+            1)
+          map.reject(
+            "Columns/Displacement",
+            "give either this column, Columns/Speed or Constants/Speed");
+        if (columns.has("Displacement"))
+          return values("Displacement");
+        if (columns.has("Speed"))
+          {
+            notes["positions"] = "integral of the recorded speed";
+            return integral(time, values("Speed"));
+          }
+        const auto first = // a gap may begin the record
+          std::find_if(time.begin(), time.end(), [](const double value) {
+            return std::isfinite(value);
+          });
+        std::vector<double> result(time);
+        for (double &value : result)
+          value = first == time.end() ? value : *speed * (value - *first);
+        return result;
+      }
 
+      std::vector<double> normal_load()
+      {
+        const auto load =
+          constant("Constants/Normal load", Dimension::force, true);
+        if (columns.has("Normal load") && load.has_value())
+          map.reject("Columns/Normal load",
+                     "give either this column or Constants/Normal load");
+        if (columns.has("Normal load"))
+          return values("Normal load");
+        return load.has_value() ? std::vector<double>(selected.size(), *load) :
+                                  std::vector<double>();
+      }
 
+      std::vector<double> pressure()
+      {
+        const auto given =
+          constant("Constants/Pressure", Dimension::stress, true);
+        const auto area = constant("Constants/Area", Dimension::area, true);
+        std::vector<double> load = normal_load();
+        if (columns.has("Pressure") && given.has_value())
+          map.reject("Columns/Pressure",
+                     "give either this column or Constants/Pressure");
+        if (columns.has("Pressure"))
+          return values("Pressure");
+        if (given.has_value())
+          return std::vector<double>(selected.size(), *given);
+        if (load.empty() || !area.has_value())
+          map.reject(load.empty() ? "Columns/Pressure" : "Constants/Area",
+                     load.empty() ?
+                       "the pressure is needed: a column, "
+                       "Constants/Pressure, or a normal load with "
+                       "Constants/Area" :
+                       "the area is needed to turn the normal load "
+                       "into a pressure");
+        for (double &value : load)
+          value /= *area;
+        notes["area"] = exact_text(*area) + " mm^2";
+        return load;
+      }
 
-    std::vector<MeasuredTest>
-    Converter::parts_of(const MeasuredTest &record) const
-    {
-      const std::string        cut  = map.text("Selection/Cut");
-      std::string              path = "Selection/Cut";
-      std::vector<RecordPart>  parts;
-      std::vector<std::size_t> chosen;
-      try
-        {
-          parts = cut_record(record, cut);
-          if (parts.empty())
-            throw InputError("no part has the two rows that a test needs");
-          path   = "Selection/Parts";
-          chosen = chosen_parts(map.text(path), parts.size());
-        }
-      catch (const InputError &error)
-        {
-          map.reject(path, error.what());
-        }
-      std::vector<MeasuredTest> tests;
-      for (const std::size_t number : chosen)
-        {
-          const RecordPart        &part = parts[number - 1];
-          MeasuredTest             test = record;
-          std::vector<std::size_t> rows(part.end - part.begin);
-          std::iota(rows.begin(), rows.end(), part.begin);
-          keep_rows(test, rows);
-          if (!tests.empty())
-            test.warnings.clear(); // they are of the whole record
-
-          std::map<std::string, std::string> values = raw_file.found;
-          std::string                        numbered, words;
-          if (cut != "none")
-            {
-              const std::string digits = std::to_string(number);
-              values["part"] =
-                std::string(parts.size() > 9 && number < 10 ? "0" : "") +
-                digits;
-              values["way"] =
-                test.displacement.back() < test.displacement.front() ? "back" :
-                                                                       "forth";
-              numbered = "_part_" + values["part"];
-              words    = ", part " + digits;
-              test.notes["part"] =
-                digits + " of " + std::to_string(parts.size()) + " (cut " +
-                cut + "), from " + rounded_text(test.time.front(), 7) +
-                " s to " + rounded_text(test.time.back(), 7) +
-                " s of the record";
-            }
-          const auto text = [&](const std::string &key) {
-            return filled_text("Test/" + key, values);
-          };
-          const auto is_numbered = [&](const std::string &key) {
-            return map.text("Test/" + key).find("{part}") != std::string::npos;
-          };
-          const std::string file = plain_name(text("File"));
-          test.file              = (file.empty() ? name : file) +
-                      (is_numbered("File") ? "" : numbered) + ".csv";
-          const std::string title = text("Name");
-          test.name = (title.empty() ? raw_file.file.stem().string() : title) +
-                      (is_numbered("Name") ? "" : words);
-          test.condition = text("Condition");
-          for (const std::string key : {"Source", "Licence", "Remark"})
-            test.notes[key == "Source"  ? "source" :
-                       key == "Licence" ? "licence" :
-                                          "remark"] = text(key);
-          start_from_zero(test);
-          thin_out(test);
-          tests.push_back(test);
-        }
-      return tests;
-    }
-
-
-
-    std::vector<MeasuredTest> Converter::convert()
-    {
-      if (!columns.has("Time"))
-        map.reject("Columns/Time", "this column is needed");
-      columns.read();
-      select_rows();
-
-      MeasuredTest record;
-      record.file         = raw_file.file;
-      record.time         = values("Time");
-      record.displacement = displacement(record.time);
-      record.pressure     = pressure();
-      record.friction     = friction("", record.time, record.displacement);
-      if (columns.has("Displacement y"))
-        {
-          record.displacement_y = values("Displacement y");
-          record.friction_y =
-            friction(" y", record.time, record.displacement_y);
-        }
-      if (columns.has("Temperature"))
-        record.temperature = values("Temperature");
-      if (map.text("Convention/Displacement sign") == "reversed")
-        for (auto *series : {&record.displacement, &record.displacement_y})
-          for (double &value : *series)
+      // axis: "" or " y".
+      std::vector<double> friction(const std::string         &axis,
+                                   const std::vector<double> &time,
+                                   const std::vector<double> &motion)
+      {
+        const std::string coefficient = "Friction" + axis;
+        const std::string tangential  = "Tangential load" + axis;
+        if (columns.has(coefficient) == columns.has(tangential))
+          map.reject("Columns/" + coefficient,
+                     "give either this column or '" + tangential + "'");
+        const std::string key =
+          columns.has(coefficient) ? coefficient : tangential;
+        std::vector<double> result = values(key);
+        correct_sensor(key, time, motion, result);
+        if (key == tangential)
+          {
+            std::vector<double> load = normal_load();
+            // Where the normal load varies, the quotient does not repeat
+            // itself.
+            if (const auto found = repeated_value(result);
+                found.has_value() && range_of(load) > 0.)
+              doubts.push_back(
+                "the tangential load" + axis + " [N] " + found->words +
+                " (first: line " +
+                std::to_string(table.line(selected[found->first])) + ")");
+            const auto area = constant("Constants/Area", Dimension::area, true);
+            if (load.empty() && !area.has_value())
+              map.reject("Columns/" + tangential,
+                         "a coefficient needs the normal load, too: a column, "
+                         "Constants/Normal load ('5 N assumed' if nobody knows "
+                         "it), or the pressure with Constants/Area");
+            if (load.empty())
+              {
+                for (const double value : pressure())
+                  load.push_back(value * *area);
+                notes["area"] = exact_text(*area) + " mm^2";
+              }
+            // Before the first touch there is no load, and no friction.
+            for (std::size_t i = 0; i < result.size(); ++i)
+              result[i] =
+                load[i] == 0. && result[i] == 0. ? 0. : result[i] / load[i];
+          }
+        const std::string sign = map.text("Convention/Friction sign");
+        if (sign == "reversed")
+          for (double &value : result)
             value = -value;
-      tidy(record);
-      for (const std::string &words : doubts)
-        record.warnings.push_back(raw_file.file.string() + ": " + words);
-      for (const std::string &words : columns.contradictions())
-        {
-          record.warnings.push_back(raw_file.file.string() + ": " + words);
-          std::string &note = notes["units"];
-          note += (note.empty() ? "" : "; ") + words;
-        }
-      record.notes                   = notes;
-      record.notes["converted from"] = raw_file.file.filename().string();
-      return parts_of(record);
-    }
+        else if (sign == "of the motion")
+          try
+            {
+              give_sign_of_motion(time, motion, result);
+            }
+          catch (const InputError &error)
+            {
+              map.reject("Convention/Friction sign", error.what());
+            }
+        return result;
+      }
+
+      void correct_sensor(const std::string         &key,
+                          const std::vector<double> &time,
+                          const std::vector<double> &motion,
+                          std::vector<double>       &signal)
+      {
+        constexpr double alike = 2.;
+
+        std::string       what  = key;
+        const std::string unit  = key.rfind("Tangential", 0) == 0 ? " N" : "";
+        const std::string drift = map.text("Correction/Drift"),
+                          zero  = map.text("Correction/Zero");
+        std::string path        = "Correction/Drift";
+        what[0]                 = std::tolower(what[0]);
+        try
+          {
+            const double slope = take_off_drift(drift, time, motion, signal);
+            path               = "Correction/Zero";
+            const auto   sign  = zero == "mean of strokes" ?
+                                   friction_of_one_sign(time, motion, signal) :
+                                   std::nullopt;
+            const double value = take_off_zero(zero, time, motion, signal);
+            if (zero.rfind("mean of the first", 0) == 0 &&
+                std::abs(value) > 0. && moves_in_first(zero, time, motion))
+              doubts.push_back(
+                "Correction/Zero = " + zero +
+                ": the record moves in that time. If it touches the plane then, "
+                "friction is taken off the " +
+                what + " with the zero");
+            if (sign.has_value() &&
+                std::abs(sign->forth - sign->back) <= alike * sign->scatter)
+              throw InputError("it takes off nearly all, " +
+                               rounded_text(value, 4) + unit +
+                               ": has the record no sign (Convention/Friction "
+                               "sign = of the motion)?");
+            std::string &note = notes["corrected"];
+            if (drift != "none")
+              note += (note.empty() ? "" : "; ") + what + " less a drift of " +
+                      rounded_text(slope, 4) + unit + "/s about mid-time";
+            if (zero != "none")
+              note += (note.empty() ? "" : "; ") + what + " less " +
+                      rounded_text(value, 4) + unit + ", its " + zero;
+          }
+        catch (const InputError &error)
+          {
+            map.reject(path, error.what());
+          }
+      }
+
+      void tidy(MeasuredTest &test) const
+      {
+        const auto key_of = [this](const std::string &channel) {
+          const std::string axis =
+            channel.size() > 2 && channel.substr(channel.size() - 2) == "_y" ?
+              " y" :
+              "";
+          if (channel.rfind("friction", 0) == 0)
+            return (columns.has("Friction" + axis) ? "Friction" :
+                                                     "Tangential load") +
+                   axis;
+          if (channel.rfind("displacement", 0) == 0)
+            return "Displacement" + axis;
+          if (channel == "pressure")
+            return std::string(columns.has("Pressure") ? "Pressure" :
+                                                         "Normal load");
+          return std::string(channel == "time" ? "Time" : "Temperature");
+        };
+        tidy_rows(test,
+                  {[&](const std::size_t  row,
+                       const std::string &channel,
+                       const std::string &why) {
+                     columns.reject(selected[row], key_of(channel), why);
+                   },
+                   [&](const std::size_t row) {
+                     return table.line(selected[row]);
+                   }});
+      }
+
+      std::vector<MeasuredTest> parts_of(const MeasuredTest &record) const
+      {
+        const std::string        cut  = map.text("Selection/Cut");
+        std::string              path = "Selection/Cut";
+        std::vector<RecordPart>  parts;
+        std::vector<std::size_t> chosen;
+        try
+          {
+            parts = cut_record(record, cut);
+            if (parts.empty())
+              throw InputError("no part has the two rows that a test needs");
+            path   = "Selection/Parts";
+            chosen = chosen_parts(map.text(path), parts.size());
+          }
+        catch (const InputError &error)
+          {
+            map.reject(path, error.what());
+          }
+        std::vector<MeasuredTest> tests;
+        for (const std::size_t number : chosen)
+          {
+            const RecordPart        &part = parts[number - 1];
+            MeasuredTest             test = record;
+            std::vector<std::size_t> rows(part.end - part.begin);
+            std::iota(rows.begin(), rows.end(), part.begin);
+            keep_rows(test, rows);
+            if (!tests.empty())
+              test.warnings.clear(); // they are of the whole record
+
+            std::map<std::string, std::string> values = raw_file.found;
+            std::string                        numbered, words;
+            if (cut != "none")
+              {
+                const std::string digits = std::to_string(number);
+                values["part"] =
+                  std::string(parts.size() > 9 && number < 10 ? "0" : "") +
+                  digits;
+                values["way"] =
+                  test.displacement.back() < test.displacement.front() ?
+                    "back" :
+                    "forth";
+                numbered = "_part_" + values["part"];
+                words    = ", part " + digits;
+                test.notes["part"] =
+                  digits + " of " + std::to_string(parts.size()) + " (cut " +
+                  cut + "), from " + rounded_text(test.time.front(), 7) +
+                  " s to " + rounded_text(test.time.back(), 7) +
+                  " s of the record";
+              }
+            const auto text = [&](const std::string &key) {
+              return filled_text("Test/" + key, values);
+            };
+            const auto is_numbered = [&](const std::string &key) {
+              return map.text("Test/" + key).find("{part}") !=
+                     std::string::npos;
+            };
+            const std::string file = plain_name(text("File"));
+            test.file              = (file.empty() ? name : file) +
+                        (is_numbered("File") ? "" : numbered) + ".csv";
+            const std::string title = text("Name");
+            test.name =
+              (title.empty() ? raw_file.file.stem().string() : title) +
+              (is_numbered("Name") ? "" : words);
+            test.condition = text("Condition");
+            for (const std::string key : {"Source", "Licence", "Remark"})
+              test.notes[key == "Source"  ? "source" :
+                         key == "Licence" ? "licence" :
+                                            "remark"] = text(key);
+            start_from_zero(test);
+            thin_out(test);
+            tests.push_back(test);
+          }
+        return tests;
+      }
+
+      void start_from_zero(MeasuredTest &test) const
+      {
+        if (!map.boolean("Convention/Start from zero"))
+          return;
+        for (auto *series :
+             {&test.time, &test.displacement, &test.displacement_y})
+          if (!series->empty())
+            {
+              const double first = series->front();
+              for (double &value : *series)
+                value -= first;
+              if (series != &test.time && first != 0.)
+                {
+                  std::string &note = test.notes["positions"];
+                  note += (note.empty() ? "counted from " : " and ") +
+                          rounded_text(first, 6) +
+                          (series == &test.displacement ? " mm" : " mm (y)");
+                }
+            }
+      }
+
+      void thin_out(MeasuredTest &test) const
+      {
+        const std::size_t n_recorded = test.time.size();
+        const std::size_t step       = map.integer("Selection/Row step");
+        if (step > 1)
+          {
+            std::vector<std::size_t> rows;
+            for (std::size_t i = 0; i < n_recorded; i += step)
+              rows.push_back(i);
+            if (rows.size() < 2)
+              map.reject("Selection/Row step",
+                         "of " + std::to_string(n_recorded) +
+                           " rows fewer than two are left");
+            keep_rows(test, rows);
+            test.notes["row step"] = std::to_string(step) + ", " +
+                                     std::to_string(rows.size()) + " of " +
+                                     std::to_string(n_recorded) + " rows";
+          }
+        const std::size_t most = map.integer("Selection/Most rows");
+        const std::size_t n    = test.time.size();
+        if (most == 0 || n <= most)
+          return;
+        ResampleOptions options;
+        options.most_rows = most;
+        // The few rows left no longer show it: peaks and bends look like noise.
+        const double noise = noise_of_friction(test);
+        if (noise > 0.)
+          test.notes.emplace("noise", rounded_text(noise, 3));
+        const auto resampled = resample(test, options);
+        test                 = resampled.test;
+        test.notes["resampled"] =
+          std::to_string(test.time.size()) + " of " + std::to_string(n) +
+          " rows; friction within " +
+          rounded_text(resampled.friction_tolerance, 3) +
+          " of every row left out";
+      }
+
+      const Parameters        &map;
+      const RawFile            raw_file;
+      const std::string        name;
+      CsvTable                 table;
+      ImportColumns            columns;
+      std::vector<std::size_t> selected;
+
+      /// What was done and supposed, for the comments of the tests.
+      std::map<std::string, std::string> notes;
+      std::vector<std::string>           doubts;
+    };
   } // namespace
 
 

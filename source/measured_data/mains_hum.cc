@@ -28,55 +28,6 @@ namespace SlipStep
     /// Of many none tells for all: no chance counts as less.
     constexpr double most_of_one = 1e-3;
 
-    /// Steps of a series from row to row, seen from a frequency: what is near
-    /// to it turns slowly, and is added up in a few hundred blocks. Steps,
-    /// since what is smooth or jumps has no slope in their spectrum. Distances
-    /// of frequencies are counted in waves per duration.
-    class Neighbourhood
-    {
-    public:
-      /// @param values of the series, what is left or another
-      /// @param is_seen as it is, not as another one
-      Neighbourhood(const HumSeries           &series,
-                    const std::vector<double> &values,
-                    const double               frequency,
-                    const bool                 is_seen = false);
-
-      /// Whether the rows see the frequency as one or two waves at most, or as
-      /// a constant.
-      bool is_slow() const;
-
-      /// @return chance that a peak near the frequency is as high, and its
-      ///   distance from it
-      std::pair<double, double> peak() const;
-
-      /// The highest one farther away [waves].
-      double highest_beyond() const;
-
-      /// Of the noise of rows the power of steps grows with the square of the
-      /// frequency, of a drift it does not: where that is known, it is held
-      /// against its first power.
-      double power(const double distance) const
-      {
-        const double from_zero = std::abs(n_waves + distance);
-        return std::norm(sum(steps, distance)) /
-               (n_waves > 0. ? std::max(from_zero, 1.) : 1.);
-      }
-
-    private:
-      Complex sum(const std::vector<Complex> &values,
-                  const double                distance) const;
-
-      std::vector<double>  place;   ///< of the blocks, from 0 to 1
-      std::vector<Complex> steps;   ///< times a window
-      std::vector<Complex> window;  ///< the same of a constant
-      double               n_waves; ///< that rows see; 0 if they may see others
-      double               reach;   ///< of the search for a peak
-      double               weights; ///< of the window
-    };
-
-
-
     double window_at(const HumSeries &series, const std::size_t row)
     {
       return 0.5 *
@@ -92,106 +43,6 @@ namespace SlipStep
       return std::polar(1.,
                         -two_pi * frequency *
                           (series.time[row] - series.time.front()));
-    }
-
-
-
-    Neighbourhood::Neighbourhood(const HumSeries           &series,
-                                 const std::vector<double> &values,
-                                 const double               frequency,
-                                 const bool                 is_seen)
-    {
-      // The mains keep their frequency within this [Hz]. In a longer record
-      // they wander, and are a wave of one frequency no more.
-      constexpr double      mains_tolerance = 0.05;
-      constexpr double      farthest        = 1.;
-      constexpr std::size_t most_blocks     = 256;
-
-      const std::size_t n        = series.time.size();
-      const std::size_t n_blocks = std::min(n - 1, most_blocks);
-      const double      duration = series.time.back() - series.time.front();
-      n_waves                    = is_seen ? frequency * duration : 0.;
-      reach   = std::clamp(mains_tolerance * duration, 0.5, farthest);
-      weights = 0.;
-      for (std::size_t b = 0; b < n_blocks; ++b)
-        {
-          const std::size_t begin = 1 + b * (n - 1) / n_blocks;
-          const std::size_t end   = 1 + (b + 1) * (n - 1) / n_blocks;
-          double            at    = 0.;
-          Complex           step = 0., constant = 0.;
-          for (std::size_t i = begin; i < end; ++i)
-            {
-              const double  weight = window_at(series, i);
-              const Complex turned = weight * turn(series, i, frequency);
-              step += turned * (values[i] - values[i - 1]);
-              constant += turned;
-              weights += weight;
-              at += (series.time[i] - series.time.front()) / duration /
-                    (end - begin);
-            }
-          place.push_back(at);
-          steps.push_back(step);
-          window.push_back(constant);
-        }
-    }
-
-
-
-    Complex Neighbourhood::sum(const std::vector<Complex> &values,
-                               const double                distance) const
-    {
-      Complex result = 0.;
-      for (std::size_t b = 0; b < values.size(); ++b)
-        result +=
-          values[b] * std::polar(1. / weights, -two_pi * distance * place[b]);
-      return result;
-    }
-
-
-
-    bool Neighbourhood::is_slow() const
-    {
-      constexpr double seen = 0.15; // of a constant
-
-      return std::max(std::abs(sum(window, -0.25)),
-                      std::abs(sum(window, 0.25))) > seen;
-    }
-
-
-
-    double Neighbourhood::highest_beyond() const
-    {
-      constexpr double nearest = 2.;
-
-      // Of rows, or of blocks of them.
-      const double farthest = 0.45 * place.size();
-      double       highest = 0., result = nearest;
-      for (double at = nearest; at < farthest; at += 0.5)
-        if (power(at) / at > highest)
-          {
-            highest = power(at) / at;
-            result  = at;
-          }
-      return result;
-    }
-
-
-
-    // Whether friction has a wave there of which a share is as strong as what
-    // is left: so have strokes forth and back at all multiples of their
-    // frequency.
-    bool is_of_friction(const HumSeries &series,
-                        const double     frequency,
-                        const double     power_left)
-    {
-      constexpr double share = 0.2;
-
-      if (series.friction.empty())
-        return false;
-      const Neighbourhood near(series, series.friction, frequency);
-      const auto [chance, distance] = near.peak();
-      return chance < rare_in_one &&
-             share * share * near.power(distance) > power_left;
     }
 
 
@@ -225,35 +76,160 @@ namespace SlipStep
 
 
 
-    std::pair<double, double> Neighbourhood::peak() const
+    /// Steps of a series from row to row, seen from a frequency: what is near
+    /// to it turns slowly, and is added up in a few hundred blocks. Steps,
+    /// since what is smooth or jumps has no slope in their spectrum. Distances
+    /// of frequencies are counted in waves per duration.
+    class Neighbourhood
     {
-      // The median of n exponential numbers scatters as the mean of fewer.
-      constexpr int    first = 5, step = 2, n = 10;
-      constexpr double n_known = 0.48 * n;
+    public:
+      /// @param values of the series, what is left or another
+      /// @param is_seen as it is, not as another one
+      Neighbourhood(const HumSeries           &series,
+                    const std::vector<double> &values,
+                    const double               frequency,
+                    const bool                 is_seen = false)
+      {
+        // The mains keep their frequency within this [Hz]. In a longer record
+        // they wander, and are a wave of one frequency no more.
+        constexpr double      mains_tolerance = 0.05;
+        constexpr double      farthest        = 1.;
+        constexpr std::size_t most_blocks     = 256;
 
-      std::vector<double> neighbours;
-      for (int i = 0; i < n / 2; ++i)
-        for (const int side : {-1, 1})
-          neighbours.push_back(power(side * (first + i * step)));
-      double highest = 0., distance = 0.;
-      for (double at = -reach; at <= reach; at += 0.5)
-        if (power(at) > highest)
+        const std::size_t n        = series.time.size();
+        const std::size_t n_blocks = std::min(n - 1, most_blocks);
+        const double      duration = series.time.back() - series.time.front();
+        n_waves                    = is_seen ? frequency * duration : 0.;
+        reach   = std::clamp(mains_tolerance * duration, 0.5, farthest);
+        weights = 0.;
+        for (std::size_t b = 0; b < n_blocks; ++b)
           {
-            highest  = power(at);
-            distance = at;
+            const std::size_t begin = 1 + b * (n - 1) / n_blocks;
+            const std::size_t end   = 1 + (b + 1) * (n - 1) / n_blocks;
+            double            at    = 0.;
+            Complex           step = 0., constant = 0.;
+            for (std::size_t i = begin; i < end; ++i)
+              {
+                const double  weight = window_at(series, i);
+                const Complex turned = weight * turn(series, i, frequency);
+                step += turned * (values[i] - values[i - 1]);
+                constant += turned;
+                weights += weight;
+                at += (series.time[i] - series.time.front()) / duration /
+                      (end - begin);
+              }
+            place.push_back(at);
+            steps.push_back(step);
+            window.push_back(constant);
           }
-      const auto best = boost::math::tools::brent_find_minima(
-        [&](const double at) { return -power(at); },
-        distance - 0.5,
-        distance + 0.5,
-        12);
-      const double usual = median(std::move(neighbours));
-      if (!(usual > 0.))
-        return {highest > 0. ? 0. : 1., best.first};
-      const double chance =
-        std::pow(1. + std::log(2.) * power(best.first) / usual / n_known,
-                 -n_known);
-      return {std::min(1., (1. + 2. * reach) * chance), best.first};
+      }
+
+      /// Whether the rows see the frequency as one or two waves at most, or as
+      /// a constant.
+      bool is_slow() const
+      {
+        constexpr double seen = 0.15; // of a constant
+
+        return std::max(std::abs(sum(window, -0.25)),
+                        std::abs(sum(window, 0.25))) > seen;
+      }
+
+      /// @return chance that a peak near the frequency is as high, and its
+      ///   distance from it
+      std::pair<double, double> peak() const
+      {
+        // The median of n exponential numbers scatters as the mean of fewer.
+        constexpr int    first = 5, step = 2, n = 10;
+        constexpr double n_known = 0.48 * n;
+
+        std::vector<double> neighbours;
+        for (int i = 0; i < n / 2; ++i)
+          for (const int side : {-1, 1})
+            neighbours.push_back(power(side * (first + i * step)));
+        double highest = 0., distance = 0.;
+        for (double at = -reach; at <= reach; at += 0.5)
+          if (power(at) > highest)
+            {
+              highest  = power(at);
+              distance = at;
+            }
+        const auto best = boost::math::tools::brent_find_minima(
+          [&](const double at) { return -power(at); },
+          distance - 0.5,
+          distance + 0.5,
+          12);
+        const double usual = median(std::move(neighbours));
+        if (!(usual > 0.))
+          return {highest > 0. ? 0. : 1., best.first};
+        const double chance =
+          std::pow(1. + std::log(2.) * power(best.first) / usual / n_known,
+                   -n_known);
+        return {std::min(1., (1. + 2. * reach) * chance), best.first};
+      }
+
+      /// The highest one farther away [waves].
+      double highest_beyond() const
+      {
+        constexpr double nearest = 2.;
+
+        // Of rows, or of blocks of them.
+        const double farthest = 0.45 * place.size();
+        double       highest = 0., result = nearest;
+        for (double at = nearest; at < farthest; at += 0.5)
+          if (power(at) / at > highest)
+            {
+              highest = power(at) / at;
+              result  = at;
+            }
+        return result;
+      }
+
+      /// Of the noise of rows the power of steps grows with the square of the
+      /// frequency, of a drift it does not: where that is known, it is held
+      /// against its first power.
+      double power(const double distance) const
+      {
+        const double from_zero = std::abs(n_waves + distance);
+        return std::norm(sum(steps, distance)) /
+               (n_waves > 0. ? std::max(from_zero, 1.) : 1.);
+      }
+
+    private:
+      Complex sum(const std::vector<Complex> &values,
+                  const double                distance) const
+      {
+        Complex result = 0.;
+        for (std::size_t b = 0; b < values.size(); ++b)
+          result +=
+            values[b] * std::polar(1. / weights, -two_pi * distance * place[b]);
+        return result;
+      }
+
+      std::vector<double>  place;   ///< of the blocks, from 0 to 1
+      std::vector<Complex> steps;   ///< times a window
+      std::vector<Complex> window;  ///< the same of a constant
+      double               n_waves; ///< that rows see; 0 if they may see others
+      double               reach;   ///< of the search for a peak
+      double               weights; ///< of the window
+    };
+
+
+
+    // Whether friction has a wave there of which a share is as strong as what
+    // is left: so have strokes forth and back at all multiples of their
+    // frequency.
+    bool is_of_friction(const HumSeries &series,
+                        const double     frequency,
+                        const double     power_left)
+    {
+      constexpr double share = 0.2;
+
+      if (series.friction.empty())
+        return false;
+      const Neighbourhood near(series, series.friction, frequency);
+      const auto [chance, distance] = near.peak();
+      return chance < rare_in_one &&
+             share * share * near.power(distance) > power_left;
     }
 
 
@@ -261,6 +237,8 @@ namespace SlipStep
     /// Series of about the same speed and the same distance of rows: a wave of
     /// the track looks alike in them.
     using Motion = std::pair<long, long>;
+
+
 
     Motion motion_of(const HumSeries &series)
     {

@@ -89,14 +89,78 @@ namespace SlipStep
       {}
 
       /// @return whether there is such a column
-      bool find(const Channel &channel, Source &source);
+      bool find(const Channel &channel, Source &source)
+      {
+        nearly.clear();
+        bool is_found = false;
+        for (std::size_t i = 0; i < table.header().size(); ++i)
+          {
+            UnitConversion conversion;
+            if (!matches(i, channel, conversion))
+              continue;
+            if (is_found)
+              table.reject_header(i,
+                                  "column '" + channel.column() +
+                                    "' is given twice");
+            is_found = true;
+            source   = {i, conversion};
+          }
+        if (!is_found && !nearly.empty() && !channel.is_required)
+          ignored.push_back(nearly.front().second + "; the column is not read");
+        else if (!is_found && !nearly.empty())
+          table.reject_header(nearly.front().first, nearly.front().second);
+        if (!is_found && channel.is_required)
+          reject_missing(channel);
+        return is_found;
+      }
 
     private:
       bool matches(const std::size_t position,
                    const Channel    &channel,
-                   UnitConversion   &conversion);
+                   UnitConversion   &conversion)
+      {
+        const std::string &cell    = table.header()[position];
+        Heading            heading = split_heading(cell);
+        const std::string  start   = channel.name + "_";
+        if (!heading.has_brackets && heading.name.rfind(start, 0) == 0)
+          heading = {channel.name, cell.substr(start.size()), false};
+        if (heading.name != channel.name)
+          return false;
 
-      [[noreturn]] void reject_missing(const Channel &channel) const;
+        if (channel.dimension == Dimension::number)
+          return heading.unit.empty() || heading.unit == "-" ||
+                 heading.unit == "1";
+        if (heading.unit.empty())
+          nearly.emplace_back(position,
+                              "the unit of '" + cell +
+                                "' is missing: write it as '" +
+                                channel.column() + "' or '" + channel.name +
+                                " [" + channel.unit + "]'");
+        else
+          try
+            {
+              conversion = unit_conversion(heading.unit, channel.dimension);
+              return true;
+            }
+          catch (const InputError &error)
+            {
+              // Columns such as displacement_y_mm or time_of_day mean no harm.
+              nearly.emplace_back(position,
+                                  "'" + cell +
+                                    "': " + std::string(error.what()));
+            }
+        return false;
+      }
+
+      [[noreturn]] void reject_missing(const Channel &channel) const
+      {
+        const std::string found = table.header_words();
+        table.reject_header(0,
+                            "column '" + channel.column() +
+                              "' is missing (the header has: " + found + ")" +
+                              did_you_mean(channel.column(), table.header()) +
+                              "; slipstep import converts other files");
+      }
 
       const CsvTable &table;
       /// Columns that would do but for their unit, with what is wrong of it.
@@ -107,76 +171,7 @@ namespace SlipStep
       std::vector<std::string> ignored;
     };
 
-    bool HeaderReader::find(const Channel &channel, Source &source)
-    {
-      nearly.clear();
-      bool is_found = false;
-      for (std::size_t i = 0; i < table.header().size(); ++i)
-        {
-          UnitConversion conversion;
-          if (!matches(i, channel, conversion))
-            continue;
-          if (is_found)
-            table.reject_header(i,
-                                "column '" + channel.column() +
-                                  "' is given twice");
-          is_found = true;
-          source   = {i, conversion};
-        }
-      if (!is_found && !nearly.empty() && !channel.is_required)
-        ignored.push_back(nearly.front().second + "; the column is not read");
-      else if (!is_found && !nearly.empty())
-        table.reject_header(nearly.front().first, nearly.front().second);
-      if (!is_found && channel.is_required)
-        reject_missing(channel);
-      return is_found;
-    }
 
-    bool HeaderReader::matches(const std::size_t position,
-                               const Channel    &channel,
-                               UnitConversion   &conversion)
-    {
-      const std::string &cell    = table.header()[position];
-      Heading            heading = split_heading(cell);
-      const std::string  start   = channel.name + "_";
-      if (!heading.has_brackets && heading.name.rfind(start, 0) == 0)
-        heading = {channel.name, cell.substr(start.size()), false};
-      if (heading.name != channel.name)
-        return false;
-
-      if (channel.dimension == Dimension::number)
-        return heading.unit.empty() || heading.unit == "-" ||
-               heading.unit == "1";
-      if (heading.unit.empty())
-        nearly.emplace_back(position,
-                            "the unit of '" + cell +
-                              "' is missing: write it as '" + channel.column() +
-                              "' or '" + channel.name + " [" + channel.unit +
-                              "]'");
-      else
-        try
-          {
-            conversion = unit_conversion(heading.unit, channel.dimension);
-            return true;
-          }
-        catch (const InputError &error)
-          {
-            // Columns such as displacement_y_mm or time_of_day mean no harm.
-            nearly.emplace_back(position,
-                                "'" + cell + "': " + std::string(error.what()));
-          }
-      return false;
-    }
-
-    void HeaderReader::reject_missing(const Channel &channel) const
-    {
-      const std::string found = table.header_words();
-      table.reject_header(0,
-                          "column '" + channel.column() +
-                            "' is missing (the header has: " + found + ")" +
-                            did_you_mean(channel.column(), table.header()) +
-                            "; slipstep import converts other files");
-    }
 
     void read_notes(const CsvTable &table, MeasuredTest &test)
     {

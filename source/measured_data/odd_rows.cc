@@ -148,142 +148,6 @@ namespace SlipStep
 
 
 
-    class OddRows
-    {
-    public:
-      using Warn = std::function<void(const std::string &, const std::size_t)>;
-
-      OddRows(const MeasuredTest &test, const Warn &warn)
-        : test(test)
-        , warn(warn)
-      {}
-
-      void warn_of_scales() const;
-
-      void warn_of_pauses() const;
-
-      void warn_of_jumps() const;
-
-      void warn_of_sensors() const;
-
-      void warn_of_excursions() const;
-
-    private:
-      void warn_of_strays(const std::string         &name,
-                          const std::vector<double> &values,
-                          const double               limit) const;
-
-      const MeasuredTest &test;
-      const Warn         &warn;
-    };
-
-
-
-    // What no laboratory measures is a unit, a scale or an offset that went
-    // wrong. A few rows do not count: loads that open have any friction.
-    void OddRows::warn_of_scales() const
-    {
-      constexpr double largest_pressure =
-        3e3;                           // MPa, as the hardest metals bear
-      constexpr double fastest = 1e6;  // mm/s
-      constexpr double slowest = 1e-8; // mm/s, a third of a mm a year
-
-      std::vector<double> friction;
-      for (std::size_t i = 0; i < test.time.size(); ++i)
-        friction.push_back(
-          std::hypot(test.friction[i],
-                     test.friction_y.empty() ? 0. : test.friction_y[i]));
-      const double usual = usual_size(friction);
-      if (usual > largest_friction)
-        warn("friction reaches " + rounded_text(usual, 3) +
-               " of the pressure: is it a force, a percentage, or the pressure "
-               "wrong?",
-             0);
-      else
-        warn_of_strays("friction",
-                       friction,
-                       std::max(largest_friction, 5. * usual));
-      if (median(test.pressure) > largest_pressure)
-        warn("the pressure is " + rounded_text(median(test.pressure), 3) +
-               " MPa: is its unit right?",
-             0);
-      const double speed =
-        std::hypot(range_of(test.displacement), range_of(test.displacement_y)) /
-        (test.time.back() - test.time.front());
-      if (speed > fastest || (speed > 0. && speed < slowest))
-        warn("it moves at " + rounded_text(speed, 3) +
-               " mm/s: are the units of displacement and time right?",
-             0);
-    }
-
-
-
-    // Rows far from all others, under load.
-    void OddRows::warn_of_strays(const std::string         &name,
-                                 const std::vector<double> &values,
-                                 const double               limit) const
-    {
-      const double load = 0.5 * median(test.pressure);
-      std::size_t  n = 0, first = 0;
-      for (std::size_t i = 0; i < values.size(); ++i)
-        if (values[i] > limit && test.pressure[i] >= load && n++ == 0)
-          first = i;
-      if (n > 0)
-        warn(name + " is " + rounded_text(values[first], 3) +
-               " there, far from the other rows: an error code, or a spike? "
-               "Leave out rows that measure nothing. Such rows: " +
-               std::to_string(n),
-             first);
-    }
-
-
-
-    // A step of time far longer than the others, within which it moves on as
-    // from row to row: the machine stood, or the clock jumped. Read as it is,
-    // it slides slowly there.
-    void OddRows::warn_of_pauses() const
-    {
-      constexpr std::size_t beside    = 5; // rows
-      constexpr double      long_step = 20., slow = 0.05, moves = 0.2;
-
-      const auto way = [&](const std::size_t from, const std::size_t to) {
-        return std::hypot(test.displacement[to] - test.displacement[from],
-                          test.displacement_y.empty() ?
-                            0. :
-                            test.displacement_y[to] -
-                              test.displacement_y[from]);
-      };
-      std::vector<double> steps;
-      for (std::size_t i = 1; i < test.time.size(); ++i)
-        steps.push_back(test.time[i] - test.time[i - 1]);
-      const double usual = median(steps);
-      std::size_t  n = 0, first = 0;
-      for (std::size_t i = beside + 1; i + beside < test.time.size(); ++i)
-        {
-          const double before = way(i - 1 - beside, i - 1);
-          const double after  = way(i, i + beside);
-          const double speed =
-            std::min(before / (test.time[i - 1] - test.time[i - 1 - beside]),
-                     after / (test.time[i + beside] - test.time[i]));
-          const double moved = way(i - 1, i);
-          if (steps[i - 1] > long_step * usual &&
-              moved < slow * speed * steps[i - 1] &&
-              moved > moves * std::min(before, after) / beside && n++ == 0)
-            first = i;
-        }
-      if (n > 0)
-        warn("time goes on by " + rounded_text(steps[first - 1], 3) +
-               " s within one row while it moves " +
-               rounded_text(way(first - 1, first), 3) +
-               " mm, which is read as sliding that slowly: if the clock jumped "
-               "or the machine stood still, correct the times or add a row "
-               "where it stopped. Such rows: " +
-               std::to_string(n),
-             first);
-    }
-
-
-
     // Rows, some one after the other at most, to which a series goes in a step
     // far longer than usual and from which it comes back at once.
     std::vector<std::size_t> excursions(const std::vector<double> &x,
@@ -324,126 +188,239 @@ namespace SlipStep
 
 
 
-    // Codes of errors, spikes and drop-outs. Friction may well go there and
-    // back for a moment, after a rest or a change of speed, but not to zero, to
-    // the other side, or to three times what it is.
-    void OddRows::warn_of_excursions() const
+    class OddRows
     {
-      constexpr double times = 3., least_friction = 1e-3;
+    public:
+      using Warn = std::function<void(const std::string &, const std::size_t)>;
 
-      const auto tell = [&](const std::string              &words,
-                            const std::string              &unit,
-                            const std::vector<double>      &values,
-                            const std::vector<std::size_t> &rows) {
-        if (!rows.empty())
-          warn(words + rounded_text(values[rows[0]], 4) + unit +
-                 " there and back at once: an error code, or a spike? Leave "
-                 "out rows that measure nothing. Such rows: " +
-                 std::to_string(rows.size()),
-               rows[0]);
-      };
-      for (const auto &[name, friction, x] :
-           {std::tuple{"friction", &test.friction, &test.displacement},
-            std::tuple{"friction_y", &test.friction_y, &test.displacement_y}})
-        {
-          if (friction->empty())
-            continue;
-          // There or a row beside.
-          const auto turns = [&x = *x](const std::size_t row) {
-            for (std::size_t i = std::max<std::size_t>(row, 3) - 1;
-                 i < std::min(row + 2, x.size());
-                 ++i)
-              if ((x[i] - x[i - 1]) * (x[i - 1] - x[i - 2]) < 0.)
-                return true;
-            return false;
-          };
-          const double             usual = usual_size(*friction);
-          std::vector<std::size_t> rows;
-          for (const std::size_t row :
-               excursions(under_load(*friction, test), 0.5 * usual))
-            {
-              const double value = (*friction)[row];
-              const double size  = std::abs(value);
-              // Beyond the largest friction it has been told already.
-              if (size <= largest_friction &&
-                  (size < least_friction * usual || size > times * usual ||
-                   (value * (*friction)[row - 1] < 0. && !turns(row))))
-                rows.push_back(row);
-            }
-          tell(std::string(name) + " goes to ", "", *friction, rows);
-        }
-      tell("the displacement goes to ",
-           " mm",
-           test.displacement,
-           excursions(test.displacement, 0.));
-      tell("the second displacement goes to ",
-           " mm",
-           test.displacement_y,
-           excursions(test.displacement_y, 0.));
-      // From full load, and to it.
-      const double             load = 0.5 * median(test.pressure);
-      std::vector<double>      decades;
-      std::vector<std::size_t> rows;
-      for (const double pressure : test.pressure)
-        decades.push_back(std::log10(std::max(pressure, 1e-6 * load)));
-      for (const std::size_t row : excursions(decades, std::log10(times)))
-        if (test.pressure[row - 1] >= load ||
-            (!rows.empty() && row == rows.back() + 1))
-          rows.push_back(row);
-      tell("the pressure goes to ", " MPa", test.pressure, rows);
-    }
+      OddRows(const MeasuredTest &test, const Warn &warn)
+        : test(test)
+        , warn(warn)
+      {}
 
+      // What no laboratory measures is a unit, a scale or an offset that went
+      // wrong. A few rows do not count: loads that open have any friction.
+      void warn_of_scales() const
+      {
+        constexpr double largest_pressure =
+          3e3;                           // MPa, as the hardest metals bear
+        constexpr double fastest = 1e6;  // mm/s
+        constexpr double slowest = 1e-8; // mm/s, a third of a mm a year
 
+        std::vector<double> friction;
+        for (std::size_t i = 0; i < test.time.size(); ++i)
+          friction.push_back(
+            std::hypot(test.friction[i],
+                       test.friction_y.empty() ? 0. : test.friction_y[i]));
+        const double usual = usual_size(friction);
+        if (usual > largest_friction)
+          warn(
+            "friction reaches " + rounded_text(usual, 3) +
+              " of the pressure: is it a force, a percentage, or the pressure "
+              "wrong?",
+            0);
+        else
+          warn_of_strays("friction",
+                         friction,
+                         std::max(largest_friction, 5. * usual));
+        if (median(test.pressure) > largest_pressure)
+          warn("the pressure is " + rounded_text(median(test.pressure), 3) +
+                 " MPa: is its unit right?",
+               0);
+        const double speed = std::hypot(range_of(test.displacement),
+                                        range_of(test.displacement_y)) /
+                             (test.time.back() - test.time.front());
+        if (speed > fastest || (speed > 0. && speed < slowest))
+          warn("it moves at " + rounded_text(speed, 3) +
+                 " mm/s: are the units of displacement and time right?",
+               0);
+      }
 
-    // From one row to the next against the motion of the rows on both sides, by
-    // far more than these move, and a good part of the way: no machine does
-    // that.
-    void OddRows::warn_of_jumps() const
-    {
-      constexpr std::size_t beside = 5; // rows
-      constexpr double      far = 3., good_part = 0.05;
+      // A step of time far longer than the others, within which it moves on as
+      // from row to row: the machine stood, or the clock jumped. Read as it is,
+      // it slides slowly there.
+      void warn_of_pauses() const
+      {
+        constexpr std::size_t beside    = 5; // rows
+        constexpr double      long_step = 20., slow = 0.05, moves = 0.2;
 
-      const std::vector<double> &x = test.displacement;
-      // An axis along which nothing moves has noise only.
-      const double least =
-        good_part * std::max(range_of(x),
-                             test.displacement_y.empty() ?
-                               0. :
-                               range_of(test.displacement_y));
-      std::size_t n     = 0;
-      std::size_t first = 0;
-      for (std::size_t i = beside + 1; i + beside < x.size(); ++i)
-        {
-          const double jump   = x[i] - x[i - 1];
-          const double before = x[i - 1] - x[i - 1 - beside];
-          const double after  = x[i + beside] - x[i];
-          if (before * after > 0. && jump * before < 0. &&
-              std::abs(jump) > least &&
-              std::abs(jump) >
-                far * std::max(std::abs(before), std::abs(after)) &&
-              n++ == 0)
+        const auto way = [&](const std::size_t from, const std::size_t to) {
+          return std::hypot(test.displacement[to] - test.displacement[from],
+                            test.displacement_y.empty() ?
+                              0. :
+                              test.displacement_y[to] -
+                                test.displacement_y[from]);
+        };
+        std::vector<double> steps;
+        for (std::size_t i = 1; i < test.time.size(); ++i)
+          steps.push_back(test.time[i] - test.time[i - 1]);
+        const double usual = median(steps);
+        std::size_t  n = 0, first = 0;
+        for (std::size_t i = beside + 1; i + beside < test.time.size(); ++i)
+          {
+            const double before = way(i - 1 - beside, i - 1);
+            const double after  = way(i, i + beside);
+            const double speed =
+              std::min(before / (test.time[i - 1] - test.time[i - 1 - beside]),
+                       after / (test.time[i + beside] - test.time[i]));
+            const double moved = way(i - 1, i);
+            if (steps[i - 1] > long_step * usual &&
+                moved < slow * speed * steps[i - 1] &&
+                moved > moves * std::min(before, after) / beside && n++ == 0)
+              first = i;
+          }
+        if (n > 0)
+          warn(
+            "time goes on by " + rounded_text(steps[first - 1], 3) +
+              " s within one row while it moves " +
+              rounded_text(way(first - 1, first), 3) +
+              " mm, which is read as sliding that slowly: if the clock jumped "
+              "or the machine stood still, correct the times or add a row "
+              "where it stopped. Such rows: " +
+              std::to_string(n),
+            first);
+      }
+
+      // From one row to the next against the motion of the rows on both sides,
+      // by far more than these move, and a good part of the way: no machine
+      // does that.
+      void warn_of_jumps() const
+      {
+        constexpr std::size_t beside = 5; // rows
+        constexpr double      far = 3., good_part = 0.05;
+
+        const std::vector<double> &x = test.displacement;
+        // An axis along which nothing moves has noise only.
+        const double least =
+          good_part * std::max(range_of(x),
+                               test.displacement_y.empty() ?
+                                 0. :
+                                 range_of(test.displacement_y));
+        std::size_t n     = 0;
+        std::size_t first = 0;
+        for (std::size_t i = beside + 1; i + beside < x.size(); ++i)
+          {
+            const double jump   = x[i] - x[i - 1];
+            const double before = x[i - 1] - x[i - 1 - beside];
+            const double after  = x[i + beside] - x[i];
+            if (before * after > 0. && jump * before < 0. &&
+                std::abs(jump) > least &&
+                std::abs(jump) >
+                  far * std::max(std::abs(before), std::abs(after)) &&
+                n++ == 0)
+              first = i;
+          }
+        if (n > 0)
+          warn(
+            "the displacement jumps by " +
+              rounded_text(x[first] - x[first - 1], 3) +
+              " mm within one row, against the motion before and after: did a "
+              "counter wrap, or are rows missing? Such rows: " +
+              std::to_string(n),
+            first);
+      }
+
+      void warn_of_sensors() const
+      {
+        for (const auto &[name, values] :
+             {std::pair{"friction", &test.friction},
+              std::pair{"friction_y", &test.friction_y},
+              std::pair{"pressure", &test.pressure}})
+          if (const auto found = repeated_value(under_load(*values, test)))
+            warn(std::string(name) + " " + found->words, found->first);
+      }
+
+      // Codes of errors, spikes and drop-outs. Friction may well go there and
+      // back for a moment, after a rest or a change of speed, but not to zero,
+      // to the other side, or to three times what it is.
+      void warn_of_excursions() const
+      {
+        constexpr double times = 3., least_friction = 1e-3;
+
+        const auto tell = [&](const std::string              &words,
+                              const std::string              &unit,
+                              const std::vector<double>      &values,
+                              const std::vector<std::size_t> &rows) {
+          if (!rows.empty())
+            warn(words + rounded_text(values[rows[0]], 4) + unit +
+                   " there and back at once: an error code, or a spike? Leave "
+                   "out rows that measure nothing. Such rows: " +
+                   std::to_string(rows.size()),
+                 rows[0]);
+        };
+        for (const auto &[name, friction, x] :
+             {std::tuple{"friction", &test.friction, &test.displacement},
+              std::tuple{"friction_y", &test.friction_y, &test.displacement_y}})
+          {
+            if (friction->empty())
+              continue;
+            // There or a row beside.
+            const auto turns = [&x = *x](const std::size_t row) {
+              for (std::size_t i = std::max<std::size_t>(row, 3) - 1;
+                   i < std::min(row + 2, x.size());
+                   ++i)
+                if ((x[i] - x[i - 1]) * (x[i - 1] - x[i - 2]) < 0.)
+                  return true;
+              return false;
+            };
+            const double             usual = usual_size(*friction);
+            std::vector<std::size_t> rows;
+            for (const std::size_t row :
+                 excursions(under_load(*friction, test), 0.5 * usual))
+              {
+                const double value = (*friction)[row];
+                const double size  = std::abs(value);
+                // Beyond the largest friction it has been told already.
+                if (size <= largest_friction &&
+                    (size < least_friction * usual || size > times * usual ||
+                     (value * (*friction)[row - 1] < 0. && !turns(row))))
+                  rows.push_back(row);
+              }
+            tell(std::string(name) + " goes to ", "", *friction, rows);
+          }
+        tell("the displacement goes to ",
+             " mm",
+             test.displacement,
+             excursions(test.displacement, 0.));
+        tell("the second displacement goes to ",
+             " mm",
+             test.displacement_y,
+             excursions(test.displacement_y, 0.));
+        // From full load, and to it.
+        const double             load = 0.5 * median(test.pressure);
+        std::vector<double>      decades;
+        std::vector<std::size_t> rows;
+        for (const double pressure : test.pressure)
+          decades.push_back(std::log10(std::max(pressure, 1e-6 * load)));
+        for (const std::size_t row : excursions(decades, std::log10(times)))
+          if (test.pressure[row - 1] >= load ||
+              (!rows.empty() && row == rows.back() + 1))
+            rows.push_back(row);
+        tell("the pressure goes to ", " MPa", test.pressure, rows);
+      }
+
+    private:
+      // Rows far from all others, under load.
+      void warn_of_strays(const std::string         &name,
+                          const std::vector<double> &values,
+                          const double               limit) const
+      {
+        const double load = 0.5 * median(test.pressure);
+        std::size_t  n = 0, first = 0;
+        for (std::size_t i = 0; i < values.size(); ++i)
+          if (values[i] > limit && test.pressure[i] >= load && n++ == 0)
             first = i;
-        }
-      if (n > 0)
-        warn("the displacement jumps by " +
-               rounded_text(x[first] - x[first - 1], 3) +
-               " mm within one row, against the motion before and after: did a "
-               "counter wrap, or are rows missing? Such rows: " +
-               std::to_string(n),
-             first);
-    }
+        if (n > 0)
+          warn(name + " is " + rounded_text(values[first], 3) +
+                 " there, far from the other rows: an error code, or a spike? "
+                 "Leave out rows that measure nothing. Such rows: " +
+                 std::to_string(n),
+               first);
+      }
 
-
-
-    void OddRows::warn_of_sensors() const
-    {
-      for (const auto &[name, values] :
-           {std::pair{"friction", &test.friction},
-            std::pair{"friction_y", &test.friction_y},
-            std::pair{"pressure", &test.pressure}})
-        if (const auto found = repeated_value(under_load(*values, test)))
-          warn(std::string(name) + " " + found->words, found->first);
-    }
+      const MeasuredTest &test;
+      const Warn         &warn;
+    };
   } // namespace
 
 

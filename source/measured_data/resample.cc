@@ -19,20 +19,121 @@ namespace SlipStep
     class Selection
     {
     public:
-      Selection(const MeasuredTest &test, const ResampleOptions &options);
+      Selection(const MeasuredTest &test, const ResampleOptions &options)
+        : test(test)
+        , options(options)
+      {
+        for (const Channel &channel : channels())
+          {
+            const std::vector<double> &values = test.*(channel.values);
+            if (channel.name == "time" || values.empty())
+              continue;
+            // What counts of a pressure is its share, however steady it is.
+            const double extent =
+              channel.name == "pressure" ?
+                *std::max_element(values.begin(), values.end()) :
+                range_of(values);
+            series.push_back(
+              {&values,
+               std::max(options.noise_multiple * noise_level(values),
+                        options.least_share * extent)});
+          }
+        keep_landmarks();
+      }
 
       /// @param factor on all tolerances
-      std::vector<std::size_t> rows(const double factor) const;
+      std::vector<std::size_t> rows(const double factor) const
+      {
+        return rows_of_bends(test.time,
+                             series,
+                             {landmarks.begin(), landmarks.end()},
+                             factor);
+      }
 
-      double tolerance(const std::vector<double> &values) const;
+      double tolerance(const std::vector<double> &values) const
+      {
+        for (const BendingChannel &one : series)
+          if (one.values == &values)
+            return one.tolerance;
+        return 0.;
+      }
 
     private:
-      void keep_landmarks();
+      // A stroke ends at the farthest point before the displacement turns.
+      void keep_landmarks()
+      {
+        const std::size_t n = test.time.size();
+        landmarks           = {0, n - 1};
+        keep_extremes_of_friction(0, n);
+        keep_rests();
 
-      void keep_rests();
+        for (const auto *position : {&test.displacement, &test.displacement_y})
+          if (!position->empty())
+            {
+              const double band  = std::max(least_stroke * range_of(*position),
+                                           tolerance(*position));
+              std::size_t  start = 0;
+              for (const std::size_t turn : turning_rows(*position, band))
+                {
+                  landmarks.insert(turn);
+                  keep_extremes_of_friction(start, turn + 1);
+                  start = turn;
+                }
+              keep_extremes_of_friction(start, n);
+            }
+      }
+
+      // Friction answers to motion within micrometres, far less than what a
+      // position may be off: where rests begin and end is kept. Of positions
+      // that tremble or are rounded that is not known to the row, and only when
+      // motion begins is.
+      void keep_rests()
+      {
+        constexpr double      steady = 1e-4; // of the track
+        constexpr std::size_t most   = 40;   // more are stairs
+
+        const std::size_t n = test.time.size();
+        const double      track =
+          std::max(range_of(test.displacement), range_of(test.displacement_y));
+        bool is_precise = options.motion_step == 0.;
+        for (const auto *position : {&test.displacement, &test.displacement_y})
+          is_precise =
+            is_precise &&
+            (position->empty() ||
+             options.noise_multiple * noise_level(*position) <= steady * track);
+        std::vector<bool> moves(n, false);
+        for (const auto *position : {&test.displacement, &test.displacement_y})
+          if (!position->empty() && range_of(*position) > 0.)
+            {
+              const double band =
+                is_precise ? options.noise_multiple * noise_level(*position) :
+                             std::max(least_stroke * range_of(*position),
+                                      tolerance(*position));
+              const std::vector<double> smooth =
+                without_jitter(*position, band);
+              for (std::size_t i = 1; i < n; ++i)
+                moves[i] = moves[i] || smooth[i] != smooth[i - 1];
+            }
+        std::vector<std::size_t> ends;
+        for (std::size_t i = 1; i < n; ++i)
+          if (moves[i] != moves[i - 1])
+            ends.push_back(i - 1);
+        if (ends.empty())
+          return;
+        landmarks.insert(ends.front());
+        if (is_precise && ends.size() <= most)
+          landmarks.insert(ends.begin(), ends.end());
+      }
 
       void keep_extremes_of_friction(const std::size_t begin,
-                                     const std::size_t end);
+                                     const std::size_t end)
+      {
+        const auto [least, most] =
+          std::minmax_element(test.friction.begin() + begin,
+                              test.friction.begin() + end);
+        landmarks.insert(least - test.friction.begin());
+        landmarks.insert(most - test.friction.begin());
+      }
 
 
       const MeasuredTest         &test;
@@ -40,132 +141,6 @@ namespace SlipStep
       std::vector<BendingChannel> series;
       std::set<std::size_t>       landmarks;
     };
-
-
-
-    Selection::Selection(const MeasuredTest    &test,
-                         const ResampleOptions &options)
-      : test(test)
-      , options(options)
-    {
-      for (const Channel &channel : channels())
-        {
-          const std::vector<double> &values = test.*(channel.values);
-          if (channel.name == "time" || values.empty())
-            continue;
-          // What counts of a pressure is its share, however steady it is.
-          const double extent =
-            channel.name == "pressure" ?
-              *std::max_element(values.begin(), values.end()) :
-              range_of(values);
-          series.push_back(
-            {&values,
-             std::max(options.noise_multiple * noise_level(values),
-                      options.least_share * extent)});
-        }
-      keep_landmarks();
-    }
-
-
-
-    double Selection::tolerance(const std::vector<double> &values) const
-    {
-      for (const BendingChannel &one : series)
-        if (one.values == &values)
-          return one.tolerance;
-      return 0.;
-    }
-
-
-
-    void Selection::keep_extremes_of_friction(const std::size_t begin,
-                                              const std::size_t end)
-    {
-      const auto [least, most] =
-        std::minmax_element(test.friction.begin() + begin,
-                            test.friction.begin() + end);
-      landmarks.insert(least - test.friction.begin());
-      landmarks.insert(most - test.friction.begin());
-    }
-
-
-
-    // Friction answers to motion within micrometres, far less than what a
-    // position may be off: where rests begin and end is kept. Of positions that
-    // tremble or are rounded that is not known to the row, and only when motion
-    // begins is.
-    void Selection::keep_rests()
-    {
-      constexpr double      steady = 1e-4; // of the track
-      constexpr std::size_t most   = 40;   // more are stairs
-
-      const std::size_t n = test.time.size();
-      const double      track =
-        std::max(range_of(test.displacement), range_of(test.displacement_y));
-      bool is_precise = options.motion_step == 0.;
-      for (const auto *position : {&test.displacement, &test.displacement_y})
-        is_precise =
-          is_precise &&
-          (position->empty() ||
-           options.noise_multiple * noise_level(*position) <= steady * track);
-      std::vector<bool> moves(n, false);
-      for (const auto *position : {&test.displacement, &test.displacement_y})
-        if (!position->empty() && range_of(*position) > 0.)
-          {
-            const double band =
-              is_precise ? options.noise_multiple * noise_level(*position) :
-                           std::max(least_stroke * range_of(*position),
-                                    tolerance(*position));
-            const std::vector<double> smooth = without_jitter(*position, band);
-            for (std::size_t i = 1; i < n; ++i)
-              moves[i] = moves[i] || smooth[i] != smooth[i - 1];
-          }
-      std::vector<std::size_t> ends;
-      for (std::size_t i = 1; i < n; ++i)
-        if (moves[i] != moves[i - 1])
-          ends.push_back(i - 1);
-      if (ends.empty())
-        return;
-      landmarks.insert(ends.front());
-      if (is_precise && ends.size() <= most)
-        landmarks.insert(ends.begin(), ends.end());
-    }
-
-
-
-    // A stroke ends at the farthest point before the displacement turns.
-    void Selection::keep_landmarks()
-    {
-      const std::size_t n = test.time.size();
-      landmarks           = {0, n - 1};
-      keep_extremes_of_friction(0, n);
-      keep_rests();
-
-      for (const auto *position : {&test.displacement, &test.displacement_y})
-        if (!position->empty())
-          {
-            const double band  = std::max(least_stroke * range_of(*position),
-                                         tolerance(*position));
-            std::size_t  start = 0;
-            for (const std::size_t turn : turning_rows(*position, band))
-              {
-                landmarks.insert(turn);
-                keep_extremes_of_friction(start, turn + 1);
-                start = turn;
-              }
-            keep_extremes_of_friction(start, n);
-          }
-    }
-
-
-
-    std::vector<std::size_t> Selection::rows(const double factor) const
-    {
-      return rows_of_bends(test.time,
-                           series,
-                           {landmarks.begin(), landmarks.end()},
-                           factor);
-    }
   } // namespace
 
 

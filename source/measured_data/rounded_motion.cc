@@ -61,7 +61,12 @@ namespace SlipStep
         , stairs(find_stairs(values))
       {}
 
-      std::vector<double> motion(std::vector<double> values) const;
+      std::vector<double> motion(std::vector<double> values) const
+      {
+        for (std::size_t s = 0; s < stairs.size(); ++s)
+          fill(s, values);
+        return values;
+      }
 
     private:
       // Where stair s begins: the last half step towards its value takes its
@@ -96,68 +101,56 @@ namespace SlipStep
         return std::copysign(0.5 * step, stairs[other].value - stairs[s].value);
       }
 
-      void fill(const std::size_t s, std::vector<double> &values) const;
+      // From the middle towards the value before it to that towards the next
+      // one; or it turns there; or it comes to rest at the value, and leaves it
+      // again, as fast as in the stairs beside it.
+      void fill(const std::size_t s, std::vector<double> &values) const
+      {
+        constexpr double much_longer = 3., there_and_back = 2.;
+
+        const Stair &stair = stairs[s];
+        if (!stair.is_long() || stairs.size() < 2)
+          return;
+        const bool   is_first = s == 0, is_last = s + 1 == stairs.size();
+        const double begin  = is_first ? time[0] : entry(s);
+        const double end    = is_last ? time.back() : exit(s);
+        const double from   = is_first ? 0. : half_step_to(s, s - 1);
+        const double to     = is_last ? 0. : half_step_to(s, s + 1);
+        const double before = is_first ? unknown : time_per_step(s - 1);
+        const double after  = is_last ? unknown : time_per_step(s + 1);
+        const double usual  = std::min(before, after);
+        const bool   passes =
+          from * to < 0. && end - begin <= much_longer * usual;
+        const bool turns =
+          from * to > 0. && end - begin <= there_and_back * usual;
+        // The first and the last one have but one end.
+        const double longest = (is_first || is_last ? 1. : 0.5) * (end - begin);
+        const auto   half_of = [&](const double duration) {
+          return std::min(longest,
+                          0.5 * (duration < unknown ? duration : usual));
+        };
+        const double stops  = begin + half_of(before);
+        const double starts = end - half_of(after);
+        for (std::size_t i = stair.begin; i < stair.end; ++i)
+          {
+            const double t   = time[i];
+            double       off = 0.;
+            if (passes)
+              off = from + (to - from) * (t - begin) / (end - begin);
+            else if (turns)
+              off = from * (1. - 2. * std::min(t - begin, end - t) / usual);
+            else if (!is_first && t < stops)
+              off = from * (stops - t) / (stops - begin);
+            else if (!is_last && t > starts)
+              off = to * (t - starts) / (end - starts);
+            values[i] = stair.value + std::clamp(off, -0.5 * step, 0.5 * step);
+          }
+      }
 
       const std::vector<double> &time;
       const double               step;
       const std::vector<Stair>   stairs;
     };
-
-
-
-    // From the middle towards the value before it to that towards the next
-    // one; or it turns there; or it comes to rest at the value, and leaves it
-    // again, as fast as in the stairs beside it.
-    void StairMotion::fill(const std::size_t    s,
-                           std::vector<double> &values) const
-    {
-      constexpr double much_longer = 3., there_and_back = 2.;
-
-      const Stair &stair = stairs[s];
-      if (!stair.is_long() || stairs.size() < 2)
-        return;
-      const bool   is_first = s == 0, is_last = s + 1 == stairs.size();
-      const double begin  = is_first ? time[0] : entry(s);
-      const double end    = is_last ? time.back() : exit(s);
-      const double from   = is_first ? 0. : half_step_to(s, s - 1);
-      const double to     = is_last ? 0. : half_step_to(s, s + 1);
-      const double before = is_first ? unknown : time_per_step(s - 1);
-      const double after  = is_last ? unknown : time_per_step(s + 1);
-      const double usual  = std::min(before, after);
-      const bool passes = from * to < 0. && end - begin <= much_longer * usual;
-      const bool turns =
-        from * to > 0. && end - begin <= there_and_back * usual;
-      // The first and the last one have but one end.
-      const double longest = (is_first || is_last ? 1. : 0.5) * (end - begin);
-      const auto   half_of = [&](const double duration) {
-        return std::min(longest, 0.5 * (duration < unknown ? duration : usual));
-      };
-      const double stops  = begin + half_of(before);
-      const double starts = end - half_of(after);
-      for (std::size_t i = stair.begin; i < stair.end; ++i)
-        {
-          const double t   = time[i];
-          double       off = 0.;
-          if (passes)
-            off = from + (to - from) * (t - begin) / (end - begin);
-          else if (turns)
-            off = from * (1. - 2. * std::min(t - begin, end - t) / usual);
-          else if (!is_first && t < stops)
-            off = from * (stops - t) / (stops - begin);
-          else if (!is_last && t > starts)
-            off = to * (t - starts) / (end - starts);
-          values[i] = stair.value + std::clamp(off, -0.5 * step, 0.5 * step);
-        }
-    }
-
-
-
-    std::vector<double> StairMotion::motion(std::vector<double> values) const
-    {
-      for (std::size_t s = 0; s < stairs.size(); ++s)
-        fill(s, values);
-      return values;
-    }
 
 
 
@@ -190,17 +183,92 @@ namespace SlipStep
         , motion(motion)
       {}
 
-      std::vector<double> evened() const;
+      // One piece goes over into the next where they meet.
+      std::vector<double> evened() const
+      {
+        std::vector<EvenMotion> pieces = certain_pieces();
+        if (pieces.empty())
+          return motion;
+        for (std::size_t p = 1; p < pieces.size(); ++p)
+          {
+            EvenMotion  &a = pieces[p - 1], &b = pieces[p];
+            const double meet =
+              a.time + (b.at(a.time) - a.value) / (a.speed - b.speed);
+            // A rest of minutes is no creep towards a row that just moves.
+            const auto middle = [&](const std::size_t i) {
+              return 0.5 * (time[i] + time[i + 1]);
+            };
+            while (
+              b.begin - a.begin > 1 && is_within_rounding(b, b.begin - 1) &&
+              meet < (a.speed == 0. ? middle(b.begin - 2) : time[b.begin - 1]))
+              a.end = --b.begin;
+            while (b.end - b.begin > 1 && is_within_rounding(a, b.begin) &&
+                   meet > (b.speed == 0. ? middle(b.begin) : time[b.begin]))
+              a.end = ++b.begin;
+          }
+        std::vector<double> result;
+        for (const EvenMotion &piece : pieces)
+          for (std::size_t i = piece.begin; i < piece.end; ++i)
+            result.push_back(std::clamp(piece.at(time[i]),
+                                        recorded[i] - 0.5 * step,
+                                        recorded[i] + 0.5 * step));
+        return result;
+      }
 
     private:
-      EvenMotion fit(const std::size_t begin, const std::size_t end) const;
+      // By least squares.
+      EvenMotion fit(const std::size_t begin, const std::size_t end) const
+      {
+        EvenMotion   result{begin, end};
+        const double n = end - begin;
+        for (std::size_t i = begin; i < end; ++i)
+          {
+            result.time += time[i] / n;
+            result.value += motion[i] / n;
+          }
+        double tt = 0., tv = 0.;
+        for (std::size_t i = begin; i < end; ++i)
+          {
+            const double t = time[i] - result.time;
+            tt += t * t;
+            tv += t * (motion[i] - result.value);
+          }
+        result.speed = tt > 0. ? tv / tt : 0.;
+        return result;
+      }
 
-      EvenMotion fit_core(const std::size_t begin, const std::size_t end) const;
+      // Without the first and the last stair, in which another motion may
+      // begin.
+      EvenMotion fit_core(const std::size_t begin, const std::size_t end) const
+      {
+        std::size_t first = begin, last = end;
+        while (first < end && recorded[first] == recorded[begin])
+          ++first;
+        while (last > first && recorded[last - 1] == recorded[end - 1])
+          --last;
+        EvenMotion result =
+          last - first > 2 ? fit(first, last) : fit(begin, end);
+        result.begin = begin;
+        result.end   = end;
+        return result;
+      }
 
       bool is_within_rounding(const EvenMotion &piece,
-                              const std::size_t row) const;
+                              const std::size_t row) const
+      {
+        constexpr double nearly = 1.1;
 
-      bool is_within_rounding(const EvenMotion &piece) const;
+        return std::abs(piece.at(time[row]) - recorded[row]) <=
+               0.5 * nearly * step;
+      }
+
+      bool is_within_rounding(const EvenMotion &piece) const
+      {
+        for (std::size_t i = piece.begin; i < piece.end; ++i)
+          if (!is_within_rounding(piece, i))
+            return false;
+        return true;
+      }
 
       bool is_rest(const EvenMotion &piece) const
       {
@@ -208,178 +276,69 @@ namespace SlipStep
                motion[piece.end - 1] == motion[piece.begin];
       }
 
-      bool is_certain(const EvenMotion &piece) const;
+      // A rest, or far enough to know the speed.
+      bool is_certain(const EvenMotion &piece) const
+      {
+        constexpr double steps = 2.;
 
-      std::vector<EvenMotion> certain_pieces() const;
+        return is_rest(piece) ||
+               std::abs(recorded[piece.end - 1] - recorded[piece.begin]) >=
+                 steps * step * (1. - 1e-6);
+      }
 
+      // What lies between goes over from one to the other.
+      std::vector<EvenMotion> certain_pieces() const
+      {
+        const auto way = [&](const std::size_t i) {
+          return (motion[i + 1] > motion[i]) - (motion[i + 1] < motion[i]);
+        };
+        std::vector<EvenMotion> all, result;
+        for (std::size_t begin = 0, end = 1; begin < time.size(); begin = end)
+          {
+            end = begin + 1;
+            while (end < time.size() && way(end - 1) == way(begin))
+              ++end;
+            add_pieces(begin, end, all);
+          }
+        for (const EvenMotion &piece : all)
+          if (is_certain(piece))
+            {
+              result.push_back(piece);
+              if (is_rest(piece))
+                result.back().speed = 0.;
+              result.back().begin =
+                result.size() > 1 ? result[result.size() - 2].end : 0;
+            }
+          else if (!result.empty())
+            result.back().end = piece.end;
+        return result;
+      }
+
+      // Of rows that go one way, or rest: from the left as long ones as can be,
+      // up to where it would take too long to try.
       void add_pieces(const std::size_t        begin,
                       const std::size_t        end,
-                      std::vector<EvenMotion> &pieces) const;
+                      std::vector<EvenMotion> &pieces) const
+      {
+        constexpr std::size_t most_rows = 2000;
+
+        for (std::size_t from = begin; from < end; from = pieces.back().end)
+          {
+            const std::size_t last = std::min(from + most_rows, end);
+            std::size_t       good = std::min(from + 2, end), bad = last + 1;
+            while (bad - good > 1)
+              {
+                const std::size_t to = bad > last ? last : (good + bad) / 2;
+                (is_within_rounding(fit(from, to)) ? good : bad) = to;
+              }
+            pieces.push_back(fit_core(from, good));
+          }
+      }
 
       const std::vector<double> &time, &recorded;
       const double               step;
       const std::vector<double> &motion;
     };
-
-
-
-    // By least squares.
-    EvenMotion Evener::fit(const std::size_t begin, const std::size_t end) const
-    {
-      EvenMotion   result{begin, end};
-      const double n = end - begin;
-      for (std::size_t i = begin; i < end; ++i)
-        {
-          result.time += time[i] / n;
-          result.value += motion[i] / n;
-        }
-      double tt = 0., tv = 0.;
-      for (std::size_t i = begin; i < end; ++i)
-        {
-          const double t = time[i] - result.time;
-          tt += t * t;
-          tv += t * (motion[i] - result.value);
-        }
-      result.speed = tt > 0. ? tv / tt : 0.;
-      return result;
-    }
-
-
-
-    // Without the first and the last stair, in which another motion may begin.
-    EvenMotion Evener::fit_core(const std::size_t begin,
-                                const std::size_t end) const
-    {
-      std::size_t first = begin, last = end;
-      while (first < end && recorded[first] == recorded[begin])
-        ++first;
-      while (last > first && recorded[last - 1] == recorded[end - 1])
-        --last;
-      EvenMotion result = last - first > 2 ? fit(first, last) : fit(begin, end);
-      result.begin      = begin;
-      result.end        = end;
-      return result;
-    }
-
-
-
-    bool Evener::is_within_rounding(const EvenMotion &piece,
-                                    const std::size_t row) const
-    {
-      constexpr double nearly = 1.1;
-
-      return std::abs(piece.at(time[row]) - recorded[row]) <=
-             0.5 * nearly * step;
-    }
-
-
-
-    bool Evener::is_within_rounding(const EvenMotion &piece) const
-    {
-      for (std::size_t i = piece.begin; i < piece.end; ++i)
-        if (!is_within_rounding(piece, i))
-          return false;
-      return true;
-    }
-
-
-
-    // A rest, or far enough to know the speed.
-    bool Evener::is_certain(const EvenMotion &piece) const
-    {
-      constexpr double steps = 2.;
-
-      return is_rest(piece) ||
-             std::abs(recorded[piece.end - 1] - recorded[piece.begin]) >=
-               steps * step * (1. - 1e-6);
-    }
-
-
-
-    // What lies between goes over from one to the other.
-    std::vector<EvenMotion> Evener::certain_pieces() const
-    {
-      const auto way = [&](const std::size_t i) {
-        return (motion[i + 1] > motion[i]) - (motion[i + 1] < motion[i]);
-      };
-      std::vector<EvenMotion> all, result;
-      for (std::size_t begin = 0, end = 1; begin < time.size(); begin = end)
-        {
-          end = begin + 1;
-          while (end < time.size() && way(end - 1) == way(begin))
-            ++end;
-          add_pieces(begin, end, all);
-        }
-      for (const EvenMotion &piece : all)
-        if (is_certain(piece))
-          {
-            result.push_back(piece);
-            if (is_rest(piece))
-              result.back().speed = 0.;
-            result.back().begin =
-              result.size() > 1 ? result[result.size() - 2].end : 0;
-          }
-        else if (!result.empty())
-          result.back().end = piece.end;
-      return result;
-    }
-
-
-
-    // Of rows that go one way, or rest: from the left as long ones as can be,
-    // up to where it would take too long to try.
-    void Evener::add_pieces(const std::size_t        begin,
-                            const std::size_t        end,
-                            std::vector<EvenMotion> &pieces) const
-    {
-      constexpr std::size_t most_rows = 2000;
-
-      for (std::size_t from = begin; from < end; from = pieces.back().end)
-        {
-          const std::size_t last = std::min(from + most_rows, end);
-          std::size_t       good = std::min(from + 2, end), bad = last + 1;
-          while (bad - good > 1)
-            {
-              const std::size_t to = bad > last ? last : (good + bad) / 2;
-              (is_within_rounding(fit(from, to)) ? good : bad) = to;
-            }
-          pieces.push_back(fit_core(from, good));
-        }
-    }
-
-
-
-    // One piece goes over into the next where they meet.
-    std::vector<double> Evener::evened() const
-    {
-      std::vector<EvenMotion> pieces = certain_pieces();
-      if (pieces.empty())
-        return motion;
-      for (std::size_t p = 1; p < pieces.size(); ++p)
-        {
-          EvenMotion  &a = pieces[p - 1], &b = pieces[p];
-          const double meet =
-            a.time + (b.at(a.time) - a.value) / (a.speed - b.speed);
-          // A rest of minutes is no creep towards a row that just moves.
-          const auto middle = [&](const std::size_t i) {
-            return 0.5 * (time[i] + time[i + 1]);
-          };
-          while (b.begin - a.begin > 1 && is_within_rounding(b, b.begin - 1) &&
-                 meet <
-                   (a.speed == 0. ? middle(b.begin - 2) : time[b.begin - 1]))
-            a.end = --b.begin;
-          while (b.end - b.begin > 1 && is_within_rounding(a, b.begin) &&
-                 meet > (b.speed == 0. ? middle(b.begin) : time[b.begin]))
-            a.end = ++b.begin;
-        }
-      std::vector<double> result;
-      for (const EvenMotion &piece : pieces)
-        for (std::size_t i = piece.begin; i < piece.end; ++i)
-          result.push_back(std::clamp(piece.at(time[i]),
-                                      recorded[i] - 0.5 * step,
-                                      recorded[i] + 0.5 * step));
-      return result;
-    }
   } // namespace
 
 

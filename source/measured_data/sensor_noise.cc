@@ -88,22 +88,116 @@ namespace SlipStep
     public:
       Lines(const std::vector<double> &time,
             const Signal              &signal,
-            const Rows                &knots);
+            const Rows                &knots)
+        : time(time)
+        , values(*signal.values)
+        , deviation(signal.deviation)
+        , knots(knots)
+      {
+        fit();
+      }
 
       // When a level line meets its neighbour at a knot, and by how many
       // deviations of the noise they part in a second.
-      std::pair<double, double> meeting(const std::size_t knot) const;
+      std::pair<double, double> meeting(const std::size_t knot) const
+      {
+        const Line &before = lines[knot - 1], &after = lines[knot];
+        if (before.is_level == after.is_level)
+          return {0., 0.};
+        const double parts = before.slope - after.slope;
+        return {(after.mean - after.slope * after.time - before.mean +
+                 before.slope * before.time) /
+                  parts,
+                std::abs(parts) / deviation};
+      }
 
-      std::vector<double> at_all_rows() const;
+      std::vector<double> at_all_rows() const
+      {
+        std::vector<double> result(values.size());
+        for (std::size_t k = 0; k + 1 < knots.size(); ++k)
+          {
+            const std::size_t begin = knots[k], end = knots[k + 1];
+            for (std::size_t i = begin; i <= end; ++i)
+              {
+                const double there =
+                  (time[i] - time[begin]) / (time[end] - time[begin]);
+                result[i] = heights[k] + there * (heights[k + 1] - heights[k]);
+              }
+          }
+        return result;
+      }
 
     private:
-      void fit();
+      void fit()
+      {
+        heights = fit_lines(time, values, knots);
+        lines.clear();
+        for (std::size_t k = 0; k + 1 < knots.size(); ++k)
+          lines.push_back(line_through(k));
+        level();
+      }
 
-      std::size_t hidden_rows(const std::size_t knot) const;
+      // By so many rows noise hides where a line goes over into the next one.
+      std::size_t hidden_rows(const std::size_t knot) const
+      {
+        const auto rise = [&](const std::size_t line) {
+          return (heights[line + 1] - heights[line]) /
+                 (knots[line + 1] - knots[line]);
+        };
+        const double per_row = std::abs(rise(knot) - rise(knot - 1));
+        return std::ceil(
+          std::min<double>(farthest_off * deviation / std::max(per_row, 1e-300),
+                           values.size()));
+      }
 
-      Line line_through(const std::size_t line) const;
+      Line line_through(const std::size_t line) const
+      {
+        constexpr std::size_t least_rows = 5;
+        constexpr double      sure       = 4.;
 
-      void level();
+        const std::size_t quarter = (knots[line + 1] - knots[line]) / 4;
+        std::size_t       begin = knots[line], end = knots[line + 1] + 1;
+        if (line > 0)
+          begin += std::min(hidden_rows(line), quarter);
+        if (line + 2 < knots.size())
+          end -= std::min(hidden_rows(line + 1), quarter);
+        Line result;
+        result.n = end - begin;
+        for (std::size_t i = begin; i < end; ++i)
+          {
+            result.mean += values[i] / result.n;
+            result.time += time[i] / result.n;
+          }
+        double rises = 0., squares = 0.;
+        for (std::size_t i = begin; i < end; ++i)
+          {
+            rises += (values[i] - result.mean) * (time[i] - result.time);
+            squares += std::pow(time[i] - result.time, 2);
+          }
+        result.is_level =
+          result.n >= least_rows &&
+          std::abs(rises) <= sure * deviation * std::sqrt(squares);
+        result.slope = result.is_level ? 0. : rises / squares;
+        return result;
+      }
+
+      // Neighbours become one.
+      void level()
+      {
+        for (std::size_t begin = 0; begin < lines.size(); ++begin)
+          {
+            std::size_t end = begin;
+            double      sum = 0., weight = 0.;
+            for (; end < lines.size() && lines[end].is_level; ++end)
+              {
+                sum += lines[end].n * lines[end].mean;
+                weight += lines[end].n;
+              }
+            for (std::size_t k = begin; k <= end && weight > 0.; ++k)
+              heights[k] = sum / weight;
+            begin = std::max(begin, end - (end > begin));
+          }
+      }
 
       const std::vector<double> &time, &values;
       const double               deviation;
@@ -111,130 +205,6 @@ namespace SlipStep
       std::vector<double>        heights; // at the knots
       std::vector<Line>          lines;
     };
-
-
-
-    Lines::Lines(const std::vector<double> &time,
-                 const Signal              &signal,
-                 const Rows                &knots)
-      : time(time)
-      , values(*signal.values)
-      , deviation(signal.deviation)
-      , knots(knots)
-    {
-      fit();
-    }
-
-
-
-    void Lines::fit()
-    {
-      heights = fit_lines(time, values, knots);
-      lines.clear();
-      for (std::size_t k = 0; k + 1 < knots.size(); ++k)
-        lines.push_back(line_through(k));
-      level();
-    }
-
-
-
-    // By so many rows noise hides where a line goes over into the next one.
-    std::size_t Lines::hidden_rows(const std::size_t knot) const
-    {
-      const auto rise = [&](const std::size_t line) {
-        return (heights[line + 1] - heights[line]) /
-               (knots[line + 1] - knots[line]);
-      };
-      const double per_row = std::abs(rise(knot) - rise(knot - 1));
-      return std::ceil(
-        std::min<double>(farthest_off * deviation / std::max(per_row, 1e-300),
-                         values.size()));
-    }
-
-
-
-    Line Lines::line_through(const std::size_t line) const
-    {
-      constexpr std::size_t least_rows = 5;
-      constexpr double      sure       = 4.;
-
-      const std::size_t quarter = (knots[line + 1] - knots[line]) / 4;
-      std::size_t       begin = knots[line], end = knots[line + 1] + 1;
-      if (line > 0)
-        begin += std::min(hidden_rows(line), quarter);
-      if (line + 2 < knots.size())
-        end -= std::min(hidden_rows(line + 1), quarter);
-      Line result;
-      result.n = end - begin;
-      for (std::size_t i = begin; i < end; ++i)
-        {
-          result.mean += values[i] / result.n;
-          result.time += time[i] / result.n;
-        }
-      double rises = 0., squares = 0.;
-      for (std::size_t i = begin; i < end; ++i)
-        {
-          rises += (values[i] - result.mean) * (time[i] - result.time);
-          squares += std::pow(time[i] - result.time, 2);
-        }
-      result.is_level =
-        result.n >= least_rows &&
-        std::abs(rises) <= sure * deviation * std::sqrt(squares);
-      result.slope = result.is_level ? 0. : rises / squares;
-      return result;
-    }
-
-
-
-    // Neighbours become one.
-    void Lines::level()
-    {
-      for (std::size_t begin = 0; begin < lines.size(); ++begin)
-        {
-          std::size_t end = begin;
-          double      sum = 0., weight = 0.;
-          for (; end < lines.size() && lines[end].is_level; ++end)
-            {
-              sum += lines[end].n * lines[end].mean;
-              weight += lines[end].n;
-            }
-          for (std::size_t k = begin; k <= end && weight > 0.; ++k)
-            heights[k] = sum / weight;
-          begin = std::max(begin, end - (end > begin));
-        }
-    }
-
-
-
-    std::pair<double, double> Lines::meeting(const std::size_t knot) const
-    {
-      const Line &before = lines[knot - 1], &after = lines[knot];
-      if (before.is_level == after.is_level)
-        return {0., 0.};
-      const double parts = before.slope - after.slope;
-      return {(after.mean - after.slope * after.time - before.mean +
-               before.slope * before.time) /
-                parts,
-              std::abs(parts) / deviation};
-    }
-
-
-
-    std::vector<double> Lines::at_all_rows() const
-    {
-      std::vector<double> result(values.size());
-      for (std::size_t k = 0; k + 1 < knots.size(); ++k)
-        {
-          const std::size_t begin = knots[k], end = knots[k + 1];
-          for (std::size_t i = begin; i <= end; ++i)
-            {
-              const double there =
-                (time[i] - time[begin]) / (time[end] - time[begin]);
-              result[i] = heights[k] + there * (heights[k + 1] - heights[k]);
-            }
-        }
-      return result;
-    }
 
 
 

@@ -104,17 +104,203 @@ namespace SlipStep
         std::iota(kept.begin(), kept.end(), 0);
       }
 
-      void leave_out_gaps();
+      void leave_out_gaps()
+      {
+        std::vector<bool> has_gap(kept.size(), false);
+        for (const Channel *channel : filled)
+          {
+            const std::vector<double> &values = test.*(channel->values);
+            for (std::size_t i = 0; i < values.size(); ++i)
+              {
+                if (std::isinf(values[i]))
+                  origin.reject(i,
+                                channel->name,
+                                channel->name + " is not finite" +
+                                  (channel->name.rfind("friction", 0) == 0 ?
+                                     " (where it is a force over the normal "
+                                     "load: is that zero there?)" :
+                                     ""));
+                has_gap[i] = has_gap[i] || std::isnan(values[i]);
+              }
+          }
+        const std::size_t n = std::count(has_gap.begin(), has_gap.end(), true);
+        if (n == 0)
+          return;
+        std::vector<std::size_t> rows;
+        for (std::size_t i = 0; i < has_gap.size(); ++i)
+          if (!has_gap[i])
+            rows.push_back(i);
+        const std::size_t first =
+          std::find(has_gap.begin(), has_gap.end(), true) - has_gap.begin();
+        if (rows.size() < 2)
+          for (const Channel *channel : filled)
+            if (std::isnan((test.*(channel->values))[first]))
+              origin.reject(first,
+                            channel->name,
+                            channel->name + " has no value, and so it is in " +
+                              std::to_string(n) + " of " +
+                              std::to_string(has_gap.size()) +
+                              " rows; a test needs two that are complete");
+        warn("rows without a value, left out: " + std::to_string(n), first);
+        keep(rows);
+      }
 
-      void put_in_order();
+      void put_in_order()
+      {
+        const std::vector<double> &time = test.time;
+        if (std::is_sorted(time.begin(), time.end()))
+          return;
+        std::vector<std::size_t> rows(time.size());
+        std::iota(rows.begin(), rows.end(), 0);
+        if (std::is_sorted(time.rbegin(), time.rend()))
+          {
+            warn("rows that stand newest first, turned round: all", kept[0]);
+            std::reverse(rows.begin(), rows.end());
+            keep(rows);
+            return;
+          }
 
-      void average_repeated();
+        std::size_t n = 0, first = 0;
+        double      latest = time.front();
+        for (std::size_t i = 1; i < time.size(); ++i)
+          {
+            if (time[i] < latest)
+              first = n++ == 0 ? i : first;
+            if (latest - time[i] > largest_disorder * range_of(time))
+              origin.reject(kept[i],
+                            "time",
+                            "time goes backwards: " + rounded_text(time[i], 9) +
+                              " s follows " + rounded_text(latest, 9) +
+                              " s (a clock that was set back, or two tests in "
+                              "one file?)");
+            latest = std::max(latest, time[i]);
+          }
+        warn("rows out of the order of time, sorted: " + std::to_string(n),
+             kept[first]);
+        stable_sort(rows, [&](auto a, auto b) { return time[a] < time[b]; });
+        keep(rows);
+      }
 
-      void check_pressure() const;
+      void average_repeated()
+      {
+        std::vector<std::size_t> rows;
+        double                   largest_spread = 0.;
+        std::size_t              n = 0, first = 0;
+        for (std::size_t begin = 0, end = 0; begin < kept.size(); begin = end)
+          {
+            while (end < kept.size() && test.time[end] == test.time[begin])
+              ++end;
+            rows.push_back(begin);
+            if (end == begin + 1)
+              continue;
+            first = n == 0 ? begin + 1 : first;
+            n += end - begin - 1;
+            const auto [least, most] =
+              std::minmax_element(test.friction.begin() + begin,
+                                  test.friction.begin() + end);
+            largest_spread = std::max(largest_spread, *most - *least);
+            for (const Channel *channel : filled)
+              if (channel->name != "time")
+                {
+                  auto &values  = test.*(channel->values);
+                  values[begin] = std::accumulate(values.begin() + begin,
+                                                  values.begin() + end,
+                                                  0.) /
+                                  (end - begin);
+                }
+          }
+        if (n == 0)
+          return;
+        warn("rows with the time of the row before, averaged: " +
+               std::to_string(n) + "; their friction differs by up to " +
+               rounded_text(largest_spread, 3),
+             kept[first]);
+        keep(rows);
+      }
 
-      void check_sign_of_friction();
+      void check_pressure() const
+      {
+        for (std::size_t i = 0; i < kept.size(); ++i)
+          {
+            const double pressure = test.pressure[i];
+            const bool   slides =
+              test.friction[i] != 0. ||
+              (!test.friction_y.empty() && test.friction_y[i] != 0.);
+            if (pressure < 0.)
+              origin.reject(kept[i],
+                            "pressure",
+                            "pressure is " + exact_text(pressure) +
+                              " MPa, but compression counts positive (in a "
+                              "map for import: -1*{column})");
+            if (pressure == 0. && slides)
+              origin.reject(kept[i],
+                            "pressure",
+                            "pressure is zero where friction is not: give the "
+                            "friction of open contact as 0");
+          }
+        if (range_of(test.pressure) == 0. && test.pressure.front() == 0.)
+          origin.reject(kept[0], "pressure", "pressure is zero throughout");
+      }
 
-      void check_friction_has_sign() const;
+      void check_sign_of_friction()
+      {
+        Work work;
+        add_work(test.displacement, bounded(test.friction), work);
+        add_work(test.displacement_y, bounded(test.friction_y), work);
+        std::size_t row = 0;
+        while (test.friction[row] == 0. && row + 1 < kept.size())
+          ++row;
+        if (work.done >= -0.5 * work.possible)
+          {
+            check_friction_has_sign();
+            // And not in a jump of a counter only, nor as a spring does.
+            if (work.done < 0.5 * work.possible &&
+                10 * work.n_driving > work.n &&
+                is_mostly_constant(test.friction))
+              warn("friction drives the motion in " +
+                     rounded_text(50. * (1. - work.done / work.possible), 2) +
+                     " % of its work: is the displacement a way that only "
+                     "grows, or has the sensor of the force a zero?",
+                   kept[row]);
+            return;
+          }
+
+        origin.reject(kept[row],
+                      "friction",
+                      "friction drives the motion instead of resisting it, "
+                      "nearly throughout: is its sign, or that of the "
+                      "displacement, to be reversed? Say so in a map of "
+                      "slipstep import (Convention)");
+      }
+
+      void check_friction_has_sign() const
+      {
+        // Beside a motion along one axis the other only runs out.
+        constexpr double runs_out = 0.2;
+
+        const double widest =
+          std::max(range_of(test.displacement), range_of(test.displacement_y));
+        for (const bool is_y : {false, true})
+          {
+            const auto &motion = is_y ? test.displacement_y : test.displacement;
+            const auto &friction = is_y ? test.friction_y : test.friction;
+            if (motion.empty() || friction.empty() ||
+                range_of(motion) < runs_out * widest)
+              continue;
+            const auto found =
+              friction_of_one_sign(test.time, motion, friction);
+            if (found.has_value())
+              origin.reject(
+                kept[0],
+                is_y ? "friction_y" : "friction",
+                "friction has the same sign forth and back, " +
+                  rounded_text(found->forth, 3) + " and " +
+                  rounded_text(found->back, 3) +
+                  " on the average: has it lost its sign (in a map of slipstep "
+                  "import: Convention/Friction sign = of the motion), or is a "
+                  "zero of the sensor in it (Correction/Zero)?");
+          }
+      }
 
       std::size_t size() const
       {
@@ -130,7 +316,12 @@ namespace SlipStep
       }
 
     private:
-      void keep(const std::vector<std::size_t> &rows);
+      /// Keep some rows, in that order.
+      void keep(const std::vector<std::size_t> &rows)
+      {
+        keep_rows(test, rows);
+        choose(kept, rows);
+      }
 
 
       MeasuredTest                &test;
@@ -139,223 +330,6 @@ namespace SlipStep
       /// Where each row stood at first.
       std::vector<std::size_t> kept;
     };
-
-
-
-    /// Keep some rows, in that order.
-    void RowsOfTest::keep(const std::vector<std::size_t> &rows)
-    {
-      keep_rows(test, rows);
-      choose(kept, rows);
-    }
-
-
-
-    void RowsOfTest::leave_out_gaps()
-    {
-      std::vector<bool> has_gap(kept.size(), false);
-      for (const Channel *channel : filled)
-        {
-          const std::vector<double> &values = test.*(channel->values);
-          for (std::size_t i = 0; i < values.size(); ++i)
-            {
-              if (std::isinf(values[i]))
-                origin.reject(i,
-                              channel->name,
-                              channel->name + " is not finite" +
-                                (channel->name.rfind("friction", 0) == 0 ?
-                                   " (where it is a force over the normal "
-                                   "load: is that zero there?)" :
-                                   ""));
-              has_gap[i] = has_gap[i] || std::isnan(values[i]);
-            }
-        }
-      const std::size_t n = std::count(has_gap.begin(), has_gap.end(), true);
-      if (n == 0)
-        return;
-      std::vector<std::size_t> rows;
-      for (std::size_t i = 0; i < has_gap.size(); ++i)
-        if (!has_gap[i])
-          rows.push_back(i);
-      const std::size_t first =
-        std::find(has_gap.begin(), has_gap.end(), true) - has_gap.begin();
-      if (rows.size() < 2)
-        for (const Channel *channel : filled)
-          if (std::isnan((test.*(channel->values))[first]))
-            origin.reject(first,
-                          channel->name,
-                          channel->name + " has no value, and so it is in " +
-                            std::to_string(n) + " of " +
-                            std::to_string(has_gap.size()) +
-                            " rows; a test needs two that are complete");
-      warn("rows without a value, left out: " + std::to_string(n), first);
-      keep(rows);
-    }
-
-
-
-    void RowsOfTest::put_in_order()
-    {
-      const std::vector<double> &time = test.time;
-      if (std::is_sorted(time.begin(), time.end()))
-        return;
-      std::vector<std::size_t> rows(time.size());
-      std::iota(rows.begin(), rows.end(), 0);
-      if (std::is_sorted(time.rbegin(), time.rend()))
-        {
-          warn("rows that stand newest first, turned round: all", kept[0]);
-          std::reverse(rows.begin(), rows.end());
-          keep(rows);
-          return;
-        }
-
-      std::size_t n = 0, first = 0;
-      double      latest = time.front();
-      for (std::size_t i = 1; i < time.size(); ++i)
-        {
-          if (time[i] < latest)
-            first = n++ == 0 ? i : first;
-          if (latest - time[i] > largest_disorder * range_of(time))
-            origin.reject(kept[i],
-                          "time",
-                          "time goes backwards: " + rounded_text(time[i], 9) +
-                            " s follows " + rounded_text(latest, 9) +
-                            " s (a clock that was set back, or two tests in "
-                            "one file?)");
-          latest = std::max(latest, time[i]);
-        }
-      warn("rows out of the order of time, sorted: " + std::to_string(n),
-           kept[first]);
-      stable_sort(rows, [&](auto a, auto b) { return time[a] < time[b]; });
-      keep(rows);
-    }
-
-
-
-    void RowsOfTest::average_repeated()
-    {
-      std::vector<std::size_t> rows;
-      double                   largest_spread = 0.;
-      std::size_t              n = 0, first = 0;
-      for (std::size_t begin = 0, end = 0; begin < kept.size(); begin = end)
-        {
-          while (end < kept.size() && test.time[end] == test.time[begin])
-            ++end;
-          rows.push_back(begin);
-          if (end == begin + 1)
-            continue;
-          first = n == 0 ? begin + 1 : first;
-          n += end - begin - 1;
-          const auto [least, most] =
-            std::minmax_element(test.friction.begin() + begin,
-                                test.friction.begin() + end);
-          largest_spread = std::max(largest_spread, *most - *least);
-          for (const Channel *channel : filled)
-            if (channel->name != "time")
-              {
-                auto &values  = test.*(channel->values);
-                values[begin] = std::accumulate(values.begin() + begin,
-                                                values.begin() + end,
-                                                0.) /
-                                (end - begin);
-              }
-        }
-      if (n == 0)
-        return;
-      warn("rows with the time of the row before, averaged: " +
-             std::to_string(n) + "; their friction differs by up to " +
-             rounded_text(largest_spread, 3),
-           kept[first]);
-      keep(rows);
-    }
-
-
-
-    void RowsOfTest::check_pressure() const
-    {
-      for (std::size_t i = 0; i < kept.size(); ++i)
-        {
-          const double pressure = test.pressure[i];
-          const bool   slides =
-            test.friction[i] != 0. ||
-            (!test.friction_y.empty() && test.friction_y[i] != 0.);
-          if (pressure < 0.)
-            origin.reject(kept[i],
-                          "pressure",
-                          "pressure is " + exact_text(pressure) +
-                            " MPa, but compression counts positive (in a "
-                            "map for import: -1*{column})");
-          if (pressure == 0. && slides)
-            origin.reject(kept[i],
-                          "pressure",
-                          "pressure is zero where friction is not: give the "
-                          "friction of open contact as 0");
-        }
-      if (range_of(test.pressure) == 0. && test.pressure.front() == 0.)
-        origin.reject(kept[0], "pressure", "pressure is zero throughout");
-    }
-
-
-
-    void RowsOfTest::check_sign_of_friction()
-    {
-      Work work;
-      add_work(test.displacement, bounded(test.friction), work);
-      add_work(test.displacement_y, bounded(test.friction_y), work);
-      std::size_t row = 0;
-      while (test.friction[row] == 0. && row + 1 < kept.size())
-        ++row;
-      if (work.done >= -0.5 * work.possible)
-        {
-          check_friction_has_sign();
-          // And not in a jump of a counter only, nor as a spring does.
-          if (work.done < 0.5 * work.possible && 10 * work.n_driving > work.n &&
-              is_mostly_constant(test.friction))
-            warn("friction drives the motion in " +
-                   rounded_text(50. * (1. - work.done / work.possible), 2) +
-                   " % of its work: is the displacement a way that only "
-                   "grows, or has the sensor of the force a zero?",
-                 kept[row]);
-          return;
-        }
-
-      origin.reject(kept[row],
-                    "friction",
-                    "friction drives the motion instead of resisting it, "
-                    "nearly throughout: is its sign, or that of the "
-                    "displacement, to be reversed? Say so in a map of "
-                    "slipstep import (Convention)");
-    }
-
-
-
-    void RowsOfTest::check_friction_has_sign() const
-    {
-      // Beside a motion along one axis the other only runs out.
-      constexpr double runs_out = 0.2;
-
-      const double widest =
-        std::max(range_of(test.displacement), range_of(test.displacement_y));
-      for (const bool is_y : {false, true})
-        {
-          const auto &motion   = is_y ? test.displacement_y : test.displacement;
-          const auto &friction = is_y ? test.friction_y : test.friction;
-          if (motion.empty() || friction.empty() ||
-              range_of(motion) < runs_out * widest)
-            continue;
-          const auto found = friction_of_one_sign(test.time, motion, friction);
-          if (found.has_value())
-            origin.reject(
-              kept[0],
-              is_y ? "friction_y" : "friction",
-              "friction has the same sign forth and back, " +
-                rounded_text(found->forth, 3) + " and " +
-                rounded_text(found->back, 3) +
-                " on the average: has it lost its sign (in a map of slipstep "
-                "import: Convention/Friction sign = of the motion), or is a "
-                "zero of the sensor in it (Correction/Zero)?");
-        }
-    }
   } // namespace
 
 
@@ -474,7 +448,26 @@ namespace SlipStep
     /// The steps of values that are mostly constant.
     struct Steps
     {
-      explicit Steps(const std::vector<double> &values);
+      explicit Steps(const std::vector<double> &values)
+      {
+        constexpr std::size_t just = 3; // rows
+
+        const auto step = [&](const std::size_t i) {
+          return i > 0 && i < values.size() ? values[i] - values[i - 1] : 0.;
+        };
+        for (std::size_t i = 1; i < values.size(); ++i)
+          {
+            largest = std::max(largest, std::abs(values[i]));
+            if (step(i) == 0.)
+              continue;
+            n_back += !rows.empty() && i - rows.back() <= just &&
+                      sizes.back() * step(i) < 0.;
+            rows.push_back(i);
+            sizes.push_back(step(i));
+            if (step(i - 1) * step(i) <= 0. && step(i) * step(i + 1) <= 0.)
+              alone.push_back(std::abs(step(i)));
+          }
+      }
 
       std::vector<std::size_t> rows;  ///< of all that are not 0
       std::vector<double>      sizes; ///< with their signs
@@ -482,29 +475,6 @@ namespace SlipStep
       std::size_t              n_back  = 0;  ///< that take back one just made
       double                   largest = 0.; ///< of the values, without sign
     };
-
-
-
-    Steps::Steps(const std::vector<double> &values)
-    {
-      constexpr std::size_t just = 3; // rows
-
-      const auto step = [&](const std::size_t i) {
-        return i > 0 && i < values.size() ? values[i] - values[i - 1] : 0.;
-      };
-      for (std::size_t i = 1; i < values.size(); ++i)
-        {
-          largest = std::max(largest, std::abs(values[i]));
-          if (step(i) == 0.)
-            continue;
-          n_back += !rows.empty() && i - rows.back() <= just &&
-                    sizes.back() * step(i) < 0.;
-          rows.push_back(i);
-          sizes.push_back(step(i));
-          if (step(i - 1) * step(i) <= 0. && step(i) * step(i + 1) <= 0.)
-            alone.push_back(std::abs(step(i)));
-        }
-    }
 
 
 

@@ -39,7 +39,20 @@ namespace SlipStep
       {}
 
       virtual void add_elastic_forces(const Vector &displacement,
-                                      Vector       &forces) const override;
+                                      Vector       &forces) const override
+      {
+        const unsigned int     n = dof_handler.get_fe().dofs_per_cell;
+        dealii::Vector<double> local(n), local_forces(n);
+        std::vector<types::global_dof_index> dofs(n);
+        for (const auto &cell : dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              cell->get_dof_values(displacement, local);
+              matrix.cell_matrix(cell->level()).vmult(local_forces, local);
+              cell->get_dof_indices(dofs);
+              forces.add(dofs, local_forces);
+            }
+      }
 
       virtual void linearise(const ContactTangent<dim> &tangent,
                              const BodyFactors         &body) override
@@ -49,8 +62,66 @@ namespace SlipStep
         matrix.set_tangent(tangent, body);
       }
 
+      // The preconditioner of an earlier tangent serves as long as it is nearly
+      // as good as it was for its own: making a new one costs many iterations.
       virtual unsigned int
-      solve(Vector &x, const Vector &b, const double tolerance) override;
+      solve(Vector &x, const Vector &b, const double tolerance) override
+      {
+        Vector     residual(b);
+        const auto iterate = [&]() {
+          SolverControl control(preconditioner_is_usable ?
+                                  origin.n_iterations + 10 :
+                                  200,
+                                tolerance);
+          SolverGMRES<Vector> solver(
+            control, typename SolverGMRES<Vector>::AdditionalData(50, true));
+          x = 0.;
+          solver.solve(matrix.matrix(), x, b, *preconditioner);
+
+          // The factors of a singular tangent can deceive GMRES: ask the
+          // matrix.
+          matrix.matrix().vmult(residual, x);
+          residual.sadd(-1., 1., b);
+          const double norm = residual.l2_norm();
+          if (!(norm <= 10. * tolerance))
+            throw SolverControl::NoConvergence(control.last_step(), norm);
+          return control.last_step();
+        };
+
+        if (preconditioner_is_usable)
+          try
+            {
+              return iterate();
+            }
+          catch (const SolverControl::NoConvergence &)
+            {
+              preconditioner_is_usable = false;
+            }
+
+        try
+          {
+            preconditioner->initialize(matrix.matrix());
+            origin                   = {present, present_body, iterate(), true};
+            preconditioner_is_usable = true;
+            return origin.n_iterations;
+          }
+        catch (const SolverControl::NoConvergence &failure)
+          {
+            std::ostringstream message;
+            message << std::setprecision(2)
+                    << (type == SolverType::direct ?
+                          "the factors of the tangent do not solve with it" :
+                          "algebraic multigrid did not converge")
+                    << ": after " << failure.last_step
+                    << " iterations the residual is "
+                    << failure.last_residual / b.l2_norm()
+                    << " of what it was first, " << tolerance / b.l2_norm()
+                    << " were asked for";
+            if (type == SolverType::direct)
+              message << "; it is singular or nearly so";
+            throw RunError(message.str());
+          }
+      }
 
       virtual PreconditionerOrigin<dim> preconditioner_origin() const override
       {
@@ -77,87 +148,6 @@ namespace SlipStep
       ContactTangent<dim>             present; // in the matrix
       BodyFactors                     present_body;
     };
-
-
-
-    template <int dim>
-    void AssembledSystem<dim>::add_elastic_forces(const Vector &displacement,
-                                                  Vector       &forces) const
-    {
-      const unsigned int     n = dof_handler.get_fe().dofs_per_cell;
-      dealii::Vector<double> local(n), local_forces(n);
-      std::vector<types::global_dof_index> dofs(n);
-      for (const auto &cell : dof_handler.active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            cell->get_dof_values(displacement, local);
-            matrix.cell_matrix(cell->level()).vmult(local_forces, local);
-            cell->get_dof_indices(dofs);
-            forces.add(dofs, local_forces);
-          }
-    }
-
-
-
-    // The preconditioner of an earlier tangent serves as long as it is nearly
-    // as good as it was for its own: making a new one costs many iterations.
-    template <int dim>
-    unsigned int AssembledSystem<dim>::solve(Vector       &x,
-                                             const Vector &b,
-                                             const double  tolerance)
-    {
-      Vector     residual(b);
-      const auto iterate = [&]() {
-        SolverControl control(
-          preconditioner_is_usable ? origin.n_iterations + 10 : 200, tolerance);
-        SolverGMRES<Vector> solver(
-          control, typename SolverGMRES<Vector>::AdditionalData(50, true));
-        x = 0.;
-        solver.solve(matrix.matrix(), x, b, *preconditioner);
-
-        // The factors of a singular tangent can deceive GMRES: ask the matrix.
-        matrix.matrix().vmult(residual, x);
-        residual.sadd(-1., 1., b);
-        const double norm = residual.l2_norm();
-        if (!(norm <= 10. * tolerance))
-          throw SolverControl::NoConvergence(control.last_step(), norm);
-        return control.last_step();
-      };
-
-      if (preconditioner_is_usable)
-        try
-          {
-            return iterate();
-          }
-        catch (const SolverControl::NoConvergence &)
-          {
-            preconditioner_is_usable = false;
-          }
-
-      try
-        {
-          preconditioner->initialize(matrix.matrix());
-          origin                   = {present, present_body, iterate(), true};
-          preconditioner_is_usable = true;
-          return origin.n_iterations;
-        }
-      catch (const SolverControl::NoConvergence &failure)
-        {
-          std::ostringstream message;
-          message << std::setprecision(2)
-                  << (type == SolverType::direct ?
-                        "the factors of the tangent do not solve with it" :
-                        "algebraic multigrid did not converge")
-                  << ": after " << failure.last_step
-                  << " iterations the residual is "
-                  << failure.last_residual / b.l2_norm()
-                  << " of what it was first, " << tolerance / b.l2_norm()
-                  << " were asked for";
-          if (type == SolverType::direct)
-            message << "; it is singular or nearly so";
-          throw RunError(message.str());
-        }
-    }
   } // namespace
 
 
