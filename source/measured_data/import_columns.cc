@@ -167,14 +167,8 @@ namespace SlipStep
       map.reject(path,
                  "\"" + unit + "\" is no unit that this program knows; {" +
                    name + " as recorded} is the bare number");
-    try
-      {
-        source.conversion = unit_conversion(unit, *wanted);
-      }
-    catch (const InputError &error)
-      {
-        map.reject(path, error.what());
-      }
+    source.conversion =
+      map.attempt(path, [&] { return unit_conversion(unit, *wanted); });
     if (is_told)
       compare_units(source.position, unit, *wanted);
     return source;
@@ -265,14 +259,9 @@ namespace SlipStep
       {
         const std::string unit = dealii::Utilities::trim(text.substr(in + 4));
         text.resize(in);
-        try
-          {
-            recipe.conversion = unit_conversion(unit, key.dimension);
-          }
-        catch (const InputError &error)
-          {
-            map.reject(path, error.what());
-          }
+        recipe.conversion = map.attempt(path, [&] {
+          return unit_conversion(unit, key.dimension);
+        });
       }
 
     std::string              plain;

@@ -152,14 +152,8 @@ namespace SlipStep
       std::string filled_text(const std::string                  &path,
                               std::map<std::string, std::string> &values) const
       {
-        try
-          {
-            return filled_in(map.text(path), values);
-          }
-        catch (const InputError &error)
-          {
-            map.reject(path, error.what());
-          }
+        return map.attempt(path,
+                           [&] { return filled_in(map.text(path), values); });
       }
 
       std::optional<double> constant(const std::string &path,
@@ -181,17 +175,12 @@ namespace SlipStep
             if (assumed.find(word) == std::string::npos)
               assumed += (assumed.empty() ? "" : ", ") + word;
           }
-        try
-          {
-            const double value = parse_quantity(text, dimension, true);
-            if (is_positive && value <= 0.)
-              throw InputError("must be positive");
-            return value;
-          }
-        catch (const InputError &error)
-          {
-            map.reject(path, error.what());
-          }
+        return map.attempt(path, [&] {
+          const double value = parse_quantity(text, dimension, true);
+          if (is_positive && value <= 0.)
+            throw InputError("must be positive");
+          return value;
+        });
       }
 
       void select_rows()
@@ -334,14 +323,8 @@ namespace SlipStep
           for (double &value : result)
             value = -value;
         else if (sign == "of the motion")
-          try
-            {
-              give_sign_of_motion(time, motion, result);
-            }
-          catch (const InputError &error)
-            {
-              map.reject("Convention/Friction sign", error.what());
-            }
+          map.attempt("Convention/Friction sign",
+                      [&] { give_sign_of_motion(time, motion, result); });
         return result;
       }
 
@@ -356,41 +339,37 @@ namespace SlipStep
         const std::string unit  = key.rfind("Tangential", 0) == 0 ? " N" : "";
         const std::string drift = map.text("Correction/Drift"),
                           zero  = map.text("Correction/Zero");
-        std::string path        = "Correction/Drift";
         what[0]                 = std::tolower(what[0]);
-        try
-          {
-            const double slope = take_off_drift(drift, time, motion, signal);
-            path               = "Correction/Zero";
-            const auto   sign  = zero == "mean of strokes" ?
-                                   friction_of_one_sign(time, motion, signal) :
-                                   std::nullopt;
-            const double value = take_off_zero(zero, time, motion, signal);
-            if (zero.rfind("mean of the first", 0) == 0 &&
-                std::abs(value) > 0. && moves_in_first(zero, time, motion))
-              doubts.push_back(
-                "Correction/Zero = " + zero +
-                ": the record moves in that time. If it touches the plane then, "
-                "friction is taken off the " +
-                what + " with the zero");
-            if (sign.has_value() &&
-                std::abs(sign->forth - sign->back) <= alike * sign->scatter)
-              throw InputError("it takes off nearly all, " +
-                               rounded_text(value, 4) + unit +
-                               ": has the record no sign (Convention/Friction "
-                               "sign = of the motion)?");
-            std::string &note = notes["corrected"];
-            if (drift != "none")
-              note += (note.empty() ? "" : "; ") + what + " less a drift of " +
-                      rounded_text(slope, 4) + unit + "/s about mid-time";
-            if (zero != "none")
-              note += (note.empty() ? "" : "; ") + what + " less " +
-                      rounded_text(value, 4) + unit + ", its " + zero;
-          }
-        catch (const InputError &error)
-          {
-            map.reject(path, error.what());
-          }
+        const double slope      = map.attempt("Correction/Drift", [&] {
+          return take_off_drift(drift, time, motion, signal);
+        });
+        const double value      = map.attempt("Correction/Zero", [&] {
+          const auto   sign  = zero == "mean of strokes" ?
+                                      friction_of_one_sign(time, motion, signal) :
+                                      std::nullopt;
+          const double value = take_off_zero(zero, time, motion, signal);
+          if (sign.has_value() &&
+              std::abs(sign->forth - sign->back) <= alike * sign->scatter)
+            throw InputError("it takes off nearly all, " +
+                             rounded_text(value, 4) + unit +
+                             ": has the record no sign (Convention/Friction "
+                                  "sign = of the motion)?");
+          return value;
+        });
+        if (zero.rfind("mean of the first", 0) == 0 && std::abs(value) > 0. &&
+            moves_in_first(zero, time, motion))
+          doubts.push_back(
+            "Correction/Zero = " + zero +
+            ": the record moves in that time. If it touches the plane then, "
+            "friction is taken off the " +
+            what + " with the zero");
+        std::string &note = notes["corrected"];
+        if (drift != "none")
+          note += (note.empty() ? "" : "; ") + what + " less a drift of " +
+                  rounded_text(slope, 4) + unit + "/s about mid-time";
+        if (zero != "none")
+          note += (note.empty() ? "" : "; ") + what + " less " +
+                  rounded_text(value, 4) + unit + ", its " + zero;
       }
 
       void tidy(MeasuredTest &test) const
@@ -424,22 +403,16 @@ namespace SlipStep
 
       std::vector<MeasuredTest> parts_of(const MeasuredTest &record) const
       {
-        const std::string        cut  = map.text("Selection/Cut");
-        std::string              path = "Selection/Cut";
-        std::vector<RecordPart>  parts;
-        std::vector<std::size_t> chosen;
-        try
-          {
-            parts = cut_record(record, cut);
-            if (parts.empty())
-              throw InputError("no part has the two rows that a test needs");
-            path   = "Selection/Parts";
-            chosen = chosen_parts(map.text(path), parts.size());
-          }
-        catch (const InputError &error)
-          {
-            map.reject(path, error.what());
-          }
+        const std::string         cut    = map.text("Selection/Cut");
+        const auto                parts  = map.attempt("Selection/Cut", [&] {
+          auto found = cut_record(record, cut);
+          if (found.empty())
+            throw InputError("no part has the two rows that a test needs");
+          return found;
+        });
+        const auto                chosen = map.attempt("Selection/Parts", [&] {
+          return chosen_parts(map.text("Selection/Parts"), parts.size());
+        });
         std::vector<MeasuredTest> tests;
         for (const std::size_t number : chosen)
           {

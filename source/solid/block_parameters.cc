@@ -143,14 +143,9 @@ namespace SlipStep
 
       double quantity(const std::string &text, const Dimension dimension) const
       {
-        try
-          {
-            return parse_quantity(text, dimension, true);
-          }
-        catch (const InputError &error)
-          {
-            parameters.reject(path, error.what());
-          }
+        return parameters.attempt(path, [&] {
+          return parse_quantity(text, dimension, true);
+        });
       }
 
       // "pressure 5 MPa", "pressure programme", "pressure 3 x programme".

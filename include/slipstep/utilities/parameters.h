@@ -162,6 +162,21 @@ namespace SlipStep
     [[noreturn]] void reject(const std::string &path,
                              const std::string &why) const;
 
+    /// Do what may find a value wrong.
+    /// @throws InputError as reject() does, with what that of @p work says
+    template <typename Work>
+    auto attempt(const std::string &path, const Work &work) const
+    {
+      try
+        {
+          return work();
+        }
+      catch (const InputError &error)
+        {
+          reject(path, error.what());
+        }
+    }
+
     /// A file name in the case, made relative to the folder of the .prm file.
     std::filesystem::path resolve(const std::string &file_name) const;
 
