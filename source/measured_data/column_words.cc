@@ -1,89 +1,54 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/utilities.h>
+
 #include <slipstep/measured_data/column_words.h>
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/lists.h>
 
-#include <set>
-
 namespace SlipStep
 {
   const std::vector<KeyWords> &key_words()
   {
+    // Words stand between blanks.
     static const std::vector<KeyWords> all = {
-      {"Time", {"time", "zeit", "elapsed"}, {"t"}, {"step", "date", "temp"}},
+      {"Time", "time zeit elapsed", "t", "step date temp"},
       {"Displacement",
-       {"displ",
-        "position",
-        "distance",
-        "weg",
-        "stroke",
-        "travel",
-        "slip",
-        "verschiebung",
-        "strecke"},
-       {"x", "u", "s", "d", "pos", "path", "hub"},
-       {"wear",
-        "verschlei",
-        "radius",
-        "thick",
-        "dicke",
-        "width",
-        "height",
-        "normal",
-        "vertical"}},
-      {"Speed",
-       {"speed", "veloc", "geschw", "vitesse"},
-       {"v"},
-       {"set", "soll", "target", "wind", "fan"}},
+       "displ position distance weg stroke travel slip verschiebung strecke",
+       "x u s d pos path hub",
+       "wear verschlei radius thick dicke width height normal vertical"},
+      {"Speed", "speed veloc geschw vitesse", "v", "set soll target wind fan"},
       {"Friction",
-       {"coefficient",
-        "friction",
-        "reibwert",
-        "reibungszahl",
-        "beiwert",
-        "reibungskoeff"},
-       {"mu", "cof", "\xC2\xB5", "\xCE\xBC", "\xB5", "f"},
-       {"force", "kraft", "load", "stress", "torque", "moment"}},
+       "coefficient friction reibwert reibungszahl beiwert reibungskoeff",
+       "mu cof \xC2\xB5 \xCE\xBC \xB5 f",
+       "force kraft load stress torque moment"},
       {"Tangential load",
-       {"friction",
-        "tangential",
-        "reibkraft",
-        "reibungskraft",
-        "shear",
-        "lateral",
-        "pull",
-        "zugkraft"},
-       {"ft",
-        "fx",
-        "f_t",
-        "f_x",
-        "ff",
-        "fr",
-        "f_r",
-        "t",
-        "f",
-        "force",
-        "kraft"},
-       {"coefficient", "stress", "normal", "torque"}},
+       "friction tangential reibkraft reibungskraft shear lateral pull zugkraft",
+       "ft fx f_t f_x ff fr f_r t f force kraft",
+       "coefficient stress normal torque"},
       {"Normal load",
-       {"normal",
-        "load",
-        "anpress",
-        "last",
-        "vertical",
-        "clamp",
-        "clamp_force",
-        "clamping"},
-       {"fn", "fz", "f_n", "f_z", "n", "p"},
-       {"stress", "friction", "tangential", "shear"}},
+       "normal load anpress last vertical clamp clamp_force clamping",
+       "fn fz f_n f_z n p",
+       "stress friction tangential shear"},
       {"Pressure",
-       {"pressure", "stress", "druck", "pressung", "spannung"},
-       {"p", "sigma", "sigma_n", "sn"},
-       {"shear", "tau", "schub", "oil", "friction", "atmos"}},
-      {"Temperature", {"temp"}, {"t", "theta"}, {}}};
+       "pressure stress druck pressung spannung",
+       "p sigma sigma_n sn",
+       "shear tau schub oil friction atmos"},
+      {"Temperature", "temp", "t theta", ""}};
     return all;
   }
+
+
+
+  KeyWords::KeyWords(const std::string &key,
+                     const std::string &words,
+                     const std::string &labels,
+                     const std::string &against)
+    : key(key)
+    , words(dealii::Utilities::split_string_list(words, ' '))
+    , labels(dealii::Utilities::split_string_list(labels, ' '))
+    , against(dealii::Utilities::split_string_list(against, ' '))
+  {}
 
 
 
@@ -99,21 +64,12 @@ namespace SlipStep
   // "fz act" is "fz".
   std::string without_qualifier(const std::string &name)
   {
-    static const std::set<std::string> qualifiers = {"set",
-                                                     "soll",
-                                                     "target",
-                                                     "nominal",
-                                                     "act",
-                                                     "actual",
-                                                     "ist",
-                                                     "meas",
-                                                     "measured",
-                                                     "gemessen",
-                                                     "avg",
-                                                     "mean"};
-    const std::size_t                  at         = name.find_last_of(" _.");
+    static const auto qualifiers = dealii::Utilities::split_string_list(
+      "set soll target nominal act actual ist meas measured gemessen avg mean",
+      ' ');
+    const std::size_t at = name.find_last_of(" _.");
     return at != std::string::npos && at > 0 &&
-               qualifiers.count(name.substr(at + 1)) > 0 ?
+               holds(qualifiers, name.substr(at + 1)) ?
              name.substr(0, at) :
              name;
   }

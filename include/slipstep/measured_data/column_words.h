@@ -10,6 +10,12 @@ namespace SlipStep
   /// Words in the names of columns that speak for a key, and against it.
   struct KeyWords
   {
+    /// @param words, labels, against parted by blanks
+    KeyWords(const std::string &key,
+             const std::string &words,
+             const std::string &labels,
+             const std::string &against);
+
     std::string              key;
     std::vector<std::string> words;  ///< parts of a name
     std::vector<std::string> labels; ///< whole names
