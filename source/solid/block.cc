@@ -4,12 +4,12 @@
 #include <slipstep/experiment/sliding_path.h>
 #include <slipstep/solid/supports.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 
 #include <deal.II/fe/fe_q.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -329,13 +329,12 @@ namespace SlipStep
           return true;
         if (n == parameters.newton_iterations)
           {
-            std::ostringstream message;
-            message << "Newton's method did not converge in " << n
-                    << " iterations: the forces are out of balance by "
-                    << norm / newton.force_scale
-                    << " of the contact force, allowed are "
-                    << parameters.newton_tolerance;
-            newton.failure = message.str();
+            newton.failure = "Newton's method did not converge in " +
+                             std::to_string(n) +
+                             " iterations: the forces are out of balance by " +
+                             short_text(norm / newton.force_scale, 6) +
+                             " of the contact force, allowed are " +
+                             short_text(parameters.newton_tolerance, 6);
             return false;
           }
 

@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -37,14 +35,10 @@ namespace SlipStep
     const bool is_off = totals.normal_load <= 1e-6 * largest_normal_load &&
                         !has_yet_to_touch && !parameters.is_dynamic();
     if (is_off || (control.is_finished() && largest_normal_load == 0.))
-      {
-        std::ostringstream message;
-        message << "no contact pressure is left at t = " << control.time()
-                << (largest_normal_load > 0. ?
-                      " s: the block has come off the plane" :
-                      " s: the block has not touched the plane");
-        throw RunError(message.str());
-      }
+      throw RunError(
+        "no contact pressure is left at t = " + short_text(control.time(), 6) +
+        (largest_normal_load > 0. ? " s: the block has come off the plane" :
+                                    " s: the block has not touched the plane"));
 
     // Off the plane nothing bears a load to weigh it by.
     if (contact.friction_law().wear_rate() > 0.)
@@ -81,13 +75,11 @@ namespace SlipStep
           std::min(most - least, std::max(std::abs(least), std::abs(most)));
         if (motion <= 0.05 * parameters.size[d])
           continue;
-        std::ostringstream message;
-        message << "points of the block have moved by " << motion
-                << " mm along "
-                << "xyz"[d]
-                << " with respect to the drive and to each other, which is too "
-                   "much for small strains and rotations";
-        newton.failure = message.str();
+        newton.failure =
+          "points of the block have moved by " + short_text(motion, 6) +
+          " mm along " + "xyz"[d] +
+          " with respect to the drive and to each other, which is too much "
+          "for small strains and rotations";
         throw RunError("At t = " + std::to_string(control.time()) + " s " +
                        (tips_over() ? reason_of_failure() : newton.failure));
       }
@@ -109,31 +101,27 @@ namespace SlipStep
   template <int dim>
   std::string Block<dim>::reason_of_failure() const
   {
-    std::ostringstream message;
+    const std::string failure = " (" + newton.failure + ")";
     if (tips_over())
-      message << "the block tips over: only "
-              << std::round(100. * contact_share)
-              << " % of its face is still in contact (" << newton.failure
-              << ")";
-    else if (control.time() == 0. &&
-             newton.failure.find("'set Solver = automatic'") ==
-               std::string::npos)
-      message << "not even the beginning of the loads is in equilibrium: they "
-                 "lift the block or tip it over, or, if they do hold it on the "
-                 "plane, more Block/Newton iterations than "
-              << parameters.newton_iterations
-              << " or, where round-off is in the way, a larger Block/Newton "
-                 "tolerance may help ("
-              << newton.failure << ")" << remedy_of_proportional_loads();
-    else if (drive.is_unknown() && drive.mass() == 0. && !inertia.exists())
-      message << drive.reason_of_failure() << " (" << newton.failure << ")";
-    else if (!inertia.exists() && parameters.only_friction_holds_loads())
-      message << "friction, which alone holds the loads of the faces along the "
-                 "plane, can hardly do so ("
-              << newton.failure << ")" << remedy_of_jumps();
-    else
-      message << newton.failure << remedy_of_jumps();
-    return message.str();
+      return "the block tips over: only " +
+             std::to_string(std::lround(100. * contact_share)) +
+             " % of its face is still in contact" + failure;
+    if (control.time() == 0. &&
+        newton.failure.find("'set Solver = automatic'") == std::string::npos)
+      return "not even the beginning of the loads is in equilibrium: they lift "
+             "the block or tip it over, or, if they do hold it on the plane, "
+             "more Block/Newton iterations than " +
+             std::to_string(parameters.newton_iterations) +
+             " or, where round-off is in the way, a larger Block/Newton "
+             "tolerance may help" +
+             failure + remedy_of_proportional_loads();
+    if (drive.is_unknown() && drive.mass() == 0. && !inertia.exists())
+      return drive.reason_of_failure() + failure;
+    if (!inertia.exists() && parameters.only_friction_holds_loads())
+      return "friction, which alone holds the loads of the faces along the "
+             "plane, can hardly do so" +
+             failure + remedy_of_jumps();
+    return newton.failure + remedy_of_jumps();
   }
 
 
@@ -187,25 +175,24 @@ namespace SlipStep
       };
       while (std::all_of(begin, end, is_divisible))
         factor *= 2;
-      double             n_coarse = parameters.dimension;
-      std::ostringstream present, better;
+      double      n_coarse = parameters.dimension;
+      std::string present, better;
       for (auto n = begin; n != end; ++n)
         {
+          const std::string comma = n == begin ? "" : ", ";
           n_coarse *= 1. + *n / factor;
-          present << (n == begin ? "" : ", ") << *n;
-          better << (n == begin ? "" : ", ") << (*n + most / 2) / most * most;
+          present += comma + std::to_string(*n);
+          better += comma + std::to_string((*n + most / 2) / most * most);
         }
       if (n_coarse < 3000. || factor >= most)
         return "";
-      return "the subdivisions " + present.str() +
+      return "the subdivisions " + present +
              " cannot be halved often enough for multigrid: its coarsest mesh "
              "has " +
              std::to_string(std::lround(n_coarse)) +
              " unknowns, and they are solved directly in every iteration; "
              "'set Subdivisions = " +
-             better.str() +
-             "' in section Block is "
-             "cheaper";
+             better + "' in section Block is cheaper";
     }
 
 
@@ -215,14 +202,13 @@ namespace SlipStep
       constexpr double noticed = 0.005;
       if (std::abs(strength_error) <= noticed)
         return "";
-      std::ostringstream message;
-      message << "the contact points see the map Contact/Strength too "
-              << (strength_error > 0. ? "high" : "low") << ", by "
-              << std::setprecision(2) << 100. * std::abs(strength_error)
-              << " % on average: they are too far apart for it; more "
-                 "Block/Subdivisions, with borders of cells where the map "
-                 "jumps, tell it better";
-      return message.str();
+      return std::string(
+               "the contact points see the map Contact/Strength too ") +
+             (strength_error > 0. ? "high" : "low") + ", by " +
+             short_text(100. * std::abs(strength_error), 2) +
+             " % on average: they are too far apart for it; more "
+             "Block/Subdivisions, with borders of cells where the map jumps, "
+             "tell it better";
     }
 
 
@@ -231,13 +217,11 @@ namespace SlipStep
     {
       if (largest_jump <= 1e-3)
         return "";
-      std::ostringstream message;
-      message << "the friction force jumped by up to " << std::setprecision(2)
-              << 100. * largest_jump
-              << " % when the mesh changed (see refinement.csv); a smaller "
-                 "'Tolerance' in section Block/Adaptivity or more "
-                 "subdivisions make it smoother";
-      return message.str();
+      return "the friction force jumped by up to " +
+             short_text(100. * largest_jump, 2) +
+             " % when the mesh changed (see refinement.csv); a smaller "
+             "'Tolerance' in section Block/Adaptivity or more subdivisions "
+             "make it smoother";
     }
 
 
@@ -269,31 +253,28 @@ namespace SlipStep
     const bool is_curved = parameters.surface.is_curved();
     if (!opening.has_happened() || (is_curved && opening.share < 0.01))
       return "";
-    std::ostringstream message;
-    message << "part of the contact face lifted off the plane: at worst "
-            << std::setprecision(3) << 100. * opening.share << " % of it "
-            << (is_curved ? "had touched and " : "")
-            << "was open, at t = " << std::setprecision(6) << opening.time
-            << " s (";
-    if (is_curved)
-      message << "less pressure or friction leaves a gap open again";
-    else if (inertia.exists())
-      message << "waves lift a block with density, or friction turns it; "
-                 "slower statements or a 'Damping time' calm waves";
-    else
-      message << (turns_early(parameters, programme) ?
-                    "a block of so few cells along its length turns early, "
-                    "take more Block/Subdivisions; else " :
-                    "")
-              << "friction turns a block that is high for its length, or what "
-                 "holds and pulls its faces lifts it";
-    message << ')';
-    if (!is_curved && !inertia.exists() && opening.share > 0.6)
-      message << ": where a block stands on its edge, friction is what turns "
-                 "it, not what the contact can bear, and is the lower the "
-                 "farther the outermost contact points are from the edge: more "
-                 "Block/Subdivisions along the motion raise it";
-    return message.str();
+    std::string why = "less pressure or friction leaves a gap open again";
+    if (!is_curved && inertia.exists())
+      why = "waves lift a block with density, or friction turns it; slower "
+            "statements or a 'Damping time' calm waves";
+    else if (!is_curved)
+      why = std::string(turns_early(parameters, programme) ?
+                          "a block of so few cells along its length turns "
+                          "early, take more Block/Subdivisions; else " :
+                          "") +
+            "friction turns a block that is high for its length, or what holds "
+            "and pulls its faces lifts it";
+    return "part of the contact face lifted off the plane: at worst " +
+           short_text(100. * opening.share, 3) + " % of it " +
+           (is_curved ? "had touched and " : "") +
+           "was open, at t = " + short_text(opening.time, 6) + " s (" + why +
+           ")" +
+           (!is_curved && !inertia.exists() && opening.share > 0.6 ?
+              ": where a block stands on its edge, friction is what turns it, "
+              "not what the contact can bear, and is the lower the farther the "
+              "outermost contact points are from the edge: more "
+              "Block/Subdivisions along the motion raise it" :
+              "");
   }
 
 

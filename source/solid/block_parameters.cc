@@ -4,6 +4,7 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/text.h>
 
 #include <deal.II/base/types.h>
 #include <deal.II/base/utilities.h>
@@ -287,13 +288,12 @@ namespace SlipStep
           farthest = std::max(farthest, motion);
         }
       if (block.surface.is_curved() && block.surface.least_gap() >= farthest)
-        {
-          std::ostringstream message;
-          message << "is " << block.surface.least_gap()
-                  << " mm or more everywhere, but the block is moved by "
-                  << farthest << " mm towards the plane: it never touches";
-          parameters.reject("Contact/Gap", message.str());
-        }
+        parameters.reject("Contact/Gap",
+                          "is " + short_text(block.surface.least_gap(), 6) +
+                            " mm or more everywhere, but the block is moved "
+                            "by " +
+                            short_text(farthest, 6) +
+                            " mm towards the plane: it never touches");
     }
   } // namespace
 
@@ -446,20 +446,15 @@ namespace SlipStep
       }
     if (n_unknowns() >
         std::numeric_limits<dealii::types::global_dof_index>::max())
-      {
-        std::ostringstream message;
-        message << "these are " << n_unknowns()
-                << " unknowns, more than the program can number; take fewer "
-                   "cells";
-        parameters.reject(key_of_cells(), message.str());
-      }
+      parameters.reject(key_of_cells(),
+                        "these are " + short_text(n_unknowns(), 6) +
+                          " unknowns, more than the program can number; take "
+                          "fewer cells");
     if (refinement.type == RefinementType::adaptive &&
         n_cells() > refinement.most_cells)
-      {
-        std::ostringstream message;
-        message << "the subdivisions alone are " << n_cells() << " cells";
-        parameters.reject("Block/Adaptivity/Most cells", message.str());
-      }
+      parameters.reject("Block/Adaptivity/Most cells",
+                        "the subdivisions alone are " +
+                          short_text(n_cells(), 6) + " cells");
 
     unsigned int n_contact = 0, n_driven = 0;
     const auto   names = face_names(dimension);

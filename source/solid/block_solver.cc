@@ -2,10 +2,9 @@
 #include <slipstep/solid/block.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 
 #include <malloc.h>
-
-#include <sstream>
 
 namespace SlipStep
 {
@@ -140,29 +139,24 @@ namespace SlipStep
     const auto times = [](const unsigned long long n) {
       return n == 1 ? std::string("once") : std::to_string(n) + " times";
     };
-    std::ostringstream message;
+    const std::string first = short_text(first_solver_failure, 6);
     if (parameters.solver != SolverType::automatic)
-      {
-        message
-          << "the linear solver did not converge, "
-          << times(n_solver_failures[0] + n_solver_failures[1])
-          << " and first at t = " << first_solver_failure
-          << " s; each time a step was cut, which may make a run endless: "
-             "'set Solver = automatic' in section Block goes on with "
-             "another solver";
-        return message.str();
-      }
-    message << "the first choice of linear solver did not converge, first at t "
-               "= "
-            << first_solver_failure << " s: geometric multigrid failed "
-            << times(n_solver_failures[0])
-            << ", where algebraic multigrid took "
-            << "over for the rest of the statement";
-    if (n_solver_failures[1] > 0)
-      message << ", and that " << times(n_solver_failures[1])
-              << ", where a factorisation did";
-    message << "; that takes longer, the results are as accurate";
-    return message.str();
+      return "the linear solver did not converge, " +
+             times(n_solver_failures[0] + n_solver_failures[1]) +
+             " and first at t = " + first +
+             " s; each time a step was cut, which may make a run endless: "
+             "'set Solver = automatic' in section Block goes on with another "
+             "solver";
+    return "the first choice of linear solver did not converge, first at t = " +
+           first + " s: geometric multigrid failed " +
+           times(n_solver_failures[0]) +
+           ", where algebraic multigrid took over for the rest of the "
+           "statement" +
+           (n_solver_failures[1] > 0 ?
+              ", and that " + times(n_solver_failures[1]) +
+                ", where a factorisation did" :
+              "") +
+           "; that takes longer, the results are as accurate";
   }
 
 

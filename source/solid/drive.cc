@@ -2,9 +2,9 @@
 #include <slipstep/solid/drive.h>
 
 #include <slipstep/experiment/contact_under_load.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -152,11 +152,9 @@ namespace SlipStep
                               programme.segment_at(end_time).push,
                             at_start.load,
                             pressure);
-    std::ostringstream message;
-    message << "the contact gives way faster than the machine's spring of "
-            << machine.stiffness()
-            << " MPa/mm slackens, and would jump; a Loading/Machine mass makes "
-               "a motion of that";
-    return message.str();
+    return "the contact gives way faster than the machine's spring of " +
+           short_text(machine.stiffness(), 6) +
+           " MPa/mm slackens, and would jump; a Loading/Machine mass makes a "
+           "motion of that";
   }
 } // namespace SlipStep

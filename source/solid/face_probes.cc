@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/face_probes.h>
 
+#include <slipstep/utilities/text.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 namespace SlipStep
@@ -144,12 +145,11 @@ namespace SlipStep
             if (quantity.position[i] >= 0. &&
                 quantity.position[i] <= block.size[axis])
               continue;
-            std::ostringstream message;
-            message << where << "along "
-                    << "xyz"[axis] << " the "
-                    << (is_of_face ? "contact face" : "block")
-                    << " reaches from 0 to " << block.size[axis] << " mm";
-            parameters.reject(key, message.str());
+            parameters.reject(key,
+                              where + "along " + "xyz"[axis] + " the " +
+                                (is_of_face ? "contact face" : "block") +
+                                " reaches from 0 to " +
+                                short_text(block.size[axis], 6) + " mm");
           }
       }
   }

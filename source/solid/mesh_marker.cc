@@ -2,6 +2,7 @@
 #include <slipstep/solid/mesh_marker.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/text.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -202,18 +202,15 @@ namespace SlipStep
       return result;
     result.n_too_many = n_wanted - most;
     if (refinement.stop_at_cap)
-      {
-        std::ostringstream message;
-        message << "the mesh would need " << n_wanted << " cells, but "
-                << (most < refinement.most_cells ?
-                      "'Most memory' in section Block/Adaptivity (or the "
-                      "machine's) allows " :
-                      "'Most cells' in section Block/Adaptivity allows ")
-                << std::floor(most)
-                << ": raise it, raise 'Tolerance', or 'set Beyond the limit = "
-                   "warn'";
-        throw RunError(message.str());
-      }
+      throw RunError("the mesh would need " + short_text(n_wanted, 6) +
+                     " cells, but " +
+                     (most < refinement.most_cells ?
+                        "'Most memory' in section Block/Adaptivity (or the "
+                        "machine's) allows " :
+                        "'Most cells' in section Block/Adaptivity allows ") +
+                     short_text(std::floor(most), 6) +
+                     ": raise it, raise 'Tolerance', or 'set Beyond the limit "
+                     "= warn'");
 
     // The largest errors that fit.
     double lower = limit, upper = largest;

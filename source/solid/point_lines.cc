@@ -47,11 +47,10 @@ namespace SlipStep
             }
           if (point[d] >= 0. && point[d] <= block.size[d])
             continue;
-          std::ostringstream message;
-          message << "'" << line << "': along "
-                  << "xyz"[d] << " the block reaches from 0 to "
-                  << block.size[d] << " mm";
-          parameters.reject(lines_key, message.str());
+          parameters.reject(lines_key,
+                            "'" + line + "': along " + "xyz"[d] +
+                              " the block reaches from 0 to " +
+                              short_text(block.size[d], 6) + " mm");
         }
       return point;
     }
