@@ -556,11 +556,4 @@ namespace SlipStep
     old_solution.update_ghost_values();
     old_loading = loading;
   }
-
-
-
-#ifndef SLIPSTEP_UNITY_BUILD
-  template class Block<2>;
-  template class Block<3>;
-#endif
 } // namespace SlipStep

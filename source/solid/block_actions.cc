@@ -112,11 +112,4 @@ namespace SlipStep
     result.force += area * face.traction(load_factors);
     return result;
   }
-
-
-
-#ifndef SLIPSTEP_UNITY_BUILD
-  template class Block<2>;
-  template class Block<3>;
-#endif
 } // namespace SlipStep

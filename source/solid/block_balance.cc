@@ -94,11 +94,4 @@ namespace SlipStep
       }
     return 0.5 * (forces * solution);
   }
-
-
-
-#ifndef SLIPSTEP_UNITY_BUILD
-  template class Block<2>;
-  template class Block<3>;
-#endif
 } // namespace SlipStep

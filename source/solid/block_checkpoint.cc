@@ -295,15 +295,4 @@ namespace SlipStep
     if (origin.exists)
       system->make_preconditioner(origin);
   }
-
-
-
-  template std::vector<std::string>
-  Block<2>::save(const std::filesystem::path &) const;
-  template std::vector<std::string>
-                Block<3>::save(const std::filesystem::path &) const;
-  template bool Block<2>::load(const std::filesystem::path &,
-                               const unsigned int);
-  template bool Block<3>::load(const std::filesystem::path &,
-                               const unsigned int);
 } // namespace SlipStep

@@ -190,11 +190,4 @@ namespace SlipStep
       update.add(motion[j], drive_modes[j]);
     return motion;
   }
-
-
-
-#ifndef SLIPSTEP_UNITY_BUILD
-  template class Block<2>;
-  template class Block<3>;
-#endif
 } // namespace SlipStep

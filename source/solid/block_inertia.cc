@@ -132,11 +132,4 @@ namespace SlipStep
       fields.push_back(&inertia.state());
     return fields;
   }
-
-
-
-#ifndef SLIPSTEP_UNITY_BUILD
-  template class Block<2>;
-  template class Block<3>;
-#endif
 } // namespace SlipStep

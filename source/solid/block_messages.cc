@@ -397,11 +397,4 @@ namespace SlipStep
       summary.opening = opening;
     summary.warnings = warnings();
   }
-
-
-
-#ifndef SLIPSTEP_UNITY_BUILD
-  template class Block<2>;
-  template class Block<3>;
-#endif
 } // namespace SlipStep

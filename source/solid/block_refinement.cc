@@ -223,11 +223,4 @@ namespace SlipStep
     newton              = record;
     return is_found;
   }
-
-
-
-#ifndef SLIPSTEP_UNITY_BUILD
-  template class Block<2>;
-  template class Block<3>;
-#endif
 } // namespace SlipStep

@@ -221,11 +221,4 @@ namespace SlipStep
         load_cases[part].force = FaceVector(load);
       }
   }
-
-
-
-#ifndef SLIPSTEP_UNITY_BUILD
-  template class Block<2>;
-  template class Block<3>;
-#endif
 } // namespace SlipStep

@@ -158,10 +158,4 @@ namespace SlipStep
               "") +
            "; that takes longer, the results are as accurate";
   }
-
-
-
-  // In a unity build of all that there is.
-  template class Block<2>;
-  template class Block<3>;
 } // namespace SlipStep

@@ -138,14 +138,7 @@ namespace SlipStep
 
 
 
-#ifndef SLIPSTEP_UNITY_BUILD
-  template bool   Block<2>::is_put_down() const;
-  template bool   Block<3>::is_put_down() const;
-  template bool   Block<2>::bring_to_touch();
-  template bool   Block<3>::bring_to_touch();
-  template bool   Block<2>::settle();
-  template bool   Block<3>::settle();
-  template double Block<2>::least_force_scale() const;
-  template double Block<3>::least_force_scale() const;
-#endif
+  // Of all the files that have members: this is the last one.
+  template class Block<2>;
+  template class Block<3>;
 } // namespace SlipStep
