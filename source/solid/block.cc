@@ -199,12 +199,9 @@ namespace SlipStep
   template <int dim>
   BlockState<dim> Block<dim>::state() const
   {
-    Tensor<1, dim> frame_motion;
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      frame_motion[parameters.tangential_axis(i)] = old_loading.displacement[i];
     return {dof_handler,
             old_solution,
-            frame_motion,
+            parameters.template in_plane<dim>(old_loading.displacement),
             contact,
             drive,
             control,

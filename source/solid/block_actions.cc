@@ -12,17 +12,6 @@ namespace SlipStep
 
   namespace
   {
-    // Whether a face holds a component of the displacements of its points.
-    bool holds(const BlockParameters &parameters,
-               const unsigned int     f,
-               const unsigned int     component)
-    {
-      const FaceConditions &face = parameters.faces[f];
-      return face.is_prescribed[component] ||
-             (face.is_driven && component != parameters.normal_axis()) ||
-             (face.is_flat && component == f / 2);
-    }
-
     double coordinate_of_face(const BlockParameters &parameters,
                               const unsigned int     f)
     {
@@ -37,12 +26,12 @@ namespace SlipStep
                              const Point<dim>      &point,
                              const unsigned int     component)
     {
-      if (!holds(parameters, face, component))
+      if (!parameters.holds(face, component))
         return 0.;
       unsigned int n_holding = 0;
       for (unsigned int f = 0; f < 2 * dim; ++f)
         n_holding +=
-          holds(parameters, f, component) &&
+          parameters.holds(f, component) &&
           std::abs(point[f / 2] - coordinate_of_face(parameters, f)) <=
             1e-9 * parameters.size[f / 2];
       return 1. / n_holding;

@@ -52,9 +52,10 @@ namespace SlipStep
         driven_dofs[i].clear();
         if (driven_faces.empty())
           continue;
-        ComponentMask mask(dim, false);
-        mask.set(parameters.tangential_axis(i), true);
-        (DoFTools::extract_boundary_dofs(dof_handler, mask, driven_faces) &
+        const FEValuesExtractors::Scalar along(parameters.tangential_axis(i));
+        (DoFTools::extract_boundary_dofs(dof_handler,
+                                         fe.component_mask(along),
+                                         driven_faces) &
          dof_handler.locally_owned_dofs())
           .fill_index_vector(driven_dofs[i]);
       }
@@ -97,10 +98,10 @@ namespace SlipStep
         system->add_elastic_forces(scaled, changes);
       }
     changes.compress(VectorOperation::add);
-    Tensor<1, dim> motion;
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      motion[parameters.tangential_axis(i)] = frame[i];
-    inertia.add_force_changes(displacement, motion, stage_time, changes);
+    inertia.add_force_changes(displacement,
+                              parameters.template in_plane<dim>(frame),
+                              stage_time,
+                              changes);
     move_to_masters(hanging_constraints, changes);
   }
 
@@ -170,9 +171,9 @@ namespace SlipStep
           resistance[i][j] = drive_springs[i][j] = force[i];
         // What resists with the square of the time is no spring: shorter steps
         // would not make its error less.
-        Tensor<1, dim> direction;
-        direction[parameters.tangential_axis(j)] = 1.;
-        const double mass = inertia.mass_of(drive_modes[j], direction);
+        const double mass =
+          inertia.mass_of(drive_modes[j],
+                          parameters.template in_plane<dim>(unit));
         drive_springs[j][j] -= mass / (stage_time * stage_time);
         driven_mass = std::min(driven_mass, mass);
       }

@@ -20,11 +20,8 @@ namespace SlipStep
   template <int dim>
   Tensor<1, dim> Block<dim>::frame_motion_in_stage() const
   {
-    const Tensor<1, 2> motion = loading.displacement - stage_frame;
-    Tensor<1, dim>     result;
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      result[parameters.tangential_axis(i)] = motion[i];
-    return result;
+    return parameters.template in_plane<dim>(loading.displacement -
+                                             stage_frame);
   }
 
 

@@ -306,11 +306,9 @@ namespace SlipStep
                                  const Tensor<1, 2>           &frame,
                                  const double                  time)
   {
-    Tensor<1, dim> motion;
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      motion[parameters.tangential_axis(i)] = frame[i];
     const StressPostprocessor<dim>       stress(parameters);
-    const DisplacementPostprocessor<dim> in_space(motion);
+    const DisplacementPostprocessor<dim> in_space(
+      parameters.template in_plane<dim>(frame));
 
     DataOut<dim> data_out;
     data_out.attach_dof_handler(dof_handler);

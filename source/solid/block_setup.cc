@@ -160,9 +160,8 @@ namespace SlipStep
       {
         dofs_of_component[d].clear();
         supported_dofs[d].clear();
-        ComponentMask mask(dim, false);
-        mask.set(d, true);
-        DoFTools::extract_dofs(dof_handler, mask)
+        DoFTools::extract_dofs(dof_handler,
+                               fe.component_mask(FEValuesExtractors::Scalar(d)))
           .fill_index_vector(dofs_of_component[d]);
       }
     for (unsigned int d = 0; d < dim; ++d)

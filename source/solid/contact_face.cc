@@ -319,7 +319,7 @@ namespace SlipStep
     double approach = farthest + normal_load / (law.normal_stiffness() * area);
     for (unsigned int iteration = 0; iteration < 100; ++iteration)
       {
-        std::array<double, 2> sums{}; // load and stiffness
+        std::vector<double> sums(2); // load and stiffness
         for (const CellFace &cell_face : faces)
           for (const QuadraturePoint &point : cell_face.points)
             if (approach > point.distance)
@@ -328,9 +328,7 @@ namespace SlipStep
                            (approach - point.distance);
                 sums[1] += law.normal_stiffness() * point.JxW;
               }
-        Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
-                            communicator,
-                            ArrayView<double>(sums.data(), sums.size()));
+        Utilities::MPI::sum(sums, communicator, sums);
         const double too_much = sums[0] - normal_load;
         if (!(too_much > 1e-10 * normal_load))
           break;
@@ -359,8 +357,8 @@ namespace SlipStep
       return std::max(point.point.trial().strength,
                       point.point.committed().strength);
     };
-    std::array<double, 4> sums{};
-    std::vector<double>   errors_at_end;
+    std::vector<double> sums(4);
+    std::vector<double> errors_at_end;
     for (const CellFace &cell_face : faces)
       for (const QuadraturePoint &point : cell_face.points)
         {
@@ -373,9 +371,7 @@ namespace SlipStep
           sums[2] += weight;
           sums[3] += weight > 0. ? point.JxW : 0.;
         }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
-                        communicator,
-                        ArrayView<double>(sums.data(), sums.size()));
+    Utilities::MPI::sum(sums, communicator, sums);
     if (!(sums[2] > 0.))
       return {};
 
@@ -493,9 +489,7 @@ namespace SlipStep
     std::vector<types::global_dof_index> dofs(
       dof_handler->get_fe().dofs_per_cell);
     std::vector<Tensor<1, dim>> values(face_quadrature.size());
-    Tensor<1, dim>              rigid;
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      rigid[parameters.tangential_axis(i)] = frame[i];
+    const Tensor<1, dim> rigid = parameters.template in_plane<dim>(frame);
     for (const CellFace &cell_face : faces)
       {
         cell_face.cell->get_dof_indices(dofs);
@@ -564,8 +558,8 @@ namespace SlipStep
                   "MPI takes it for an array of numbers.");
 
     /// @param maxima of the ratios, and of their negatives
-    ContactTotals totals_of(const ContactSums           &sums,
-                            const std::array<double, 6> &maxima)
+    ContactTotals totals_of(const ContactSums         &sums,
+                            const std::vector<double> &maxima)
     {
       ContactTotals totals;
       totals.normal_load        = sums.normal_load;
@@ -598,9 +592,8 @@ namespace SlipStep
   template <int dim>
   ContactTotals ContactFace<dim>::totals(const MPI_Comm &communicator) const
   {
-    ContactSums           sums{};
-    std::array<double, 6> maxima;
-    maxima.fill(std::numeric_limits<double>::lowest());
+    ContactSums         sums{};
+    std::vector<double> maxima(6, std::numeric_limits<double>::lowest());
     for (const CellFace &cell_face : faces)
       for (const QuadraturePoint &point : cell_face.points)
         {
@@ -623,13 +616,10 @@ namespace SlipStep
         }
     const ArrayView<double> all_sums(reinterpret_cast<double *>(&sums),
                                      sizeof(sums) / sizeof(double));
-    const ArrayView<double> all_maxima(maxima.data(), maxima.size());
     Utilities::MPI::sum(ArrayView<const double>(all_sums),
                         communicator,
                         all_sums);
-    Utilities::MPI::max(ArrayView<const double>(all_maxima),
-                        communicator,
-                        all_maxima);
+    Utilities::MPI::max(maxima, communicator, maxima);
     return totals_of(sums, maxima);
   }
 

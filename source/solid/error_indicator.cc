@@ -167,8 +167,7 @@ namespace SlipStep
     // The contact face has its own term.
     double boundary_term(const Cell &cell, const unsigned int f)
     {
-      const FaceConditions &face =
-        parameters.faces[cell->face(f)->boundary_id()];
+      const FaceConditions &face = parameters.faces[f];
       if (face.is_contact)
         return 0.;
       own_face.reinit(cell, f);
@@ -176,14 +175,9 @@ namespace SlipStep
       const Tensor<1, 3> given = face.traction(loads);
       double             sum   = 0.;
       for (unsigned int d = 0; d < dim; ++d)
-        {
-          const bool is_free =
-            !face.is_prescribed[d] &&
-            !(face.is_driven && d != parameters.normal_axis()) &&
-            !(face.is_flat && d == f / 2);
-          for (unsigned int q = 0; is_free && q < own.size(); ++q)
+        if (!parameters.holds(f, d))
+          for (unsigned int q = 0; q < own.size(); ++q)
             sum += std::pow(own[q][d] - given[d], 2) * own_face.JxW(q);
-        }
       return cell->face(f)->diameter() * sum;
     }
 

@@ -237,8 +237,8 @@ namespace SlipStep
                                    const MPI_Comm &communicator) const
   {
     // Sum over the cells that touch the point, and their number.
-    std::array<double, 2> sums{};
-    const QGauss<1>       nodes(static_cast<unsigned int>(
+    std::vector<double> sums(2);
+    const QGauss<1>     nodes(static_cast<unsigned int>(
       std::lround(std::pow(contact.quadrature().size(), 1. / (dim - 1)))));
     for (const auto &cell_face : contact.cell_faces())
       {
@@ -266,9 +266,7 @@ namespace SlipStep
         sums[0] += std::max(value, 0.);
         sums[1] += 1.;
       }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
-                        communicator,
-                        ArrayView<double>(sums.data(), sums.size()));
+    Utilities::MPI::sum(sums, communicator, sums);
     return sums[0] / sums[1];
   }
 

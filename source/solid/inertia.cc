@@ -23,12 +23,11 @@ namespace SlipStep
     const auto first = like.get_partitioner()->local_range().first;
     component.assign(like.locally_owned_size(), 0);
     for (unsigned int d = 0; d < dim; ++d)
-      {
-        ComponentMask mask(dim, false);
-        mask.set(d, true);
-        for (const auto dof : DoFTools::extract_dofs(dof_handler, mask))
-          component[dof - first] = d;
-      }
+      for (const auto dof :
+           DoFTools::extract_dofs(dof_handler,
+                                  dof_handler.get_fe().component_mask(
+                                    FEValuesExtractors::Scalar(d))))
+        component[dof - first] = d;
 
     const auto             shares = shares_of_mass(dof_handler.get_fe());
     dealii::Vector<double> masses(shares.size());

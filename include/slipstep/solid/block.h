@@ -18,11 +18,8 @@
 #include <slipstep/solid/block_parameters.h>
 #include <slipstep/solid/contact_face.h>
 #include <slipstep/solid/drive.h>
-#include <slipstep/solid/face_action.h>
 #include <slipstep/solid/inertia.h>
-#include <slipstep/solid/mesh_change.h>
 #include <slipstep/solid/mesh_marker.h>
-#include <slipstep/solid/mesh_tolerance.h>
 #include <slipstep/solid/linear_solver/tangent_system.h>
 
 #include <filesystem>
@@ -69,6 +66,16 @@ namespace SlipStep
     /// Largest difference met between the contact forces and the sum of loads
     /// and support reactions, relative to the normal load.
     double force_imbalance;
+  };
+
+
+
+  /// What acts on the block through a face: reactions of its supports and of
+  /// the drive, its loads, and the contact. In 2-D per mm of thickness.
+  struct FaceAction
+  {
+    dealii::Tensor<1, 3> force;  ///< [N]
+    dealii::Tensor<1, 3> moment; ///< about the centre of the face [N mm]
   };
 
 

@@ -138,6 +138,25 @@ namespace SlipStep
       return i < normal_axis() ? i : i + 1;
     }
 
+    /// A vector of the contact plane, along the axes of the block.
+    template <int dim>
+    dealii::Tensor<1, dim> in_plane(const dealii::Tensor<1, 2> &vector) const
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned int i = 0; i < dim - 1; ++i)
+        result[tangential_axis(i)] = vector[i];
+      return result;
+    }
+
+    /// Whether a face holds a component of the displacements of its points.
+    bool holds(const unsigned int face, const unsigned int component) const
+    {
+      const FaceConditions &conditions = faces[face];
+      return conditions.is_prescribed[component] ||
+             (conditions.is_driven && component != normal_axis()) ||
+             (conditions.is_flat && component == face / 2);
+    }
+
     /// Whether a displacement along the normal of the contact plane is
     /// prescribed somewhere.
     bool is_held_along_normal() const

@@ -55,11 +55,6 @@ namespace SlipStep
       return unknown;
     }
 
-    bool is_pushed() const
-    {
-      return pushes;
-    }
-
     /// Where the driven faces are when the stage ends [mm]; a first guess if
     /// that is unknown.
     /// @param growth how much of the last step's motion, for that guess

@@ -125,12 +125,6 @@ namespace SlipStep
     /// @param time of a stage [s]
     void difference_of_orders(const double time, Vector &difference) const;
 
-    /// Of every unknown without constraints [t].
-    const Vector &mass() const
-    {
-      return lumped_mass;
-    }
-
     /// In space, at the end of the last step: the state [mm/s].
     Vector &state()
     {

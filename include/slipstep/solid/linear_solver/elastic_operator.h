@@ -208,7 +208,6 @@ namespace SlipStep
     void      forget_unknowns(const NodeTable &table, const unsigned int index);
     void      find_contact_cells();
     void      find_face_nodes();
-    unsigned int face_node(const unsigned int i) const;
 
     const BlockParameters                 parameters;
     const dealii::types::global_dof_index n_unknowns;
