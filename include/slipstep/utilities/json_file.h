@@ -2,6 +2,8 @@
 #ifndef slipstep_utilities_json_file_h
 #define slipstep_utilities_json_file_h
 
+#include <slipstep/utilities/write_file.h>
+
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
@@ -11,10 +13,14 @@
 namespace SlipStep
 {
   /// Write a JSON file, see write_file(). Numbers that are not finite become
-  /// null.
+  /// null. Names may hold anything: what is no UTF-8 is replaced.
   /// @throws RunError if the disk refuses
-  void write_json(const std::filesystem::path  &file,
-                  const nlohmann::ordered_json &object);
+  inline void write_json(const std::filesystem::path  &file,
+                         const nlohmann::ordered_json &object)
+  {
+    using Handler = nlohmann::ordered_json::error_handler_t;
+    write_file(file, object.dump(2, ' ', false, Handler::replace) + "\n");
+  }
 
   /// A JSON object whose members are written, or read back, by the same list of
   /// what they are: `members("peak", slide.peak);` and so on. Of optional
