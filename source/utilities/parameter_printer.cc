@@ -12,6 +12,18 @@ namespace SlipStep
 {
   namespace
   {
+    /// The tree of sections that a list of paths spans; sections in the order
+    /// in which they were first met.
+    struct ParameterSection
+    {
+      std::string                   name; ///< "" for the whole
+      std::string                   path;
+      std::vector<PrintedParameter> parameters;
+      std::vector<ParameterSection> subsections;
+    };
+
+
+
     std::string key_of(const std::string &path)
     {
       return path.substr(path.rfind('/') + 1);
@@ -144,92 +156,116 @@ namespace SlipStep
       std::replace(text.begin(), text.end(), '\n', ' ');
       return text;
     }
+
+
+
+    ParameterSection
+    parameter_tree(const std::vector<PrintedParameter> &parameters)
+    {
+      ParameterSection root;
+      for (const PrintedParameter &parameter : parameters)
+        {
+          ParameterSection *section = &root;
+          const auto        names =
+            dealii::Utilities::split_string_list(parameter.entry.path, '/');
+          for (std::size_t i = 0; i + 1 < names.size(); ++i)
+            section = &subsection(*section, names[i]);
+          section->parameters.push_back(parameter);
+        }
+      return root;
+    }
+
+
+
+    void print_prm(std::ostream                &out,
+                   const ParameterSection      &root,
+                   const std::vector<Variant>  &variants,
+                   const std::set<std::string> &disabled_sections)
+    {
+      print_prm_section(out, root, "", disabled_sections);
+      if (variants.empty())
+        return;
+      out << "\nsubsection Variants\n";
+      for (const Variant &variant : variants)
+        {
+          out << "  subsection " << variant.label << '\n';
+          for (const Variant::Override &setting : variant.overrides)
+            print_setting(out, "    ", setting.path, setting.value);
+          out << "  end\n";
+        }
+      out << "end\n";
+    }
+
+
+
+    void print_schema(std::ostream &out, const ParameterSection &root)
+    {
+      nlohmann::ordered_json schema = {
+        {"$schema", "http://json-schema.org/draft-07/schema#"},
+        {"title", "slipstep"}};
+      schema.update(schema_of(root));
+      out << schema.dump(2) << '\n';
+    }
+
+
+
+    void print_markdown(std::ostream &out, const ParameterSection &root)
+    {
+      if (!root.parameters.empty())
+        {
+          if (!root.path.empty())
+            out << "## " << root.path << "\n\n";
+          out << "| Key | Default | Allowed | Meaning |\n"
+              << "| --- | --- | --- | --- |\n";
+          for (const auto &[entry, value] : root.parameters)
+            out << "| " << cell(key_of(entry.path)) << " | "
+                << (entry.default_value.empty() ?
+                      "" :
+                      "`" + cell(entry.default_value) + "`")
+                << " | " << cell(allowed_in_words(*entry.pattern)) << " | "
+                << cell(entry.documentation) << " |\n";
+          out << '\n';
+        }
+      for (const ParameterSection &child : root.subsections)
+        print_markdown(out, child);
+    }
   } // namespace
 
 
 
-  ParameterSection
-  parameter_tree(const std::vector<PrintedParameter> &parameters)
+  void print_settings(std::ostream                        &out,
+                      const std::vector<PrintedParameter> &parameters)
   {
-    ParameterSection root;
-    for (const PrintedParameter &parameter : parameters)
+    print_prm_section(out, parameter_tree(parameters), "", {}, false);
+  }
+
+
+
+  void print_parameters(std::ostream                        &out,
+                        const Parameters::Format             format,
+                        const std::vector<PrintedParameter> &parameters,
+                        const std::vector<Variant>          &variants,
+                        const std::set<std::string>         &disabled_sections)
+  {
+    const ParameterSection root = parameter_tree(parameters);
+    switch (format)
       {
-        ParameterSection *section = &root;
-        const auto        names =
-          dealii::Utilities::split_string_list(parameter.entry.path, '/');
-        for (std::size_t i = 0; i + 1 < names.size(); ++i)
-          section = &subsection(*section, names[i]);
-        section->parameters.push_back(parameter);
+        case Parameters::Format::prm:
+          print_prm(out, root, variants, disabled_sections);
+          break;
+        case Parameters::Format::json:
+          out << json_section(root).dump(2) << '\n';
+          break;
+        case Parameters::Format::schema:
+          print_schema(out, root);
+          break;
+        case Parameters::Format::keys:
+          for (const PrintedParameter &parameter : parameters)
+            out << parameter.entry.path << '\n';
+          break;
+        case Parameters::Format::markdown:
+          print_markdown(out, root);
+          break;
       }
-    return root;
-  }
-
-
-
-  void print_prm(std::ostream                &out,
-                 const ParameterSection      &root,
-                 const std::vector<Variant>  &variants,
-                 const std::set<std::string> &disabled_sections)
-  {
-    print_prm_section(out, root, "", disabled_sections);
-    if (variants.empty())
-      return;
-    out << "\nsubsection Variants\n";
-    for (const Variant &variant : variants)
-      {
-        out << "  subsection " << variant.label << '\n';
-        for (const Variant::Override &setting : variant.overrides)
-          print_setting(out, "    ", setting.path, setting.value);
-        out << "  end\n";
-      }
-    out << "end\n";
-  }
-
-
-
-  void print_settings(std::ostream &out, const ParameterSection &root)
-  {
-    print_prm_section(out, root, "", {}, false);
-  }
-
-
-
-  void print_json(std::ostream &out, const ParameterSection &root)
-  {
-    out << json_section(root).dump(2) << '\n';
-  }
-
-
-
-  void print_schema(std::ostream &out, const ParameterSection &root)
-  {
-    nlohmann::ordered_json schema = {
-      {"$schema", "http://json-schema.org/draft-07/schema#"},
-      {"title", "slipstep"}};
-    schema.update(schema_of(root));
-    out << schema.dump(2) << '\n';
-  }
-
-
-
-  void print_markdown(std::ostream &out, const ParameterSection &root)
-  {
-    if (!root.parameters.empty())
-      {
-        if (!root.path.empty())
-          out << "## " << root.path << "\n\n";
-        out << "| Key | Default | Allowed | Meaning |\n"
-            << "| --- | --- | --- | --- |\n";
-        for (const auto &[entry, value] : root.parameters)
-          out << "| " << cell(key_of(entry.path)) << " | "
-              << (entry.default_value.empty() ?
-                    "" :
-                    "`" + cell(entry.default_value) + "`")
-              << " | " << cell(allowed_in_words(*entry.pattern)) << " | "
-              << cell(entry.documentation) << " |\n";
-        out << '\n';
-      }
-    for (const ParameterSection &child : root.subsections)
-      print_markdown(out, child);
   }
 } // namespace SlipStep

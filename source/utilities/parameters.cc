@@ -178,13 +178,6 @@ namespace SlipStep
 
 
 
-  const dealii::ParameterHandler &Parameters::handler() const
-  {
-    return *values;
-  }
-
-
-
   void
   Parameters::in_section(const std::string                              &path,
                          const std::function<void(const std::string &)> &action)
@@ -359,20 +352,6 @@ namespace SlipStep
 
 
 
-  bool Parameters::is_set(const std::string &path) const
-  {
-    return layer(path) > 0;
-  }
-
-
-
-  unsigned int Parameters::layer(const std::string &path) const
-  {
-    return entry(path).layer;
-  }
-
-
-
   std::vector<std::string> Parameters::paths(const std::string &prefix) const
   {
     std::vector<std::string> found;
@@ -449,20 +428,6 @@ namespace SlipStep
 
 
 
-  const std::filesystem::path &Parameters::case_file() const
-  {
-    return file_read;
-  }
-
-
-
-  const std::vector<Variant> &Parameters::variants() const
-  {
-    return variant_list;
-  }
-
-
-
   void Parameters::sweep(const std::string              &path,
                          const std::vector<std::string> &values,
                          const std::string              &origin)
@@ -529,26 +494,7 @@ namespace SlipStep
                   }) &&
           (only.empty() || holds(only, entry.path)))
         shown.push_back({entry, text(entry.path)});
-    const ParameterSection root = parameter_tree(shown);
-    switch (format)
-      {
-        case Format::prm:
-          print_prm(out, root, variant_list, disabled_sections);
-          break;
-        case Format::json:
-          print_json(out, root);
-          break;
-        case Format::schema:
-          print_schema(out, root);
-          break;
-        case Format::keys:
-          for (const PrintedParameter &parameter : shown)
-            out << parameter.entry.path << '\n';
-          break;
-        case Format::markdown:
-          print_markdown(out, root);
-          break;
-      }
+    print_parameters(out, format, shown, variant_list, disabled_sections);
   }
 
 
@@ -562,7 +508,7 @@ namespace SlipStep
         shown.push_back({entry, text(entry.path)});
     if (variant_list.empty() && !other.variant_list.empty())
       out << "subsection Variants\nend\n";
-    print_settings(out, parameter_tree(shown));
+    print_settings(out, shown);
   }
 
 

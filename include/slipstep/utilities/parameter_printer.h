@@ -17,38 +17,22 @@ namespace SlipStep
     std::string       value;
   };
 
-  /// The tree of sections that a list of paths spans; sections in the order in
-  /// which they were first met.
-  struct ParameterSection
-  {
-    std::string                   name; ///< "" for the whole
-    std::string                   path;
-    std::vector<PrintedParameter> parameters;
-    std::vector<ParameterSection> subsections;
-  };
+  /// Write parameters, sections in the order in which they are first met. A
+  /// .prm file is what Parameters::read() reads back, with some sections
+  /// disabled by a
+  /// "#" before each of their lines. In JSON, objects are nested, and a
+  /// parameter is {value, default, documentation, allowed}; a JSON schema
+  /// (draft-07) is of such objects with values alone, for forms and programs
+  /// that write cases. Markdown has a heading and a table per section.
+  void print_parameters(std::ostream                        &out,
+                        const Parameters::Format             format,
+                        const std::vector<PrintedParameter> &parameters,
+                        const std::vector<Variant>          &variants,
+                        const std::set<std::string>         &disabled_sections);
 
-  ParameterSection
-  parameter_tree(const std::vector<PrintedParameter> &parameters);
-
-  /// A .prm file which Parameters::read() reads back, with some sections
-  /// disabled by a "#" before each of their lines.
-  void print_prm(std::ostream                &out,
-                 const ParameterSection      &root,
-                 const std::vector<Variant>  &variants,
-                 const std::set<std::string> &disabled_sections);
-
-  /// The same without explanations.
-  void print_settings(std::ostream &out, const ParameterSection &root);
-
-  /// Nested objects; a parameter is {value, default, documentation, allowed}.
-  void print_json(std::ostream &out, const ParameterSection &root);
-
-  /// A JSON schema (draft-07) of such objects with values alone, for forms and
-  /// programs that write cases.
-  void print_schema(std::ostream &out, const ParameterSection &root);
-
-  /// A heading and a table (key, default, allowed, meaning) per section.
-  void print_markdown(std::ostream &out, const ParameterSection &root);
+  /// As a .prm file without explanations.
+  void print_settings(std::ostream                        &out,
+                      const std::vector<PrintedParameter> &parameters);
 } // namespace SlipStep
 
 #endif

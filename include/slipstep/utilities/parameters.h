@@ -83,7 +83,10 @@ namespace SlipStep
     Parameters &operator=(Parameters &&other) = default;
 
     /// For code that reads its parameters from a ParameterHandler.
-    const dealii::ParameterHandler &handler() const;
+    const dealii::ParameterHandler &handler() const
+    {
+      return *values;
+    }
 
     /// Declare a parameter. The documentation gives meaning, formula or
     /// reference, range and unit. Declared order is printed order.
@@ -122,12 +125,18 @@ namespace SlipStep
     std::vector<std::string> list(const std::string &path) const;
 
     /// Whether the value was given by the user (file, variant or --set).
-    bool is_set(const std::string &path) const;
+    bool is_set(const std::string &path) const
+    {
+      return layer(path) > 0;
+    }
 
     /// 0 = default, then growing with every included file, the case file, every
     /// variant and every set(). A value is superseded by a setting in a higher
     /// layer.
-    unsigned int layer(const std::string &path) const;
+    unsigned int layer(const std::string &path) const
+    {
+      return entry(path).layer;
+    }
 
     /// @throws InputError "origin: unknown key ..." with the nearest known one.
     void check_path(const std::string &path, const std::string &origin) const;
@@ -181,7 +190,10 @@ namespace SlipStep
     std::filesystem::path resolve(const std::string &file_name) const;
 
     /// The case file read ("" before read()).
-    const std::filesystem::path &case_file() const;
+    const std::filesystem::path &case_file() const
+    {
+      return file_read;
+    }
 
     /// The members of the sweep in order, empty if the case is a single run.
     /// Either `subsection Sweep` with `set Key = <path>` and
@@ -190,7 +202,10 @@ namespace SlipStep
     /// `subsection Variants` holding one subsection per variant whose entries
     /// are `set <full path> = value`. An empty `Variants` undoes an included
     /// sweep.
-    const std::vector<Variant> &variants() const;
+    const std::vector<Variant> &variants() const
+    {
+      return variant_list;
+    }
 
     /// Sweep one more key: every variant there is with each of these values,
     /// which take the place of those that it has from elsewhere.
