@@ -5,6 +5,8 @@
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/lists.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -129,11 +131,10 @@ namespace SlipStep
                              const std::string             &text,
                              const std::optional<Dimension> dimension)
   {
-    const std::string bare = " as recorded";
-    std::size_t       in   = text.rfind(" in ");
-    const bool        is_bare =
-      !dimension.has_value() && text.size() > bare.size() &&
-      text.compare(text.size() - bare.size(), bare.size(), bare) == 0;
+    const std::string bare    = " as recorded";
+    std::size_t       in      = text.rfind(" in ");
+    const bool        is_bare = !dimension.has_value() && text != bare &&
+                         boost::algorithm::ends_with(text, bare);
     if (is_bare)
       in = text.size() - bare.size();
     std::string name = text.substr(0, in);
@@ -310,26 +311,18 @@ namespace SlipStep
 
   namespace
   {
-    // Powers of length, time and force in a quantity.
-    std::array<double, 3> powers_of(const Dimension dimension)
+    // Powers of length, time and force in a quantity; none in a number.
+    double power_of(const Dimension dimension, const unsigned int unit)
     {
-      switch (dimension)
-        {
-          case Dimension::length:
-            return {{1., 0., 0.}};
-          case Dimension::time:
-            return {{0., 1., 0.}};
-          case Dimension::speed:
-            return {{1., -1., 0.}};
-          case Dimension::stress:
-            return {{-2., 0., 1.}};
-          case Dimension::force:
-            return {{0., 0., 1.}};
-          case Dimension::area:
-            return {{2., 0., 0.}};
-          default:
-            return {{0., 0., 0.}};
-        }
+      static const std::map<Dimension, std::array<double, 3>> powers = {
+        {Dimension::length, {{1., 0., 0.}}},
+        {Dimension::time, {{0., 1., 0.}}},
+        {Dimension::speed, {{1., -1., 0.}}},
+        {Dimension::stress, {{-2., 0., 1.}}},
+        {Dimension::force, {{0., 0., 1.}}},
+        {Dimension::area, {{2., 0., 0.}}}};
+      const auto found = powers.find(dimension);
+      return found == powers.end() ? 0. : found->second[unit];
     }
   } // namespace
 
@@ -350,9 +343,9 @@ namespace SlipStep
         std::vector<double> changed = arguments;
         for (std::size_t i = 0; i < changed.size(); ++i)
           changed[i] *=
-            std::pow(other, powers_of(*recipe.sources[i].dimension)[unit]);
+            std::pow(other, power_of(*recipe.sources[i].dimension, unit));
         const double expected =
-          value * std::pow(other, powers_of(dimension)[unit]);
+          value * std::pow(other, power_of(dimension, unit));
         if (std::abs((*recipe.formula)(changed)-expected) >
             alike * std::abs(expected))
           return false;

@@ -8,6 +8,8 @@
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/text.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -165,8 +167,7 @@ namespace SlipStep
         if (text.empty())
           return {};
         const std::string mark = " assumed";
-        if (text.size() > mark.size() &&
-            text.compare(text.size() - mark.size(), mark.size(), mark) == 0)
+        if (text != mark && boost::algorithm::ends_with(text, mark))
           {
             text.resize(text.size() - mark.size());
             const std::string word =
@@ -376,9 +377,7 @@ namespace SlipStep
       {
         const auto key_of = [this](const std::string &channel) {
           const std::string axis =
-            channel.size() > 2 && channel.substr(channel.size() - 2) == "_y" ?
-              " y" :
-              "";
+            boost::algorithm::ends_with(channel, "_y") ? " y" : "";
           if (channel.rfind("friction", 0) == 0)
             return (columns.has("Friction" + axis) ? "Friction" :
                                                      "Tangential load") +

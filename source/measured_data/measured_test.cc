@@ -287,10 +287,7 @@ namespace SlipStep
         if (key != "name" && key != "condition" && !value.empty())
           text += "# " + key + ": " + one_line(value) + '\n';
 
-      std::vector<const Channel *> written;
-      for (const Channel &channel : channels())
-        if (!(test.*channel.values).empty())
-          written.push_back(&channel);
+      const auto  written   = filled_channels(test);
       const char *separator = "";
       for (const Channel *channel : written)
         {

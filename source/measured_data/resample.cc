@@ -23,14 +23,14 @@ namespace SlipStep
         : test(test)
         , options(options)
       {
-        for (const Channel &channel : channels())
+        for (const Channel *channel : filled_channels(test))
           {
-            const std::vector<double> &values = test.*(channel.values);
-            if (channel.name == "time" || values.empty())
+            const std::vector<double> &values = test.*(channel->values);
+            if (channel->name == "time")
               continue;
             // What counts of a pressure is its share, however steady it is.
             const double extent =
-              channel.name == "pressure" ?
+              channel->name == "pressure" ?
                 *std::max_element(values.begin(), values.end()) :
                 range_of(values);
             series.push_back(

@@ -28,15 +28,6 @@ namespace SlipStep
       values = std::move(chosen);
     }
 
-    std::vector<const Channel *> filled_channels(const MeasuredTest &test)
-    {
-      std::vector<const Channel *> filled;
-      for (const Channel &channel : channels())
-        if (!(test.*channel.values).empty())
-          filled.push_back(&channel);
-      return filled;
-    }
-
     /// Of friction along a path [mm].
     struct Work
     {
@@ -310,9 +301,9 @@ namespace SlipStep
       /// @param first the row, of those kept
       void warn(const std::string &text, const std::size_t first)
       {
-        test.warnings.push_back(
-          (test.file.empty() ? test.name : test.file.string()) + ": " + text +
-          " (first: line " + std::to_string(origin.line(first)) + ")");
+        test.warnings.push_back(name_in_messages(test) + ": " + text +
+                                " (first: line " +
+                                std::to_string(origin.line(first)) + ")");
       }
 
     private:
@@ -342,7 +333,7 @@ namespace SlipStep
     rows.put_in_order();
     rows.average_repeated();
     if (rows.size() < 2)
-      throw InputError((test.file.empty() ? test.name : test.file.string()) +
+      throw InputError(name_in_messages(test) +
                        ": a test needs at least two rows of different time, " +
                        std::to_string(rows.size()) + " found" +
                        (n_recorded > rows.size() ?
@@ -370,6 +361,24 @@ namespace SlipStep
     Work work;
     add_work(known_displacement, bounded(known_friction), work);
     return work.possible > 0. ? work.done / work.possible : 0.;
+  }
+
+
+
+  std::vector<const Channel *> filled_channels(const MeasuredTest &test)
+  {
+    std::vector<const Channel *> filled;
+    for (const Channel &channel : channels())
+      if (!(test.*channel.values).empty())
+        filled.push_back(&channel);
+    return filled;
+  }
+
+
+
+  std::string name_in_messages(const MeasuredTest &test)
+  {
+    return test.file.empty() ? test.name : test.file.string();
   }
 
 

@@ -15,11 +15,6 @@ namespace SlipStep
   {
     constexpr double largest_ratio = 1.2;
 
-    std::string shown(const MeasuredTest &test)
-    {
-      return test.file.empty() ? test.name : test.file.string();
-    }
-
     struct MotionOfTest
     {
       double path     = 0.; ///< [mm]
@@ -84,8 +79,9 @@ namespace SlipStep
       const double a = value(one), b = value(other);
       if (std::max(a, b) <= largest_ratio * std::min(a, b))
         return;
-      throw InputError(shown(other) + ": the condition '" + other.condition +
-                       "' is that of " + shown(one) + ", but its " + quantity +
+      throw InputError(name_in_messages(other) + ": the condition '" +
+                       other.condition + "' is that of " +
+                       name_in_messages(one) + ", but its " + quantity +
                        " is " + rounded_text(b, 3) + " " + unit + ", not " +
                        rounded_text(a, 3) + " " + unit +
                        "; replicates are made alike, within 20 %");
@@ -110,7 +106,8 @@ namespace SlipStep
             others.push_back(&test);
           else
             test.warnings.push_back(
-              shown(test) + ": its rows are those of " + shown(**same) +
+              name_in_messages(test) + ": its rows are those of " +
+              name_in_messages(**same) +
               "; a copy is no second measurement, take it "
               "out");
         }
@@ -131,7 +128,7 @@ namespace SlipStep
       for (std::size_t i = 0; i < tests.size(); ++i)
         if (pressures[i] > far * usual || far * pressures[i] < usual)
           tests[i].warnings.push_back(
-            shown(tests[i]) + ": its pressure is " +
+            name_in_messages(tests[i]) + ": its pressure is " +
             rounded_text(pressures[i], 3) + " MPa, that of most tests " +
             rounded_text(usual, 3) + " MPa: is its unit right?");
     }

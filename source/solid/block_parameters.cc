@@ -9,6 +9,8 @@
 #include <deal.II/base/types.h>
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -127,8 +129,7 @@ namespace SlipStep
       // Whether it was there.
       static bool take_off_end(std::string &text, const std::string &end)
       {
-        if (text.size() < end.size() ||
-            text.compare(text.size() - end.size(), end.size(), end) != 0)
+        if (!boost::algorithm::ends_with(text, end))
           return false;
         text =
           dealii::Utilities::trim(text.substr(0, text.size() - end.size()));

@@ -10,6 +10,7 @@
 #include <slipstep/utilities/version.h>
 
 #include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/predicate.hpp>
 #include <boost/program_options.hpp>
 
 #include <algorithm>
@@ -220,7 +221,7 @@ namespace SlipStep
         if (command.name == name)
           return command;
       const bool is_case =
-        name.size() > 4 && name.compare(name.size() - 4, 4, ".prm") == 0;
+        name != ".prm" && boost::algorithm::ends_with(name, ".prm");
       throw InputError(
         "unknown command \"" + name + "\"" +
         (is_case ? "; did you mean slipstep run " + name + "?" :
@@ -439,25 +440,15 @@ namespace SlipStep
     plant_options(const po::variables_map &values)
     {
       std::map<std::string, std::string> options;
-      for (const std::string name : {"class",
-                                     "seed",
-                                     "effect",
-                                     "tests",
-                                     "noise",
-                                     "noise-factor",
-                                     "amplitude",
-                                     "edition",
-                                     "open"})
-        if (values.count(name))
+      for (const std::string &name : find_command("plant").options)
+        if (values.count(name) && name != "quiet")
           {
-            const std::string text = text_of(values, name);
-            if (text.empty())
+            const bool        takes_value = !values[name].empty();
+            const std::string text = takes_value ? text_of(values, name) : "";
+            if (takes_value && text.empty())
               throw InputError("--" + name + ": a value is needed");
             options[name] = name == "open" ? with_home(text).string() : text;
           }
-      for (const std::string name : {"no-replicates", "list"})
-        if (values.count(name))
-          options[name];
       return options;
     }
 

@@ -65,14 +65,6 @@ namespace SlipStep
         return " of at most " + high;
       return " from " + low + " to " + high;
     }
-
-
-
-    std::vector<std::string> elements(const dealii::Patterns::List &list,
-                                      const std::string            &text)
-    {
-      return dealii::Utilities::split_string_list(text, list.get_separator());
-    }
   } // namespace
 
 
@@ -238,7 +230,8 @@ namespace SlipStep
       return "";
 
     if (const auto list = dynamic_cast<const P::List *>(&pattern))
-      for (const std::string &element : elements(*list, text))
+      for (const std::string &element :
+           dealii::Utilities::split_string_list(text, list->get_separator()))
         if (!list->get_base_pattern().match(element))
           return "\"" + excerpt(element) +
                  "\": " + why_not_allowed(list->get_base_pattern(), element) +

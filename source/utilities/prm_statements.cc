@@ -100,12 +100,9 @@ namespace SlipStep
         }
       return statement;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     // Whatever ends the lines: LF, CR LF, or CR alone.
     std::string with_line_feeds(std::istream &in)
     {

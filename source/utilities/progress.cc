@@ -2,6 +2,8 @@
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -180,10 +182,8 @@ namespace SlipStep
     parsed.time_left        = std::numeric_limits<double>::quiet_NaN();
     const std::string about = ", about ", left = " left";
     const std::size_t begin = parsed.text.rfind(about);
-    if (begin != std::string::npos && parsed.text.size() > left.size() &&
-        parsed.text.compare(parsed.text.size() - left.size(),
-                            left.size(),
-                            left) == 0)
+    if (begin != std::string::npos &&
+        boost::algorithm::ends_with(parsed.text, left))
       {
         const std::size_t words = begin + about.size();
         parsed.time_left        = parse_duration(

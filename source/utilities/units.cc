@@ -11,7 +11,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
 namespace SlipStep
@@ -316,16 +315,6 @@ namespace SlipStep
 
     // A bound that nobody can reach is not worth a word.
     constexpr double reachable = 1e30;
-
-
-
-    std::string short_number(const double value)
-    {
-      std::ostringstream out;
-      out.precision(10);
-      out << value;
-      return out.str();
-    }
   } // namespace
 
 
@@ -434,10 +423,10 @@ namespace SlipStep
       dimension == Dimension::number ? "" : " " + base_unit(dimension);
     if (has_minimum)
       range += (minimum_is_excluded ? " greater than " : " of at least ") +
-               short_number(minimum) + (has_maximum ? "" : base);
+               short_text(minimum, 10) + (has_maximum ? "" : base);
     if (has_maximum)
       range += std::string(has_minimum ? " and" : " of") + " at most " +
-               short_number(maximum) + base;
+               short_text(maximum, 10) + base;
     return range;
   }
 

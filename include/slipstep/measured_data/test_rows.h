@@ -71,6 +71,12 @@ namespace SlipStep
   /// seems to have none.
   double noise_of_friction(const MeasuredTest &test);
 
+  /// The channels that a test has.
+  std::vector<const Channel *> filled_channels(const MeasuredTest &test);
+
+  /// What messages call a test: its file, or its name if it has none.
+  std::string name_in_messages(const MeasuredTest &test);
+
   /// Keep some rows of a test, in the order given.
   void keep_rows(MeasuredTest &test, const std::vector<std::size_t> &rows);
 
