@@ -522,105 +522,84 @@ namespace SlipStep
 
   namespace
   {
-    std::array<double, 3> ratios_of(const ContactState &state)
+    void sum_over_ranks(const std::vector<double *> &values,
+                        const MPI_Comm              &communicator)
     {
-      return {{state.loading_ratio, state.normal_ratio, state.coefficient}};
-    }
-
-    /// Integrals over the points in contact; of the last three times pressure.
-    struct ContactSums
-    {
-      double                normal_load, traction_x, traction_y, strength, area;
-      double                slip_area, stored;
-      double                dissipated; // of all points
-      std::array<double, 3> ratios;
-      double                slip;
-      std::array<double, ContactState::most_memories> memories;
-
-      void add(const ContactState &state, const double JxW)
-      {
-        const double                load  = JxW * state.normal_traction;
-        const std::array<double, 3> added = ratios_of(state);
-        normal_load += load;
-        traction_x += JxW * state.traction[0];
-        traction_y += JxW * state.traction[1];
-        strength += JxW * state.strength;
-        area += JxW;
-        for (unsigned int i = 0; i < ratios.size(); ++i)
-          ratios[i] += load * added[i];
-        slip += load * state.slip_path;
-        for (unsigned int i = 0; i < memories.size(); ++i)
-          memories[i] += load * state.memories[i];
-      }
-    };
-    static_assert(sizeof(ContactSums) ==
-                    (12 + ContactState::most_memories) * sizeof(double),
-                  "MPI takes it for an array of numbers.");
-
-    /// @param maxima of the ratios, and of their negatives
-    ContactTotals totals_of(const ContactSums         &sums,
-                            const std::vector<double> &maxima)
-    {
-      ContactTotals totals;
-      totals.normal_load        = sums.normal_load;
-      totals.tangential_load[0] = sums.traction_x;
-      totals.tangential_load[1] = sums.traction_y;
-      totals.limit_load         = sums.strength;
-      totals.area               = sums.area;
-      totals.dissipated         = sums.dissipated;
-      totals.slip_area          = sums.slip_area;
-      totals.stored             = sums.stored;
-      if (!(sums.normal_load > 0.))
-        return totals;
-      const auto spread = [&](const unsigned int i) {
-        return Spread{sums.ratios[i] / sums.normal_load,
-                      -maxima[3 + i],
-                      maxima[i]};
-      };
-      totals.loading_ratio = spread(0);
-      totals.normal_ratio  = spread(1);
-      totals.coefficient   = spread(2);
-      totals.slip          = sums.slip / sums.normal_load;
-      for (unsigned int i = 0; i < sums.memories.size(); ++i)
-        totals.memories[i] = sums.memories[i] / sums.normal_load;
-      return totals;
+      std::vector<double> sums;
+      for (const double *value : values)
+        sums.push_back(*value);
+      Utilities::MPI::sum(sums, communicator, sums);
+      for (unsigned int i = 0; i < sums.size(); ++i)
+        *values[i] = sums[i];
     }
   } // namespace
 
 
 
+  // Means are weighted by the pressure.
   template <int dim>
   ContactTotals ContactFace<dim>::totals(const MPI_Comm &communicator) const
   {
-    ContactSums         sums{};
+    ContactTotals         totals;
+    std::array<double, 3> ratios{}; // times pressure
+    // Of the ratios, and of their negatives.
     std::vector<double> maxima(6, std::numeric_limits<double>::lowest());
     for (const CellFace &cell_face : faces)
       for (const QuadraturePoint &point : cell_face.points)
         {
           const ContactState &state = point.point.trial();
-          sums.dissipated += point.JxW * state.dissipation;
+          totals.dissipated += point.JxW * state.dissipation;
           if (state.normal_traction <= 0.)
             continue;
-          sums.add(state, point.JxW);
-          sums.slip_area += point.slips ? point.JxW : 0.;
-          sums.stored +=
+          const double load = point.JxW * state.normal_traction;
+          totals.normal_load += load;
+          totals.tangential_load += point.JxW * state.traction;
+          totals.limit_load += point.JxW * state.strength;
+          totals.area += point.JxW;
+          totals.slip_area += point.slips ? point.JxW : 0.;
+          totals.stored +=
             point.JxW * (state.normal_traction * state.normal_traction /
                            (2. * law.normal_stiffness()) +
                          law.stored_energy(state));
-          const std::array<double, 3> ratios = ratios_of(state);
+          totals.slip += load * state.slip_path;
+          for (unsigned int i = 0; i < totals.memories.size(); ++i)
+            totals.memories[i] += load * state.memories[i];
+          const std::array<double, 3> here = {
+            {state.loading_ratio, state.normal_ratio, state.coefficient}};
           for (unsigned int i = 0; i < 3; ++i)
             {
-              maxima[i]     = std::max(maxima[i], ratios[i]);
-              maxima[3 + i] = std::max(maxima[3 + i], -ratios[i]);
+              ratios[i] += load * here[i];
+              maxima[i]     = std::max(maxima[i], here[i]);
+              maxima[3 + i] = std::max(maxima[3 + i], -here[i]);
             }
         }
-    const ArrayView<double> all_sums(reinterpret_cast<double *>(&sums),
-                                     sizeof(sums) / sizeof(double));
-    Utilities::MPI::sum(ArrayView<const double>(all_sums),
-                        communicator,
-                        all_sums);
     Utilities::MPI::max(maxima, communicator, maxima);
-    return totals_of(sums, maxima);
+
+    std::vector<double *> weighted = {&totals.slip};
+    for (double &ratio : ratios)
+      weighted.push_back(&ratio);
+    for (double &memory : totals.memories)
+      weighted.push_back(&memory);
+    std::vector<double *> summed = {&totals.normal_load,
+                                    &totals.tangential_load[0],
+                                    &totals.tangential_load[1],
+                                    &totals.limit_load,
+                                    &totals.area,
+                                    &totals.slip_area,
+                                    &totals.stored,
+                                    &totals.dissipated};
+    summed.insert(summed.end(), weighted.begin(), weighted.end());
+    sum_over_ranks(summed, communicator);
+    if (!(totals.normal_load > 0.))
+      return totals;
+    for (double *mean : weighted)
+      *mean /= totals.normal_load;
+    Spread *const spreads[] = {&totals.loading_ratio,
+                               &totals.normal_ratio,
+                               &totals.coefficient};
+    for (unsigned int i = 0; i < 3; ++i)
+      *spreads[i] = {ratios[i], -maxima[3 + i], maxima[i]};
+    return totals;
   }
 
 

@@ -27,6 +27,25 @@ namespace SlipStep
       first_memory
     };
 
+    // All fields of a state, in the order of their names.
+    template <typename Fields, typename State, typename Copy>
+    void copy_fields(Fields &fields, State &state, const Copy &copy)
+    {
+      copy(fields[traction_0], state.traction[0]);
+      copy(fields[traction_1], state.traction[1]);
+      copy(fields[normal_traction], state.normal_traction);
+      copy(fields[strength], state.strength);
+      copy(fields[normal_ratio], state.normal_ratio);
+      copy(fields[coefficient], state.coefficient);
+      copy(fields[slip_path], state.slip_path);
+      copy(fields[slip_rate], state.slip_rate);
+      copy(fields[dissipation], state.dissipation);
+      for (unsigned int i = 0; i < state.memories.size(); ++i)
+        copy(fields[first_memory + i], state.memories[i]);
+    }
+
+
+
     // Round-off of the polynomials.
     const double tolerance = 1e-12;
 
@@ -143,18 +162,10 @@ namespace SlipStep
   ContactProjection<dim>::fields_of(const ContactState &state)
   {
     static_assert(n_fields == first_memory + ContactState::most_memories);
-    Fields fields = {{state.traction[0],
-                      state.traction[1],
-                      state.normal_traction,
-                      state.strength,
-                      state.normal_ratio,
-                      state.coefficient,
-                      state.slip_path,
-                      state.slip_rate,
-                      state.dissipation}};
-    std::copy(state.memories.begin(),
-              state.memories.end(),
-              fields.begin() + first_memory);
+    Fields fields;
+    copy_fields(fields, state, [](double &field, const double value) {
+      field = value;
+    });
     return fields;
   }
 
@@ -226,20 +237,10 @@ namespace SlipStep
     States states(fields.size());
     for (unsigned int k = 0; k < fields.size(); ++k)
       {
-        const Fields &values  = fields[k];
-        ContactState &state   = states[k];
-        state.traction[0]     = values[traction_0];
-        state.traction[1]     = values[traction_1];
-        state.normal_traction = values[normal_traction];
-        state.strength        = values[strength];
-        state.normal_ratio    = values[normal_ratio];
-        state.coefficient     = values[coefficient];
-        state.slip_path       = values[slip_path];
-        state.slip_rate       = values[slip_rate];
-        state.dissipation     = values[dissipation];
-        std::copy(values.begin() + first_memory,
-                  values.end(),
-                  state.memories.begin());
+        ContactState &state = states[k];
+        copy_fields(fields[k], state, [](const double field, double &value) {
+          value = field;
+        });
         law.complete(state);
       }
     return states;
