@@ -2,6 +2,7 @@
 #include <slipstep/solid/block_parameters.h>
 
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
 #include <slipstep/utilities/text.h>
@@ -264,6 +265,163 @@ namespace SlipStep
 
 
 
+    void read_size(BlockParameters &block, const Parameters &parameters)
+    {
+      const auto lengths = parameters.list("Block/Size");
+      const auto cells   = parameters.list("Block/Subdivisions");
+      for (const auto &[key, entries] :
+           {std::make_pair("Block/Size", lengths),
+            std::make_pair("Block/Subdivisions", cells)})
+        if (entries.size() != block.dimension)
+          parameters.reject(key,
+                            "needs " + std::to_string(block.dimension) +
+                              " numbers because Block/Dimension is " +
+                              std::to_string(block.dimension));
+      block.size.fill(1.);
+      block.subdivisions.fill(1);
+      for (unsigned int d = 0; d < block.dimension; ++d)
+        {
+          block.size[d]         = parse_quantity(lengths[d], Dimension::length);
+          block.subdivisions[d] = dealii::Utilities::string_to_int(cells[d]);
+        }
+    }
+
+
+
+    void check_number_of_cells(const BlockParameters &block,
+                               const Parameters      &parameters)
+    {
+      if (block.n_unknowns() >
+          std::numeric_limits<dealii::types::global_dof_index>::max())
+        parameters.reject(block.key_of_cells(),
+                          "these are " + short_text(block.n_unknowns(), 6) +
+                            " unknowns, more than the program can number; take "
+                            "fewer cells");
+      if (block.refinement.type == RefinementType::adaptive &&
+          block.n_cells() > block.refinement.most_cells)
+        parameters.reject("Block/Adaptivity/Most cells",
+                          "the subdivisions alone are " +
+                            short_text(block.n_cells(), 6) + " cells");
+    }
+
+
+
+    void read_faces(BlockParameters &block, const Parameters &parameters)
+    {
+      bool       has_contact = false;
+      const auto names       = face_names(block.dimension);
+      for (unsigned int f = 0; f < names.size(); ++f)
+        {
+          const std::string path = "Block/Faces/" + names[f];
+          block.faces[f] =
+            FaceReader(parameters, path, block.dimension, f).read();
+          if (!block.faces[f].is_contact)
+            continue;
+          // Blame the line in the file, not the default.
+          const std::string first = "Block/Faces/" + names[block.contact_face];
+          const bool        blame_first = !parameters.is_set(path);
+          if (has_contact)
+            parameters.reject(blame_first ? first : path,
+                              "one face is in contact with the plane, but so "
+                              "is " +
+                                (blame_first ? path : first));
+          block.contact_face = f;
+          has_contact        = true;
+        }
+      if (block.dimension == 2)
+        for (const std::string path : {"Block/Faces/front", "Block/Faces/back"})
+          if (parameters.is_set(path) && parameters.text(path) != "free")
+            parameters.reject(path, "a block in 2-D has no such face");
+      if (!has_contact)
+        parameters.reject("Block/Faces/bottom",
+                          "no face is in contact: give one face 'contact'");
+    }
+
+
+
+    void check_supports(const BlockParameters &block,
+                        const Parameters      &parameters)
+    {
+      const auto names = face_names(block.dimension);
+      for (unsigned int f = 0; f < names.size(); ++f)
+        for (unsigned int d = 0; d < block.dimension; ++d)
+          if (block.faces[f].is_driven && block.faces[f].is_prescribed[d] &&
+              d != block.normal_axis())
+            parameters.reject("Block/Faces/" + names[f],
+                              "'drive' prescribes the displacements in the "
+                              "contact plane already");
+    }
+
+
+
+    void check_motion(const BlockParameters &block,
+                      const Parameters      &parameters,
+                      const Programme       &programme)
+    {
+      const bool is_driven =
+        any_of(block.faces,
+               [](const FaceConditions &face) { return face.is_driven; });
+      for (const Segment &segment : programme.segments())
+        if (!is_driven && (segment.pushes || segment.end.velocity.norm() > 0.))
+          parameters.reject("Loading/Programme",
+                            std::string("the programme ") +
+                              (segment.pushes ? "pushes" : "slides") +
+                              ", but no face of the block has 'drive'");
+      if (block.dimension == 2)
+        for (const Segment &segment : programme.segments())
+          for (const auto &direction : {segment.end.velocity, segment.push})
+            if (std::abs(direction[1]) > 1e-12 * direction.norm())
+              parameters.reject("Loading/Programme",
+                                "a block in 2-D can slide and be pushed at 0 "
+                                "or 180 deg only; other directions need "
+                                "Block/Dimension = 3, on one point, too");
+    }
+
+
+
+    // A flat face must be free to move as a whole.
+    void check_flat_faces(const BlockParameters &block,
+                          const Parameters      &parameters)
+    {
+      const auto names = face_names(block.dimension);
+      for (unsigned int f = 0; f < names.size(); ++f)
+        for (unsigned int g = 0; g < names.size(); ++g)
+          if (block.faces[f].is_flat && g / 2 != f / 2 && block.holds(g, f / 2))
+            parameters.reject(
+              "Block/Faces/" + names[f],
+              "the face cannot be kept flat, because face '" + names[g] +
+                "' prescribes the displacement normal to it along "
+                "their common edge");
+    }
+
+
+
+    // Without pressure the block would drift away.
+    void check_pressure(const BlockParameters &block,
+                        const Parameters      &parameters,
+                        const Programme       &programme)
+    {
+      const bool begins_pressed =
+        programme.segments().front().end.pressure > 0.;
+      const LoadFactors  all    = {{begins_pressed ? 1. : 0., 1., 1., 0., 0.}};
+      const unsigned int normal = block.normal_axis();
+      for (const FaceConditions &face : block.faces)
+        for (unsigned int k = 0; k < n_load_parts; ++k)
+          if (all[k] * face.tractions[k][normal] * block.outward_sign() > 0. ||
+              face.displacements[k][normal] * block.outward_sign() > 0.)
+            return;
+      parameters.reject(
+        begins_pressed ? "Block/Faces/top" : "Loading/Programme",
+        begins_pressed ?
+          "no contact pressure: the programme presses, but no face has "
+          "'pressure programme' towards it, nor does any other load press the "
+          "block on the plane" :
+          "no contact pressure: nothing presses the block on the plane; begin "
+          "with e.g. 'press 5.8 MPa in 1 s'");
+    }
+
+
+
     void read_surface(BlockParameters &block, const Parameters &parameters)
     {
       std::vector<unsigned int> axes;
@@ -425,128 +583,18 @@ namespace SlipStep
     , newton_iterations(parameters.integer("Block/Newton iterations"))
     , fields(parameters)
   {
-    const auto lengths = parameters.list("Block/Size");
-    const auto cells   = parameters.list("Block/Subdivisions");
-    for (const auto &entry : {std::make_pair("Block/Size", lengths),
-                              std::make_pair("Block/Subdivisions", cells)})
-      if (entry.second.size() != dimension)
-        parameters.reject(entry.first,
-                          "needs " + std::to_string(dimension) +
-                            " numbers because Block/Dimension is " +
-                            std::to_string(dimension));
+    read_size(*this, parameters);
     if (damping_time > 0. && !is_dynamic())
       parameters.reject(damping_key,
                         "damps the motion of a block that has a mass; give " +
                           std::string(density_key) + ", too");
-    size.fill(1.);
-    subdivisions.fill(1);
-    for (unsigned int d = 0; d < dimension; ++d)
-      {
-        size[d]         = parse_quantity(lengths[d], Dimension::length);
-        subdivisions[d] = dealii::Utilities::string_to_int(cells[d]);
-      }
-    if (n_unknowns() >
-        std::numeric_limits<dealii::types::global_dof_index>::max())
-      parameters.reject(key_of_cells(),
-                        "these are " + short_text(n_unknowns(), 6) +
-                          " unknowns, more than the program can number; take "
-                          "fewer cells");
-    if (refinement.type == RefinementType::adaptive &&
-        n_cells() > refinement.most_cells)
-      parameters.reject("Block/Adaptivity/Most cells",
-                        "the subdivisions alone are " +
-                          short_text(n_cells(), 6) + " cells");
-
-    unsigned int n_contact = 0, n_driven = 0;
-    const auto   names = face_names(dimension);
-    for (unsigned int f = 0; f < names.size(); ++f)
-      {
-        faces[f] =
-          FaceReader(parameters, "Block/Faces/" + names[f], dimension, f)
-            .read();
-        if (faces[f].is_contact)
-          {
-            if (n_contact == 1)
-              {
-                // Blame the line in the file, not the default.
-                const std::string first  = "Block/Faces/" + names[contact_face];
-                const std::string second = "Block/Faces/" + names[f];
-                const bool        blame_first = !parameters.is_set(second);
-                parameters.reject(blame_first ? first : second,
-                                  "one face is in contact with the plane, but "
-                                  "so is " +
-                                    (blame_first ? second : first));
-              }
-            contact_face = f;
-            ++n_contact;
-          }
-        n_driven += faces[f].is_driven;
-      }
-    if (dimension == 2)
-      for (const std::string path : {"Block/Faces/front", "Block/Faces/back"})
-        if (parameters.is_set(path) && parameters.text(path) != "free")
-          parameters.reject(path, "a block in 2-D has no such face");
-
-    if (n_contact == 0)
-      parameters.reject("Block/Faces/bottom",
-                        "no face is in contact: give one face 'contact'");
-    for (unsigned int f = 0; f < names.size(); ++f)
-      for (unsigned int d = 0; d < dimension; ++d)
-        if (faces[f].is_driven && faces[f].is_prescribed[d] &&
-            d != normal_axis())
-          parameters.reject("Block/Faces/" + names[f],
-                            "'drive' prescribes the displacements in the "
-                            "contact plane already");
+    check_number_of_cells(*this, parameters);
+    read_faces(*this, parameters);
+    check_supports(*this, parameters);
     reject_loads_on_supports(*this, parameters);
-
-    for (const Segment &segment : programme.segments())
-      if (n_driven == 0 && (segment.pushes || segment.end.velocity.norm() > 0.))
-        parameters.reject("Loading/Programme",
-                          std::string("the programme ") +
-                            (segment.pushes ? "pushes" : "slides") +
-                            ", but no face of the block has 'drive'");
-
-    // Without pressure the block would drift away.
-    const bool begins_pressed = programme.segments().front().end.pressure > 0.;
-    if (dimension == 2)
-      for (const Segment &segment : programme.segments())
-        for (const auto &direction : {segment.end.velocity, segment.push})
-          if (std::abs(direction[1]) > 1e-12 * direction.norm())
-            parameters.reject("Loading/Programme",
-                              "a block in 2-D can slide and be pushed at 0 or "
-                              "180 deg only; other directions need "
-                              "Block/Dimension = 3, on one point, too");
-
-    // A flat face must be free to move as a whole.
-    for (unsigned int f = 0; f < names.size(); ++f)
-      for (unsigned int g = 0; g < names.size(); ++g)
-        if (faces[f].is_flat && g / 2 != f / 2 &&
-            (faces[g].is_prescribed[f / 2] ||
-             (faces[g].is_driven && f / 2 != normal_axis())))
-          parameters.reject(
-            "Block/Faces/" + names[f],
-            "the face cannot be kept flat, because face '" + names[g] +
-              "' prescribes the displacement normal to it along "
-              "their common edge");
-
-    const LoadFactors all        = {{begins_pressed ? 1. : 0., 1., 1., 0., 0.}};
-    bool              is_pressed = false;
-    for (const FaceConditions &face : faces)
-      for (unsigned int k = 0; k < n_load_parts; ++k)
-        is_pressed =
-          is_pressed ||
-          all[k] * face.tractions[k][normal_axis()] * outward_sign() > 0. ||
-          face.displacements[k][normal_axis()] * outward_sign() > 0.;
-    if (!is_pressed)
-      parameters.reject(
-        begins_pressed ? "Block/Faces/top" : "Loading/Programme",
-        begins_pressed ?
-          "no contact pressure: the programme presses, but no face has "
-          "'pressure programme' towards it, nor does any other load press the block on "
-          "the plane" :
-          "no contact pressure: nothing presses the block on the plane; begin "
-          "with e.g. 'press 5.8 MPa in 1 s'");
-
+    check_motion(*this, parameters, programme);
+    check_flat_faces(*this, parameters);
+    check_pressure(*this, parameters, programme);
     read_surface(*this, parameters);
 
     const std::string solver_name = parameters.text("Block/Solver");
