@@ -93,22 +93,7 @@ namespace SlipStep
         const double        start       = control.time();
         const double        step_size   = control.step_size();
         const double        pushed_path = drive.pushed_path();
-        // On a new mesh the contact finds another equilibrium at once, however
-        // short the step; the step's length was fine before.
-        StepError error;
-        if (!is_put_down())
-          {
-            const double weight =
-              programme.weight_of_error(control.time(), control.end_of_step());
-            error        = contact.step_error(communicator);
-            error.at_end = std::max(
-              {error.at_end * weight,
-               drive.error(drive_springs, driven_mass, totals.limit_load),
-               error_of_motion(totals)});
-            error.of_line *= weight;
-          }
-        if (mesh_is_new)
-          error.limit_to(control.wanted_error());
+        const StepError     error       = error_of_step(totals);
         if (control.would_accept(error.measure()) && adapt_to_trial(output))
           continue;
         if (!control.accept(error, remedy_of_jumps()))
@@ -146,6 +131,30 @@ namespace SlipStep
         if (between_steps)
           between_steps();
       }
+  }
+
+
+
+  // On a new mesh the contact finds another equilibrium at once, however short
+  // the step; the step's length was fine before.
+  template <int dim>
+  StepError Block<dim>::error_of_step(const ContactTotals &totals)
+  {
+    StepError error;
+    if (!is_put_down())
+      {
+        const double weight =
+          programme.weight_of_error(control.time(), control.end_of_step());
+        error = contact.step_error(communicator);
+        error.at_end =
+          std::max({error.at_end * weight,
+                    drive.error(drive_springs, driven_mass, totals.limit_load),
+                    error_of_motion(totals)});
+        error.of_line *= weight;
+      }
+    if (mesh_is_new)
+      error.limit_to(control.wanted_error());
+    return error;
   }
 
 

@@ -51,10 +51,18 @@ namespace SlipStep
         " s the block is worn through: " + rounded_text(worn_depth, 3) +
         " mm are gone, on average over the load (effect wear)");
 
-    // Along a side of the block the motion is measured by that side: a thin
-    // strip may be stretched by more than its height, but not rise as much, and
-    // the load on a high block must stay above its foot. What all points do
-    // alike strains and turns nothing.
+    check_small_strains();
+  }
+
+
+
+  // Along a side of the block the motion is measured by that side: a thin strip
+  // may be stretched by more than its height, but not rise as much, and the
+  // load on a high block must stay above its foot. What all points do alike
+  // strains and turns nothing.
+  template <int dim>
+  void Block<dim>::check_small_strains()
+  {
     for (unsigned int d = 0; d < dim; ++d)
       {
         double least = std::numeric_limits<double>::infinity(), most = -least;
