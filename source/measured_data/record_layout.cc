@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/import_columns.h>
-#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/measured_data/record_layout.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/lists.h>

@@ -5,7 +5,6 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace SlipStep

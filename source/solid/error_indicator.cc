@@ -3,7 +3,6 @@
 
 #include <deal.II/fe/fe_values.h>
 
-#include <algorithm>
 
 namespace SlipStep
 {

@@ -7,7 +7,6 @@
 #include <slipstep/solid/contact_face.h>
 #include <slipstep/solid/contact_projection.h>
 
-#include <utility>
 #include <vector>
 
 namespace SlipStep
