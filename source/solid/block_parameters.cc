@@ -10,6 +10,7 @@
 #include <deal.II/base/types.h>
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <cmath>
@@ -34,6 +35,11 @@ namespace SlipStep
   {
     const char *const density_key = "Block/Density";
     const char *const damping_key = "Block/Damping time";
+
+    // That the conditions of a face begin with.
+    const auto verbs = dealii::Utilities::split_string_list(
+      "contact free drive flat pressure traction displacement",
+      ' ');
 
 
 
@@ -109,21 +115,13 @@ namespace SlipStep
           read_displacement(rest, is_sudden ? at_once : gradual);
         else
           {
-            const std::string near = nearest_name(verb,
-                                                  {"contact",
-                                                   "free",
-                                                   "drive",
-                                                   "flat",
-                                                   "pressure",
-                                                   "traction",
-                                                   "displacement"});
-            parameters.reject(
-              path,
-              "'" + verb + "' is no condition of a face; " +
-                (near.empty() ?
-                   "there are contact, free, drive, flat, pressure, traction, "
-                   "displacement" :
-                   "did you mean '" + near + "'?"));
+            const std::string near = nearest_name(verb, verbs);
+            parameters.reject(path,
+                              "'" + verb + "' is no condition of a face; " +
+                                (near.empty() ?
+                                   "there are " +
+                                     boost::algorithm::join(verbs, ", ") :
+                                   "did you mean '" + near + "'?"));
           }
       }
 
@@ -517,16 +515,10 @@ namespace SlipStep
         name == "bottom" ? "contact" :
         name == "top"    ? "pressure programme; drive" :
                            "free",
-        AnythingWithWords({"contact",
-                           "free",
-                           "drive",
-                           "flat",
-                           "pressure",
-                           "programme",
-                           "traction",
-                           "displacement",
-                           "at",
-                           "once"}),
+        AnythingWithWords(dealii::Utilities::split_string_list(
+          "contact free drive flat pressure programme traction displacement at "
+          "once",
+          ' ')),
         "Conditions on the face at " +
           std::string(name == "left"   ? "x = 0" :
                       name == "right"  ? "the end of x" :

@@ -31,7 +31,7 @@ namespace SlipStep
       std::string              details;
       unsigned int             least_files;
       unsigned int             most_files;
-      std::vector<std::string> options; // besides --help and --version
+      std::string              options; // but --help and --version
       std::vector<std::string> formats; // the first is the default
     };
 
@@ -50,7 +50,7 @@ namespace SlipStep
        "there and keeps the variants that are finished.\n",
        1,
        1,
-       {"set", "sweep", "slurm", "output", "variant", "resume", "quiet"},
+       "set sweep slurm output variant resume quiet",
        {}},
       {"point",
        "CASE.prm",
@@ -59,7 +59,7 @@ namespace SlipStep
        "checkpoints. --resume keeps the variants that are finished.\n",
        1,
        1,
-       {"set", "sweep", "slurm", "output", "variant", "resume", "quiet"},
+       "set sweep slurm output variant resume quiet",
        {}},
       {"refine",
        "CASE.prm",
@@ -75,7 +75,7 @@ namespace SlipStep
        "are finished and goes on with the others.\n",
        1,
        1,
-       {"set", "output", "variant", "resume", "quiet"},
+       "set output variant resume quiet",
        {}},
       {"compare",
        "RESULTS ...",
@@ -85,7 +85,7 @@ namespace SlipStep
        "their curves and tables together, and the keys in which they differ.\n",
        1,
        any,
-       {"output", "quiet"},
+       "output quiet",
        {}},
       {"calibrate",
        "CASE.prm",
@@ -97,7 +97,7 @@ namespace SlipStep
        "choose one member with --variant.\n",
        1,
        1,
-       {"set", "output", "variant", "quiet"},
+       "set output variant quiet",
        {}},
       {"diagnose",
        "CASE.prm",
@@ -110,7 +110,7 @@ namespace SlipStep
        "\"Diagnosis\"). Writes report.html, diagnosis.json and improved.prm.\n",
        1,
        1,
-       {"set", "output", "variant", "quiet"},
+       "set output variant quiet",
        {}},
       {"import",
        "RAW | MAP.prm [RAW]",
@@ -125,7 +125,7 @@ namespace SlipStep
        "file and part, go into the folder \"measured\" beside the map.\n",
        1,
        2,
-       {"set", "output", "variant", "quiet"},
+       "set output variant quiet",
        {}},
       {"export",
        "CASE.prm",
@@ -136,7 +136,7 @@ namespace SlipStep
        "the input file (interaction.inp).\n",
        1,
        1,
-       {"set", "output", "variant", "format", "quiet"},
+       "set output variant format quiet",
        {"law", "abaqus"}},
       {"plant",
        "FOLDER",
@@ -152,18 +152,8 @@ namespace SlipStep
        "seed give the same tests.\n",
        0,
        1,
-       {"class",
-        "seed",
-        "effect",
-        "tests",
-        "no-replicates",
-        "noise",
-        "noise-factor",
-        "amplitude",
-        "edition",
-        "list",
-        "open",
-        "quiet"},
+       "class seed effect tests no-replicates noise noise-factor amplitude "
+       "edition list open quiet",
        {}},
       {"check",
        "CASE.prm ...",
@@ -172,7 +162,7 @@ namespace SlipStep
        "a .csv file, or a folder of them, whose replicates are compared.\n",
        1,
        any,
-       {"set", "sweep", "output", "variant", "quiet"},
+       "set sweep output variant quiet",
        {}},
       {"effects",
        "[NAME ...]",
@@ -180,7 +170,7 @@ namespace SlipStep
        "With formula, parameters, units and source of each, or of those named.\n",
        0,
        any,
-       {"format"},
+       "format",
        {"text", "md"}},
       {"parameters",
        "[import] [NAME ...]",
@@ -192,7 +182,7 @@ namespace SlipStep
        "import\" lists the keys of a map for slipstep import.\n",
        0,
        any,
-       {"set", "format"},
+       "set format",
        {"prm", "html", "md", "keys", "json", "schema"}},
       {"help",
        "[COMMAND]",
@@ -200,8 +190,15 @@ namespace SlipStep
        "",
        0,
        1,
-       {},
+       "",
        {}}};
+
+
+
+    std::vector<std::string> options_of(const Command &command)
+    {
+      return dealii::Utilities::split_string_list(command.options, ' ');
+    }
 
 
 
@@ -289,8 +286,8 @@ namespace SlipStep
       const po::options_description all = all_visible_options();
       if (command.empty())
         return all;
-      const std::vector<std::string> &own = find_command(command).options;
-      po::options_description         options("options");
+      const auto              own = options_of(find_command(command));
+      po::options_description options("options");
       for (const auto &option : all.options())
         if (option->long_name() == "help" || option->long_name() == "version" ||
             holds(own, option->long_name()))
@@ -440,7 +437,7 @@ namespace SlipStep
     plant_options(const po::variables_map &values)
     {
       std::map<std::string, std::string> options;
-      for (const std::string &name : find_command("plant").options)
+      for (const std::string &name : options_of(find_command("plant")))
         if (values.count(name) && name != "quiet")
           {
             const bool        takes_value = !values[name].empty();
@@ -500,7 +497,7 @@ namespace SlipStep
         {
           const std::string name = option->long_name();
           if (values.count(name) && name != "help" && name != "version" &&
-              !holds(command.options, name))
+              !holds(options_of(command), name))
             throw InputError("slipstep " + command.name + " has no option --" +
                              name);
         }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/utilities.h>
+
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
@@ -41,15 +43,11 @@ namespace SlipStep
       if (folder.empty() || folder.front() == '.' || folder.front() == '-')
         folder.insert(0, "_");
       // What the results of a sweep have beside its members.
-      static const std::set<std::string> taken = {"report",
-                                                  "report.html",
-                                                  "used_parameters.prm",
-                                                  "point",
-                                                  "compare",
-                                                  "refine",
-                                                  "calibrate",
-                                                  "diagnose"};
-      if (taken.count(folder) > 0)
+      static const auto taken = dealii::Utilities::split_string_list(
+        "report report.html used_parameters.prm point compare refine calibrate "
+        "diagnose",
+        ' ');
+      if (holds(taken, folder))
         folder += "_";
       return folder;
     }
