@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/block.h>
 
+#include <deal.II/fe/fe_values.h>
+
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace SlipStep
 {
@@ -93,5 +96,99 @@ namespace SlipStep
         add_loads(1., forces);
       }
     return 0.5 * (forces * solution);
+  }
+
+
+
+  namespace
+  {
+    double coordinate_of_face(const BlockParameters &parameters,
+                              const unsigned int     f)
+    {
+      return f % 2 == 0 ? 0. : parameters.size[f / 2];
+    }
+
+    // How much of the reaction at a point of a face is that face's: on an edge
+    // faces that hold it share it, so that the sum over all faces is complete.
+    template <int dim>
+    double share_of_reaction(const BlockParameters &parameters,
+                             const unsigned int     face,
+                             const Point<dim>      &point,
+                             const unsigned int     component)
+    {
+      if (!parameters.holds(face, component))
+        return 0.;
+      unsigned int n_holding = 0;
+      for (unsigned int f = 0; f < 2 * dim; ++f)
+        n_holding +=
+          parameters.holds(f, component) &&
+          std::abs(point[f / 2] - coordinate_of_face(parameters, f)) <=
+            1e-9 * parameters.size[f / 2];
+      return 1. / n_holding;
+    }
+  } // namespace
+
+
+
+  // `unbalanced` holds the reactions. Loads are uniform, so they have no moment
+  // about the centre of their face.
+  template <int dim>
+  FaceAction Block<dim>::action_on(const unsigned int face_number) const
+  {
+    const FaceConditions &face = parameters.faces[face_number];
+    Point<dim>            centre;
+    double                area = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        centre[d] = d == face_number / 2 ?
+                      coordinate_of_face(parameters, face_number) :
+                      parameters.size[d] / 2.;
+        area *= d == face_number / 2 ? 1. : parameters.size[d];
+      }
+
+    FaceAction result;
+    const auto add = [&](const Point<dim> &point, const Tensor<1, dim> &force) {
+      Tensor<1, 3> lever, force_3d;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lever[d]    = point[d] - centre[d];
+          force_3d[d] = force[d];
+        }
+      result.force += force_3d;
+      result.moment += cross_product_3d(lever, force_3d);
+    };
+
+    const Quadrature<dim - 1> support_points(fe.get_unit_face_support_points());
+    FEFaceValues<dim> points(fe, support_points, update_quadrature_points);
+    std::vector<types::global_dof_index> dofs(fe.dofs_per_face);
+    std::set<types::global_dof_index>    seen;
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->face(face_number)->at_boundary())
+        {
+          points.reinit(cell, face_number);
+          cell->face(face_number)->get_dof_indices(dofs);
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            if (dof_handler.locally_owned_dofs().is_element(dofs[i]) &&
+                seen.insert(dofs[i]).second)
+              {
+                const unsigned int d =
+                  fe.face_system_to_component_index(i).first;
+                const Point<dim> point = points.quadrature_point(i);
+                Tensor<1, dim>   reaction;
+                reaction[d] =
+                  unbalanced(dofs[i]) *
+                  share_of_reaction<dim>(parameters, face_number, point, d);
+                add(point, reaction);
+              }
+        }
+    if (face.is_contact)
+      for (const auto &cell_face : contact.cell_faces())
+        for (const auto &point : cell_face.points)
+          add(point.position, -point.JxW * point.force);
+
+    result.force  = Utilities::MPI::sum(result.force, communicator);
+    result.moment = Utilities::MPI::sum(result.moment, communicator);
+    result.force += area * face.traction(load_factors);
+    return result;
   }
 } // namespace SlipStep

@@ -12,7 +12,19 @@ namespace SlipStep
 {
   /// What went wrong on the first rank where something did; "" if nothing did.
   /// @param reason what went wrong on this rank, or ""
-  std::string agreed(const std::string &reason, const MPI_Comm &communicator);
+  inline std::string agreed(const std::string &reason,
+                            const MPI_Comm    &communicator)
+  {
+    // Asked in every step: reasons are sent only if there are any.
+    const unsigned int has_failed = reason.empty() ? 0 : 1;
+    if (dealii::Utilities::MPI::max(has_failed, communicator) == 0)
+      return "";
+    for (const std::string &other :
+         dealii::Utilities::MPI::all_gather(communicator, reason))
+      if (!other.empty())
+        return other;
+    return "";
+  }
 
   /// Do what may fail on one rank only, so that all ranks know.
   /// @return agreed() on the RunError that it threw
