@@ -100,6 +100,8 @@ namespace SlipStep
 
 
 
+  // @sect3{What acts through a face}
+
   namespace
   {
     double coordinate_of_face(const BlockParameters &parameters,
