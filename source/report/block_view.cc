@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/block_view.h>
 
-#include <slipstep/report/drawing.h>
+#include <slipstep/report/run_figures.h>
 #include <slipstep/report/figure.h>
 #include <slipstep/report/page.h>
 #include <slipstep/utilities/text.h>

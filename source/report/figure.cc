@@ -5,6 +5,7 @@
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <regex>
@@ -24,6 +25,14 @@ namespace SlipStep
     }
   } // namespace
 
+
+
+  // `extern` in the header keeps it visible: constants are local by default.
+  const char *const axes_style =
+    "set border 3 lw 1 lc rgb '#444444'\n"
+    "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
+    "set grid lc rgb '#dddddd' lw 0.7 dt solid\n"
+    "set key outside right top Left reverse samplen 2.5 spacing 1.25\n";
 
 
   Figure::Figure(const std::filesystem::path &folder,
@@ -254,5 +263,103 @@ namespace SlipStep
             result += c;
         }
     return result;
+  }
+
+
+
+  Rows thinned(const Rows &points)
+  {
+    Range x, y;
+    for (const auto &point : points)
+      {
+        x.add(point[0]);
+        y.add(point[1]);
+      }
+    const double dx = std::max(x.width(), 1e-300);
+    const double dy = std::max(y.width(), 1e-300);
+
+    Rows        kept;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const double distance =
+          std::hypot((points[i][0] - points[last][0]) / dx,
+                     (points[i][1] - points[last][1]) / dy);
+        if (i > 0 && i + 1 < points.size() && distance < 1e-3)
+          continue;
+        // Keeps corners: the curve may have rested before it jumped.
+        if (i > last + 1 && distance > 3e-3)
+          kept.push_back(points[i - 1]);
+        kept.push_back(points[i]);
+        last = i;
+      }
+    return kept;
+  }
+
+
+
+  double round_up(const double value)
+  {
+    const double decade = std::pow(10., std::floor(std::log10(value)));
+    for (const double factor : {1., 2., 5.})
+      if (factor * decade >= value * (1. - 1e-9))
+        return factor * decade;
+    return 10. * decade;
+  }
+
+
+
+  Colour3 mixed_colour(const std::vector<Colour3> &stops, const double share)
+  {
+    const double      at = (stops.size() - 1) * std::clamp(share, 0., 1.);
+    const std::size_t begin =
+      std::min(static_cast<std::size_t>(at), stops.size() - 2);
+    Colour3 colour;
+    for (unsigned int c = 0; c < 3; ++c)
+      colour[c] =
+        std::round(stops[begin][c] +
+                   (at - begin) * (stops[begin + 1][c] - stops[begin][c]));
+    return colour;
+  }
+
+
+
+  std::string background(const std::vector<Colour3> &stops, const double share)
+  {
+    const auto [red, green, blue] = mixed_colour(stops, share);
+    return "background:rgb(" + exact_text(red) + "," + exact_text(green) + "," +
+           exact_text(blue) + ")";
+  }
+
+
+
+  std::string few_tics(const char   axis,
+                       const double lower,
+                       const double upper,
+                       const bool   is_logarithmic)
+  {
+    std::ostringstream text;
+    text << "set " << axis << "tics ";
+    if (!is_logarithmic)
+      {
+        text << round_up((upper - lower) / 4.) << '\n';
+        return text.str();
+      }
+    const double n_decades = std::log10(upper / lower);
+    const int    stride    = std::max(1, static_cast<int>(n_decades / 4.));
+    const char  *separator = "(";
+    for (int e = std::floor(std::log10(lower)); e <= std::log10(upper);
+         e += stride)
+      for (const double factor : {1., 2., 5.})
+        {
+          const double tic = factor * std::pow(10., e);
+          if (tic < lower || tic > upper || (factor > 1. && n_decades > 1.7))
+            continue;
+          // The text as well: gnuplot would write 0.000010.
+          text << separator << '"' << tic << "\" " << tic;
+          separator = ", ";
+        }
+    text << (*separator == '(' ? "autofreq\n" : ")\n");
+    return text.str();
   }
 } // namespace SlipStep

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/run_figures.h>
 
-#include <slipstep/report/drawing.h>
 #include <slipstep/report/block_view.h>
 
 #include <slipstep/utilities/lists.h>
@@ -9,6 +8,7 @@
 #include <slipstep/utilities/units.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace SlipStep
@@ -361,6 +361,109 @@ namespace SlipStep
     }
   } // namespace
 
+
+
+  std::string legend(const RunResults &run)
+  {
+    if (!run.short_label.empty())
+      return run.short_label;
+    return run.summary.slides.empty() ? run.summary.command :
+                                        speed_text(run.summary.slides[0].speed);
+  }
+
+
+
+  LegendPlace place_legend(const std::vector<RunResults>  &runs,
+                           const std::vector<std::string> &others,
+                           const unsigned int              height)
+  {
+    std::vector<std::string> names = others;
+    for (const RunResults &run : runs)
+      names.push_back(legend(run));
+    std::size_t longest = 0;
+    for (const std::string &name : names)
+      longest = std::max(longest, name.size());
+
+    // What is drawn beside a name, with a margin, and 8 pixels a letter. (Left
+    // to itself, gnuplot takes more than browsers need.)
+    const double           width      = 80. + 8. * longest;
+    constexpr unsigned int row_height = 29, above_and_below = 90;
+    LegendPlace            place;
+    place.is_beside = width <= 0.4 * picture_width &&
+                      row_height * names.size() + above_and_below <= height;
+    if (place.is_beside)
+      {
+        const double edge = 1. - width / picture_width;
+        place.commands    = "set rmargin at screen " + short_text(edge) +
+                         "\nset key at screen " + short_text(edge + 0.02) +
+                         ", graph 1 left top\n";
+        return place;
+      }
+    const unsigned int n_columns =
+      std::max(1, static_cast<int>(picture_width / width));
+    place.more_height =
+      row_height * ((names.size() + n_columns - 1) / n_columns);
+    place.commands = "set key outside below left Left reverse maxcols " +
+                     std::to_string(n_columns) + "\n";
+    return place;
+  }
+
+
+
+  std::string run_style(const std::size_t i)
+  {
+    static const std::array<const char *, 7> colours = {"#0072B2",
+                                                        "#D55E00",
+                                                        "#009E73",
+                                                        "#CC79A7",
+                                                        "#E69F00",
+                                                        "#56B4E9",
+                                                        "#000000"};
+    static const std::array<const char *, 4> dashes  = {"solid",
+                                                        "(12,4)",
+                                                        "(4,3)",
+                                                        "(12,4,3,4)"};
+    return std::string("lc rgb '") + colours[i % colours.size()] + "' dt " +
+           dashes[i % dashes.size()];
+  }
+
+
+
+  std::string without_dash(const std::string &style)
+  {
+    return style.substr(0, style.find(" dt "));
+  }
+
+
+
+  void plot_run(Figure                         &figure,
+                const RunResults               &run,
+                const std::size_t               i,
+                const std::vector<std::string> &columns,
+                const Rows                     &points,
+                const double                    line_width,
+                const bool                      is_named)
+  {
+    figure.plot(legend(run),
+                columns,
+                thinned(points),
+                "with lines lw " + exact_text(line_width) + " " + run_style(i) +
+                  (is_named ? " title " + gnuplot_text(legend(run)) :
+                              " notitle"));
+  }
+
+
+
+  Picture finish(Figure                   &figure,
+                 const std::string        &title,
+                 const std::string        &caption,
+                 std::vector<std::string> &warnings)
+  {
+    const std::string warning = figure.write();
+    if (!warning.empty())
+      warnings.push_back(warning);
+    return {title, caption, figure.inline_svg()};
+  }
 
 
   // A run that could not be read is not there, so they are found by name.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/measured_data/test_rows.h>
-#include <slipstep/report/drawing.h>
+#include <slipstep/report/run_figures.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>

@@ -2,7 +2,7 @@
 
 // The pictures that a case asks for: "Report/Pictures".
 
-#include <slipstep/report/drawing.h>
+#include <slipstep/report/run_figures.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>

@@ -2,7 +2,7 @@
 
 // The pictures and the HTML of a refinement study.
 
-#include <slipstep/report/drawing.h>
+#include <slipstep/report/run_figures.h>
 #include <slipstep/report/page.h>
 #include <slipstep/report/study_report.h>
 #include <slipstep/utilities/text.h>

@@ -2,7 +2,11 @@
 #ifndef slipstep_report_figure_h
 #define slipstep_report_figure_h
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -11,6 +15,44 @@ namespace SlipStep
 {
   /// A block of data of a picture: lines of numbers.
   using Rows = std::vector<std::vector<double>>;
+
+  /// Interval that grows over what it is shown.
+  struct Range
+  {
+    double lower = std::numeric_limits<double>::infinity();
+    double upper = -std::numeric_limits<double>::infinity();
+
+    void add(const double value)
+    {
+      if (std::isfinite(value))
+        {
+          lower = std::min(lower, value);
+          upper = std::max(upper, value);
+        }
+    }
+
+    double width() const
+    {
+      return upper - lower;
+    }
+
+    double middle() const
+    {
+      return 0.5 * (lower + upper);
+    }
+  };
+
+  /// A picture of the report.
+  struct Picture
+  {
+    std::string title;
+    std::string caption;
+    std::string svg; ///< "" if gnuplot did not draw it
+    /// Maps of cells are drawn without smoothing, else seams show.
+    bool is_map = false;
+    /// Repeats for another run what has been shown.
+    bool is_secondary = false;
+  };
 
   /// A picture made by gnuplot: collects data and commands, then writes
   /// `<name>.dat`, `<name>.gp` and `<name>.svg`, so that a user can change the
@@ -78,6 +120,34 @@ namespace SlipStep
     std::ostringstream commands;
     std::string        plots;
   };
+
+  /// Width of the pictures [pixel].
+  constexpr unsigned int picture_width = 860;
+
+  /// Axes, ticks and grid of all pictures with curves, as gnuplot commands.
+  extern const char *const axes_style;
+
+  /// The next of 1, 2, 5, 10, ...
+  double round_up(const double value);
+
+  /// Red, green and blue, 0 to 255.
+  using Colour3 = std::array<double, 3>;
+
+  /// The colour at a share of the way through others, evenly spaced.
+  Colour3 mixed_colour(const std::vector<Colour3> &stops, const double share);
+
+  /// The same as the style of an element with this background.
+  std::string background(const std::vector<Colour3> &stops, const double share);
+
+  /// A gnuplot command with some four round numbers on the axis, so that their
+  /// texts keep apart: powers of ten and their 2 and 5 on a logarithmic one.
+  std::string few_tics(const char   axis,
+                       const double lower,
+                       const double upper,
+                       const bool   is_logarithmic);
+
+  /// Drop points that a reader could not tell from the one before.
+  Rows thinned(const Rows &points);
 
   /// Text as gnuplot string in double quotes, with the characters escaped that
   /// would change the font or end the string.

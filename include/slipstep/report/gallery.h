@@ -2,9 +2,7 @@
 #ifndef slipstep_report_gallery_h
 #define slipstep_report_gallery_h
 
-#include <slipstep/report/drawing.h>
 #include <slipstep/report/figure.h>
-#include <slipstep/report/run_figures.h>
 
 #include <filesystem>
 #include <string>

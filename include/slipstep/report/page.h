@@ -2,7 +2,7 @@
 #ifndef slipstep_report_page_h
 #define slipstep_report_page_h
 
-#include <slipstep/report/run_figures.h>
+#include <slipstep/report/figure.h>
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/parameters.h>
 

@@ -7,18 +7,6 @@
 
 namespace SlipStep
 {
-  /// A picture of the report.
-  struct Picture
-  {
-    std::string title;
-    std::string caption;
-    std::string svg; ///< "" if gnuplot did not draw it
-    /// Maps of cells are drawn without smoothing, else seams show.
-    bool is_map = false;
-    /// Repeats for another run what has been shown.
-    bool is_secondary = false;
-  };
-
   /// Finished runs, and the pictures of them that have been drawn so far.
   struct RunFigures
   {
@@ -37,6 +25,47 @@ namespace SlipStep
                  const std::string &title,
                  const std::string &caption = "");
   };
+
+  /// What legends call a run.
+  std::string legend(const RunResults &run);
+
+  /// Where the names of all runs stand in a picture.
+  struct LegendPlace
+  {
+    bool         is_beside = true;
+    std::string  commands;        ///< of gnuplot
+    unsigned int more_height = 0; ///< that the picture needs below [pixel]
+  };
+
+  /// Beside the curves, in the same place in all pictures, or below them where
+  /// there are many names or long ones.
+  /// @param others names that are no runs
+  /// @param height of the picture [pixel]
+  LegendPlace place_legend(const std::vector<RunResults>  &runs,
+                           const std::vector<std::string> &others,
+                           const unsigned int              height);
+
+  /// Colour and dash of a run as gnuplot has it: colours of Okabe and Ito,
+  /// distinct for colour-blind readers; dashes keep the curves apart in print.
+  /// (Their yellow is lost on white.)
+  std::string run_style(const std::size_t i);
+
+  std::string without_dash(const std::string &style);
+
+  /// Plot a curve of the i-th run in its colour and dash.
+  void plot_run(Figure                         &figure,
+                const RunResults               &run,
+                const std::size_t               i,
+                const std::vector<std::string> &columns,
+                const Rows                     &points,
+                const double                    line_width = 2.,
+                const bool                      is_named   = true);
+
+  /// Draw; a picture that could not be drawn has no SVG and gives a warning.
+  Picture finish(Figure                   &figure,
+                 const std::string        &title,
+                 const std::string        &caption,
+                 std::vector<std::string> &warnings);
 
   /// Draw all pictures of the report, each with its data and script: those that
   /// the case asks for, friction over displacement, its beginning enlarged, r

@@ -2,7 +2,7 @@
 #ifndef slipstep_report_study_report_h
 #define slipstep_report_study_report_h
 
-#include <slipstep/report/run_figures.h>
+#include <slipstep/report/figure.h>
 #include <slipstep/experiment/study_results.h>
 #include <slipstep/report/text_table.h>
 
