@@ -142,14 +142,11 @@ namespace SlipStep
           runs.push_back({run.label, output / run.folder});
       if (runs.empty())
         return;
-      fs::create_directories(output / "report");
-      std::vector<std::string> warnings;
-      const auto pictures = draw_study(output / "report", curves, warnings);
-      const std::string meshes =
-        mesh_gallery(runs_of_meshes(study, runs), warnings);
-      print_warnings(warnings);
-      print_warnings(write_report(
-        output, parameters, runs, study_html(curves, pictures) + meshes));
+      Page        page(output);
+      std::string section = study_section(page, curves);
+      section += mesh_gallery(runs_of_meshes(study, runs), page.warnings);
+      print_warnings(page.warnings);
+      print_warnings(write_report(output, parameters, runs, section));
       if (!quiet)
         std::cout << study_tables(curves)
                   << "\nReport: " << (output / "report.html").string()

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/block_view.h>
 
-#include <slipstep/report/run_figures.h>
-#include <slipstep/report/figure.h>
-#include <slipstep/report/page.h>
 #include <slipstep/utilities/text.h>
 
 #include <slipstep_block_view_script.h>

@@ -67,11 +67,9 @@ namespace SlipStep
                        const std::size_t  run,
                        const unsigned int height)
     {
-      return Figure(figures.folder,
-                    "contact_face_" + std::to_string(run + 1),
-                    "Contact face, " + legend(figures.runs[run]),
-                    picture_width,
-                    height);
+      return figures.figure("contact_face_" + std::to_string(run + 1),
+                            "Contact face, " + legend(figures.runs[run]),
+                            height);
     }
 
     /// The rows with the values of the fields behind.

@@ -4,8 +4,6 @@
 
 #include <slipstep/report/diagnosis_sections.h>
 #include <slipstep/report/diagnosis_text.h>
-#include <slipstep/report/page.h>
-#include <slipstep/report/run_results.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>

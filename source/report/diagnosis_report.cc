@@ -4,15 +4,13 @@
 
 #include <slipstep/report/diagnosis_sections.h>
 #include <slipstep/report/diagnosis_text.h>
-#include <slipstep/report/run_results.h>
-#include <slipstep/report/page.h>
-#include <slipstep/report/figure.h>
+#include <slipstep/report/gallery.h>
 #include <slipstep/utilities/text.h>
-#include <slipstep/utilities/write_file.h>
 
 #include <slipstep_diagnosis_style.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -360,35 +358,24 @@ namespace SlipStep
                          const Parameters            &parameters,
                          const Diagnosis             &diagnosis)
   {
-    const std::filesystem::path pictures = folder / "report";
-    std::filesystem::create_directories(pictures);
-    std::vector<std::string> warnings;
-    const Gallery            tests = draw_tests(pictures, diagnosis, warnings);
-    const Gallery covariates = draw_covariates(pictures, diagnosis, warnings);
-    const Gallery formulas =
-      draw_completed_formulas(pictures, diagnosis, warnings);
-    const Gallery profiles = draw_named_profiles(pictures, diagnosis, warnings);
-    const Gallery blocks   = draw_element_checks(pictures, diagnosis, warnings);
-
-    std::string content = "<style>\n" + std::string(diagnosis_style) +
-                          "</style>\n" + first_screen(diagnosis);
-    for (const std::string &warning : warnings)
-      content += problem_box(warning);
-    content += gallery_section(tests) + heat_map_section(diagnosis) +
-               tests_section(diagnosis) + places_section(diagnosis) +
-               gallery_section(covariates) +
-               (diagnosis.completed.empty() ? "" : gallery_section(formulas)) +
-               remains_section(diagnosis) + candidates_section(diagnosis) +
-               steps_section(diagnosis) + gallery_section(profiles) +
-               parameters_section(diagnosis) +
-               elements_section(diagnosis, blocks) +
-               next_test_section(diagnosis.next_test) +
-               correction_section(diagnosis) + honesty_section(diagnosis);
-    write_file(folder / "report.html",
-               html_page(title_of(parameters) + ": diagnosis",
-                         kept_together(headline(diagnosis)),
-                         kept_together(content) +
-                           repeat_section("diagnose", parameters)));
-    return warnings;
+    Page               page(folder);
+    std::ostringstream sections;
+    sections << draw_tests(page, diagnosis) << heat_map_section(diagnosis)
+             << tests_section(diagnosis) << places_section(diagnosis)
+             << draw_covariates(page, diagnosis)
+             << draw_completed_formulas(page, diagnosis)
+             << remains_section(diagnosis) << candidates_section(diagnosis)
+             << steps_section(diagnosis) << draw_named_profiles(page, diagnosis)
+             << parameters_section(diagnosis)
+             << elements_section(page, diagnosis)
+             << next_test_section(diagnosis.next_test)
+             << correction_section(diagnosis) << honesty_section(diagnosis);
+    page.write(title_of(parameters) + ": diagnosis",
+               kept_together(headline(diagnosis)),
+               kept_together("<style>\n" + std::string(diagnosis_style) +
+                             "</style>\n" + first_screen(diagnosis) +
+                             problem_boxes(page.warnings) + sections.str()) +
+                 repeat_section("diagnose", parameters));
+    return page.warnings;
   }
 } // namespace SlipStep

@@ -3,8 +3,7 @@
 #include <slipstep/report/diagnosis_sections.h>
 
 #include <slipstep/report/diagnosis_text.h>
-#include <slipstep/report/run_results.h>
-#include <slipstep/report/page.h>
+#include <slipstep/report/friction_curves.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -334,6 +333,63 @@ namespace SlipStep
 
   namespace
   {
+    void draw_element_check(SmallPicture &picture, const ElementCheck &check)
+    {
+      Range y, x;
+      for (const double position : check.displacement)
+        x.add(position);
+      const auto add = [&](const std::string         &what,
+                           const std::vector<double> &curve,
+                           const std::string         &style) {
+        Rows rows;
+        for (std::size_t i = 0;
+             i < std::min(check.displacement.size(), curve.size());
+             ++i)
+          {
+            rows.push_back({check.displacement[i], curve[i]});
+            y.add(curve[i]);
+          }
+        if (!rows.empty())
+          picture.plot(what,
+                       {"displacement_mm", "friction"},
+                       rows,
+                       "with lines " + style);
+      };
+      add("measured", check.measured, measured_line.style(1.2));
+      add("contact point before", check.point_before, "lc rgb '#f0b58c' lw 4");
+      add("contact point after", check.point_after, "lc rgb '#8fc3e6' lw 4");
+      add("block before", check.block_before, before_line.style());
+      add("block after",
+          check.block_after,
+          LegendLine{"", Colour::after}.style());
+      picture.axes("Displacement  [mm]", x, "Friction  [–]", with_zero(y));
+    }
+
+    std::string draw_element_checks(Page                            &page,
+                                    const std::vector<ElementCheck> &checks)
+    {
+      Gallery gallery{"",
+                      "",
+                      {measured_line,
+                       {"block before", Colour::before, LegendLine::dashed},
+                       {"block after", Colour::after},
+                       {"contact point before", "#f0b58c"},
+                       {"contact point after", "#8fc3e6"}},
+                      {}};
+      for (std::size_t i = 0; i < checks.size(); ++i)
+        {
+          const ElementCheck &check = checks[i];
+          if (check.displacement.empty())
+            continue;
+          SmallPicture picture(page,
+                               "block_" + std::to_string(i + 1),
+                               check.test);
+          draw_element_check(picture, check);
+          picture.finish(gallery);
+        }
+      return gallery.pictures.empty() ? "" : figures_html(gallery);
+    }
+
     std::string block_words(const Diagnosis &diagnosis)
     {
       const bool is_far =
@@ -350,8 +406,7 @@ namespace SlipStep
 
 
 
-  std::string elements_section(const Diagnosis &diagnosis,
-                               const Gallery   &gallery)
+  std::string elements_section(Page &page, const Diagnosis &diagnosis)
   {
     if (diagnosis.element_checks.empty())
       return "";
@@ -360,8 +415,7 @@ namespace SlipStep
       if (!check.remark.empty())
         html += "<p>" + html_text(check.test) + ": " + html_text(check.remark) +
                 "</p>\n";
-    if (!gallery.pictures.empty())
-      html += figures_html(gallery);
+    html += draw_element_checks(page, diagnosis.element_checks);
     const std::string table = element_table(diagnosis.element_checks);
     return html + table +
            (table.empty() ? "" :

@@ -285,23 +285,23 @@ namespace SlipStep
 
 
 
-  Gallery draw_friction(const std::filesystem::path       &folder,
-                        const std::string                 &name,
-                        const std::string                 &title,
-                        const std::vector<ConditionFrame> &frames,
-                        const std::string                 &simulated,
-                        std::vector<std::string>          &warnings)
+  std::string draw_friction(Page                              &page,
+                            const std::string                 &name,
+                            const std::string                 &title,
+                            const std::string                 &caption,
+                            const std::vector<ConditionFrame> &frames,
+                            const std::string                 &simulated)
   {
     const LegendLine simulated_line{simulated, Colour::after};
-    Gallery          gallery{title, "", {measured_line}, {}};
+    Gallery          gallery{title, caption, {measured_line}, {}};
     bool             has_replicates = false, has_before = false;
     for (std::size_t i = 0; i < frames.size(); ++i)
       {
-        SmallPicture picture(folder,
+        SmallPicture picture(page,
                              name + "_" + std::to_string(i + 1),
                              frames[i].title);
         draw_frame(picture, frames[i], simulated_line);
-        picture.finish(gallery, warnings);
+        picture.finish(gallery);
         has_replicates = has_replicates || frames[i].tests.size() > 1;
         has_before     = has_before || !frames[i].tests.front()->before.empty();
       }
@@ -311,6 +311,6 @@ namespace SlipStep
       gallery.legend.push_back(before_line);
     gallery.legend.push_back(simulated_line);
     gallery.legend.push_back(noise_band_line);
-    return gallery;
+    return gallery_section(gallery);
   }
 } // namespace SlipStep

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <slipstep/report/gallery.h>
-#include <slipstep/report/page.h>
-#include <slipstep/report/text_table.h>
 #include <slipstep/utilities/text.h>
 
 namespace SlipStep
@@ -65,10 +63,11 @@ namespace SlipStep
 
 
 
-  SmallPicture::SmallPicture(const std::filesystem::path &folder,
-                             const std::string           &name,
-                             const std::string           &title)
-    : Figure(folder, name, title, small_width, small_height)
+  SmallPicture::SmallPicture(Page              &page,
+                             const std::string &name,
+                             const std::string &title)
+    : Figure(page.pictures, name, title, small_width, small_height)
+    , page(page)
   {
     script() << axes_style
              << "unset key\nset lmargin at screen 0.19\nset rmargin at "
@@ -110,15 +109,14 @@ namespace SlipStep
 
 
 
-  void SmallPicture::finish(Gallery                  &gallery,
-                            std::vector<std::string> &warnings)
+  void SmallPicture::finish(Gallery &gallery)
   {
     const std::string warning = write();
     const Picture     picture{title, "", inline_svg()};
     if (!picture.svg.empty())
       gallery.pictures.push_back(picture);
     if (!warning.empty() && !gallery.has_warned)
-      warnings.push_back(warning);
+      page.warnings.push_back(warning);
     gallery.has_warned = gallery.has_warned || !warning.empty();
   }
 

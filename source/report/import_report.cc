@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/gallery.h>
 #include <slipstep/report/import_report.h>
-#include <slipstep/report/page.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/measured_data/import_record.h>
 #include <slipstep/utilities/text.h>
-#include <slipstep/utilities/write_file.h>
 
 namespace SlipStep
 {
@@ -21,13 +19,12 @@ namespace SlipStep
       return thinned(rows);
     }
 
-    void draw_curve(const std::filesystem::path    &folder,
+    void draw_curve(Page                           &page,
                     const std::string              &name,
                     const std::vector<std::string> &labels, // x and y
                     const std::vector<double>      &x,
                     const std::vector<double>      &y,
-                    Gallery                        &gallery,
-                    std::vector<std::string>       &warnings)
+                    Gallery                        &gallery)
     {
       const Rows rows = points_of(x, y);
       Range      of_x, of_y;
@@ -36,32 +33,28 @@ namespace SlipStep
           of_x.add(row[0]);
           of_y.add(row[1]);
         }
-      SmallPicture picture(folder, name, labels[1] + " over " + labels[0]);
+      SmallPicture picture(page, name, labels[1] + " over " + labels[0]);
       picture.axes(labels[0], of_x, labels[1], of_y);
       picture.plot(labels[1],
                    labels,
                    rows,
                    "using 1:2 with lines lc rgb '" +
                      std::string(Colour::after) + "' lw 1");
-      picture.finish(gallery, warnings);
+      picture.finish(gallery);
     }
 
     // As the map converts it.
-    void draw_test(const std::filesystem::path &folder,
-                   const MeasuredTest          &test,
-                   Gallery                     &gallery,
-                   std::vector<std::string>    &warnings)
+    void draw_test(Page &page, const MeasuredTest &test, Gallery &gallery)
     {
-      draw_curve(folder,
+      draw_curve(page,
                  "friction",
                  {"displacement [mm]", "friction"},
                  test.displacement,
                  test.friction,
-                 gallery,
-                 warnings);
+                 gallery);
       for (const Channel &channel : channels())
         if (channel.name != "time" && !(test.*channel.values).empty())
-          draw_curve(folder,
+          draw_curve(page,
                      channel.name + "_over_time",
                      {"time [s]",
                       channel.name + (channel.unit.empty() ?
@@ -69,15 +62,12 @@ namespace SlipStep
                                         " [" + channel.unit + "]")},
                      test.time,
                      test.*channel.values,
-                     gallery,
-                     warnings);
+                     gallery);
     }
 
     // As recorded, while nobody knows what it is.
-    void draw_columns(const std::filesystem::path &folder,
-                      const ImportProposal        &proposal,
-                      Gallery                     &gallery,
-                      std::vector<std::string>    &warnings)
+    void
+    draw_columns(Page &page, const ImportProposal &proposal, Gallery &gallery)
     {
       constexpr std::size_t most = 12;
       CsvTable              table(proposal.file, raw_format(proposal.map()));
@@ -93,15 +83,14 @@ namespace SlipStep
       for (const SeenColumn &column : proposal.columns)
         if (const std::string name = "column_" + std::to_string(column.number);
             positions.count(name) > 0)
-          draw_curve(folder,
+          draw_curve(page,
                      name,
                      {"row",
                       "column " + std::to_string(column.number) +
                         (column.name.empty() ? "" : " " + column.name)},
                      rows,
                      table[name],
-                     gallery,
-                     warnings);
+                     gallery);
     }
 
     std::string columns_section(const ImportProposal &proposal)
@@ -155,43 +144,32 @@ namespace SlipStep
                       const std::vector<MeasuredTest> &tests,
                       const std::string               &problem)
   {
-    const std::filesystem::path pictures = folder / "report";
-    std::filesystem::create_directories(pictures);
-    Gallery                  gallery;
-    std::vector<std::string> warnings;
+    Page    page(folder);
+    Gallery gallery;
     if (tests.empty())
       {
         gallery.title   = "The columns as recorded";
         gallery.caption = "Of up to twelve columns with numbers.";
-        draw_columns(pictures, proposal, gallery, warnings);
+        draw_columns(page, proposal, gallery);
       }
     else
       {
         gallery.title   = "The test that the map makes of it";
         gallery.caption = "Friction is positive where it resists motion in "
                           "the positive direction.";
-        draw_test(pictures, tests.front(), gallery, warnings);
+        draw_test(page, tests.front(), gallery);
+        page.warnings.insert(page.warnings.end(),
+                             tests.front().warnings.begin(),
+                             tests.front().warnings.end());
       }
-    if (!tests.empty())
-      warnings.insert(warnings.end(),
-                      tests.front().warnings.begin(),
-                      tests.front().warnings.end());
-
-    std::string content;
-    if (!problem.empty())
-      content += problem_box(problem);
-    for (const std::string &text : warnings)
-      content += problem_box(text);
-    content += gallery_section(gallery) + columns_section(proposal) +
-               guesses_section(proposal, map);
-    write_file(folder / "report.html",
-               html_page("Import of " + proposal.file.filename().string(),
-                         proposal.is_complete() ?
-                           "Every line of the map was guessed: look whether "
-                           "the pictures are what you measured." :
-                           "The map is incomplete: what is open, only you "
-                           "can say.",
-                         content));
-    return warnings;
+    page.write("Import of " + proposal.file.filename().string(),
+               proposal.is_complete() ?
+                 "Every line of the map was guessed: look whether the pictures "
+                 "are what you measured." :
+                 "The map is incomplete: what is open, only you can say.",
+               (problem.empty() ? "" : problem_box(problem)) +
+                 problem_boxes(page.warnings) + gallery_section(gallery) +
+                 columns_section(proposal) + guesses_section(proposal, map));
+    return page.warnings;
   }
 } // namespace SlipStep

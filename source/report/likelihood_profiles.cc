@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/report/calibration_text.h>
 #include <slipstep/report/likelihood_profiles.h>
 #include <slipstep/utilities/lists.h>
 
@@ -180,16 +181,15 @@ namespace SlipStep
 
 
 
-  Gallery draw_profiles(const std::filesystem::path     &folder,
-                        const std::string               &title,
-                        const std::vector<DrawnProfile> &profiles,
-                        const std::string               &interval_name,
-                        std::vector<std::string>        &warnings)
+  std::string draw_profiles(Page                            &page,
+                            const std::string               &title,
+                            const std::vector<DrawnProfile> &profiles,
+                            const double                     confidence)
   {
     Gallery     gallery{title,
                     "Increase of the misfit when one parameter is held and the "
                         "others are fitted again, over the threshold of the " +
-                      interval_name +
+                      interval_name(confidence) +
                       ": where it exceeds 1, the tests contradict the value. A "
                           "flat curve says that they do not care.",
                     {profile_line},
@@ -199,11 +199,11 @@ namespace SlipStep
     for (const DrawnProfile &profile : profiles)
       if (profile.profile.size() > 1)
         {
-          SmallPicture picture(folder,
+          SmallPicture picture(page,
                                "profile_" + std::to_string(++n),
                                profile.name);
           draw_profile(picture, profile);
-          picture.finish(gallery, warnings);
+          picture.finish(gallery);
           has_parabola = has_parabola || std::isfinite(profile.distance);
           has_bound    = has_bound || std::isfinite(profile.lower_bound) ||
                       std::isfinite(profile.upper_bound);
@@ -214,6 +214,6 @@ namespace SlipStep
     if (has_bound)
       gallery.legend.push_back(bound_line);
     gallery.legend.push_back(value_line);
-    return gallery;
+    return gallery_section(gallery);
   }
 } // namespace SlipStep

@@ -4,12 +4,43 @@
 #include <slipstep/report/figure.h>
 #include <slipstep/report/repeat_command.h>
 #include <slipstep/utilities/version.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <slipstep_page_script.h>
 #include <slipstep_page_style.h>
 
 namespace SlipStep
 {
+  Page::Page(const std::filesystem::path &folder)
+    : file(folder / "report.html")
+    , pictures(folder / "report")
+  {
+    std::filesystem::create_directories(pictures);
+  }
+
+
+
+  Picture Page::draw(Figure            &figure,
+                     const std::string &title,
+                     const std::string &caption)
+  {
+    const std::string warning = figure.write();
+    if (!warning.empty())
+      warnings.push_back(warning);
+    return {title, caption, figure.inline_svg()};
+  }
+
+
+
+  void Page::write(const std::string &title,
+                   const std::string &headline,
+                   const std::string &content) const
+  {
+    write_file(file, html_page(title, headline, content));
+  }
+
+
+
   // The script gives values under the pointer, zoom by dragging, curves hidden
   // by a click into the legend, tables that sort and copy. The page is complete
   // without it.
@@ -71,6 +102,16 @@ namespace SlipStep
   std::string problem_box(const std::string &text)
   {
     return "<p class='problem'>" + html_text(text) + "</p>\n";
+  }
+
+
+
+  std::string problem_boxes(const std::vector<std::string> &texts)
+  {
+    std::string html;
+    for (const std::string &text : texts)
+      html += problem_box(text);
+    return html;
   }
 
 

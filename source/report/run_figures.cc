@@ -157,11 +157,9 @@ namespace SlipStep
       const auto &runs         = figures.runs;
       const auto &reference    = figures.reference;
       const auto  legend_place = place_names(figures, 430);
-      Figure      figure(figures.folder,
-                    "friction",
-                    "Friction against displacement",
-                    picture_width,
-                    430 + legend_place.more_height);
+      Figure      figure       = figures.figure("friction",
+                                     "Friction against displacement",
+                                     430 + legend_place.more_height);
       Range       x, y;
       for (const std::size_t i : from_top_to_bottom(runs))
         {
@@ -227,11 +225,9 @@ namespace SlipStep
       if (zoom == 0.)
         return;
       const auto               legend_place = place_names(figures, 380);
-      Figure                   figure(figures.folder,
-                    "friction_start",
-                    "Friction at the start of the slide",
-                    picture_width,
-                    380 + legend_place.more_height);
+      Figure                   figure       = figures.figure("friction_start",
+                                     "Friction at the start of the slide",
+                                     380 + legend_place.more_height);
       std::vector<std::string> peaks;
       for (const std::size_t i : from_top_to_bottom(runs))
         {
@@ -321,11 +317,9 @@ namespace SlipStep
           line = reference_line(reference, speeds);
         }
 
-      Figure figure(figures.folder,
-                    "ratio_over_speed",
-                    "Dynamic loading ratio against speed",
-                    picture_width,
-                    380);
+      Figure figure = figures.figure("ratio_over_speed",
+                                     "Dynamic loading ratio against speed",
+                                     380);
       figure.script()
         << axes_style
         << place_legend({}, {reference.name(), "simulated"}, 380).commands
@@ -454,18 +448,6 @@ namespace SlipStep
 
 
 
-  Picture finish(Figure                   &figure,
-                 const std::string        &title,
-                 const std::string        &caption,
-                 std::vector<std::string> &warnings)
-  {
-    const std::string warning = figure.write();
-    if (!warning.empty())
-      warnings.push_back(warning);
-    return {title, caption, figure.inline_svg()};
-  }
-
-
   // A run that could not be read is not there, so they are found by name.
   Parameters RunFigures::parameters_of(const RunResults &run) const
   {
@@ -477,11 +459,20 @@ namespace SlipStep
 
 
 
+  Figure RunFigures::figure(const std::string &name,
+                            const std::string &title,
+                            const unsigned int height) const
+  {
+    return Figure(page.pictures, name, title, picture_width, height);
+  }
+
+
+
   Picture &RunFigures::add(Figure            &figure,
                            const std::string &title,
                            const std::string &caption)
   {
-    pictures.push_back(finish(figure, title, caption, warnings));
+    pictures.push_back(page.draw(figure, title, caption));
     return pictures.back();
   }
 
@@ -501,7 +492,7 @@ namespace SlipStep
     add_speed_picture(figures);
 
     // One of several blocks that look alike.
-    const Picture block = block_picture(runs.back(), figures.warnings);
+    const Picture block = block_picture(runs.back(), figures.page.warnings);
     if (!block.svg.empty())
       figures.pictures.push_back(block);
 

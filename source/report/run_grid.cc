@@ -93,11 +93,11 @@ namespace SlipStep
       // One colour and no number say nothing.
       if (cells.empty() || !(range.width() > 0.))
         return;
-      Figure            figure(figures.folder,
-                    name,
-                    title,
-                    picture_width,
-                    140 + 46 * std::min<std::size_t>(grid.y.values.size(), 14));
+      Figure figure =
+        figures.figure(name,
+                       title,
+                       140 +
+                         46 * std::min<std::size_t>(grid.y.values.size(), 14));
       const std::string data =
         figure.add_data(title, {grid.x.path, grid.y.path, "value"}, cells);
       figure.script()

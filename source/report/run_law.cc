@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/effect.h>
 #include <slipstep/report/run_figures.h>
-#include <slipstep/report/page.h>
 #include <slipstep/report/run_law.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
@@ -78,18 +77,17 @@ namespace SlipStep
     }
 
     /// @param is_last has the axis that all share
-    Picture draw_panel(const RunFigures        &figures,
-                       const LawPanel          &panel,
-                       const std::vector<Rows> &curves,
-                       const bool               is_last)
+    std::string draw_panel(const RunFigures        &figures,
+                           const LawPanel          &panel,
+                           const std::vector<Rows> &curves,
+                           const bool               is_last)
     {
       const auto &runs     = figures.runs;
       const bool  is_first = panel.name == "friction";
-      Figure      figure(figures.folder,
-                    "law_" + panel.name,
-                    panel.label + " over the path of the drive",
-                    picture_width,
-                    is_last ? 200 : 155);
+      Figure      figure =
+        figures.figure("law_" + panel.name,
+                       panel.label + " over the path of the drive",
+                       is_last ? 200 : 155);
       // Where they do not fit, the pictures above have the names.
       const LegendPlace legend_place = place_legend(runs, {}, 206);
       const bool        is_named = runs.size() > 1 && legend_place.is_beside;
@@ -119,7 +117,7 @@ namespace SlipStep
         << " at screen 0.02, graph 0.5 center rotate by 90\n"
         << (is_last ? "set xlabel 'Path of the drive  [mm]' offset 0,0.5\n" :
                       "set format x ''\n");
-      return finish(figure, panel.label, "", figures.warnings);
+      return figures.page.draw(figure, panel.label).svg;
     }
 
     bool is_used(const LawPanel &panel, const std::vector<Rows> &curves)
@@ -155,8 +153,7 @@ namespace SlipStep
       }
     std::string svg;
     for (std::size_t i = 0; i < shown.size(); ++i)
-      svg +=
-        draw_panel(figures, shown[i], curves[i], i + 1 == shown.size()).svg;
+      svg += draw_panel(figures, shown[i], curves[i], i + 1 == shown.size());
     if (svg.empty())
       return "";
     return heading("The law at work") + "<figure class='stack'>\n" + svg +

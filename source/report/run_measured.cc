@@ -48,7 +48,7 @@ namespace SlipStep
         }
       catch (const InputError &error)
         {
-          figures.warnings.push_back(
+          figures.page.warnings.push_back(
             std::string("no measured tests in the pictures: ") + error.what());
           result.clear();
         }
@@ -172,14 +172,13 @@ namespace SlipStep
     {
       const std::vector<RunResults> &runs = figures.runs;
       const std::string              over = abscissa(is_over_time);
-      Figure                         figure(figures.folder,
-                    "measured_over_" + over,
-                    "Measured and simulated friction over " + over,
-                    picture_width,
-                    // The legend is below.
-                    390 + 12 * (measured.size() + runs.size()));
-      Range                          friction;
-      const std::string              differences =
+      Figure                         figure =
+        figures.figure("measured_over_" + over,
+                       "Measured and simulated friction over " + over,
+                       // The legend is below.
+                       390 + 12 * (measured.size() + runs.size()));
+      Range             friction;
+      const std::string differences =
         plot_measured(figure, figures, measured, is_over_time, friction);
       std::vector<bool> is_drawn(runs.size(), false);
       for (const MeasuredBeside &beside : measured)

@@ -343,8 +343,9 @@ namespace SlipStep
       const RequestedCurves curves = curves_of(requested, figures);
       if (!std::isfinite(curves.x.width()))
         {
-          figures.warnings.push_back("no picture '" + requested.text +
-                                     "': no slide or step has both of them");
+          figures.page.warnings.push_back(
+            "no picture '" + requested.text +
+            "': no slide or step has both of them");
           return;
         }
       std::string title           = requested.text;
@@ -356,11 +357,8 @@ namespace SlipStep
         legend_place = place_legend(figures.runs, {}, height);
       if (legend_place.is_beside)
         legend_place.commands = "set key outside right top Left reverse\n";
-      Figure            figure(figures.folder,
-                    name,
-                    title,
-                    picture_width,
-                    height + legend_place.more_height);
+      Figure figure =
+        figures.figure(name, title, height + legend_place.more_height);
       const std::string marks = is_curve         ? "with lines lw 1.8 " :
                                 curves.is_zigzag ? "with points pt 7 ps 0.8 " :
                                                    "with linespoints pt 7 ps "

@@ -6,10 +6,7 @@
 #include <slipstep/report/run_figures.h>
 #include <slipstep/report/run_law.h>
 #include <slipstep/measured_data/measured_test.h>
-#include <slipstep/report/page.h>
-#include <slipstep/report/figure.h>
 #include <slipstep/utilities/text.h>
-#include <slipstep/utilities/write_file.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/patterns.h>
@@ -502,8 +499,7 @@ namespace SlipStep
 
   namespace
   {
-    std::string problem_boxes(const std::vector<RunResults>  &runs,
-                              const std::vector<std::string> &warnings)
+    std::string problems_of(const std::vector<RunResults> &runs)
     {
       std::string html;
       for (const RunResults &run : runs)
@@ -515,8 +511,6 @@ namespace SlipStep
           for (const std::string &warning : run.summary.warnings)
             html += problem_box("Run " + run_name(run) + ": " + warning);
         }
-      for (const std::string &warning : warnings)
-        html += problem_box(warning);
       return html;
     }
 
@@ -579,16 +573,16 @@ namespace SlipStep
       return true;
     }
 
-    std::string page(const RunFigures  &drawn,
-                     const std::string &law,
-                     const std::string &study,
-                     const bool         is_one_case)
+    void write_page(const RunFigures  &drawn,
+                    const std::string &law,
+                    const std::string &study,
+                    const bool         is_one_case)
     {
       const Parameters  &parameters = drawn.parameters;
       const auto        &runs       = drawn.runs;
       const auto         rows       = result_rows(runs, drawn.reference);
       std::ostringstream html;
-      html << problem_boxes(runs, drawn.warnings) << study;
+      html << problems_of(runs) << problem_boxes(drawn.page.warnings) << study;
       if (!rows.empty())
         html << html_table(result_lines(rows, drawn.reference, true))
              << result_note(rows);
@@ -607,7 +601,7 @@ namespace SlipStep
           html << heading("Repeat it")
                << repetition(parameters, runs, is_one_case);
         }
-      return html_page(case_title(parameters, runs),
+      drawn.page.write(case_title(parameters, runs),
                        rows.empty() ?
                          headline_of_pushes(runs) :
                          headline(rows,
@@ -625,15 +619,13 @@ namespace SlipStep
                                         const std::string              &study,
                                         const bool is_one_case)
   {
-    const Reference          reference(parameters);
-    std::vector<std::string> warnings;
-    const auto               results = load_runs(runs, warnings);
-    RunFigures               figures{
-      folder / "report", parameters, results, reference, warnings};
-    std::filesystem::create_directories(figures.folder);
+    const Reference reference(parameters);
+    Page            page(folder);
+    const auto      results = load_runs(runs, page.warnings);
+    RunFigures      figures{page, parameters, results, reference};
     draw_pictures(figures);
     const std::string law = law_at_work(figures);
-    write_file(folder / "report.html", page(figures, law, study, is_one_case));
-    return warnings;
+    write_page(figures, law, study, is_one_case);
+    return page.warnings;
   }
 } // namespace SlipStep

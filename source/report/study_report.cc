@@ -1,19 +1,97 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
-// The pictures and the HTML of a refinement study.
-
-#include <slipstep/report/run_figures.h>
-#include <slipstep/report/page.h>
 #include <slipstep/report/study_report.h>
+
+#include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/text.h>
+#include <slipstep/utilities/version.h>
+#include <slipstep/utilities/write_file.h>
 
 #include <array>
 #include <cmath>
+#include <set>
+#include <sstream>
 
 namespace SlipStep
 {
   namespace
   {
+    std::string name_with_unit(const StudyCurve &curve)
+    {
+      return curve.quantity +
+             (curve.unit.empty() ? "" : " [" + curve.unit + "]");
+    }
+
+
+
+    /// One run: its label, unknowns, steps, CPU time, value, error, order.
+    TableLine run_line(const StudyPoint &point)
+    {
+      return {point.label,
+              std::to_string(point.summary.dofs),
+              std::to_string(point.summary.steps),
+              fixed_text(point.summary.cpu_time, 2),
+              short_text(point.value, 7),
+              point.error_text(),
+              fixed_text(point.order, 2)};
+    }
+
+
+
+    /// What was found, one line per curve: quantity, runs, reference, error of
+    /// the finest run, order, cheapest run for 1 %.
+    std::vector<TableLine> study_summary(const std::vector<StudyCurve> &curves)
+    {
+      std::vector<TableLine> lines = {{"quantity",
+                                       "runs",
+                                       "reference",
+                                       "error of the finest",
+                                       "order",
+                                       "cheapest for 1 %"}};
+      for (const StudyCurve &curve : curves)
+        {
+          const StudyPoint *finest   = curve.finest();
+          const StudyPoint *cheapest = curve.cheapest(0.01);
+          lines.push_back({name_with_unit(curve),
+                           curve.sequence,
+                           short_text(curve.reference, 6),
+                           finest == nullptr ? "–" : finest->error_text(),
+                           fixed_text(curve.order, 2),
+                           cheapest == nullptr ?
+                             "–" :
+                             cheapest->label + " (" +
+                               short_text(cheapest->summary.cpu_time, 2) +
+                               " s)"});
+        }
+      return lines;
+    }
+
+
+
+    std::string reference_text(const StudyCurve &curve)
+    {
+      if (!std::isfinite(curve.reference))
+        return "no reference";
+      std::ostringstream out;
+      out << "reference " << curve.reference << " (" << curve.reference_name
+          << (std::isfinite(curve.order) ?
+                ", order " + fixed_text(curve.order, 2) :
+                "")
+          << "), ";
+      if (curve.uncertainty == 0.)
+        out << "the same in all runs";
+      else if (std::isfinite(curve.uncertainty))
+        out << "uncertain by " << short_text(curve.uncertainty, 2)
+            << (curve.reference == 0. ?
+                  "" :
+                  " (relative " + short_text(curve.relative_uncertainty(), 2) +
+                    ")");
+      else
+        out << "but the values are not seen to approach a limit";
+      return out.str();
+    }
+
+
+
     /// Colours of Okabe and Ito; shapes and dashes tell the same in print.
     std::string style_of(const StudySequence::Kind kind)
     {
@@ -99,16 +177,16 @@ namespace SlipStep
 
 
 
-    Picture draw(const std::filesystem::path           &folder,
-                 const std::size_t                      number,
-                 const std::vector<const StudyCurve *> &curves,
-                 std::vector<std::string>              &warnings)
+    /// As HTML; "" if it could not be drawn.
+    std::string draw(Page                                  &page,
+                     const std::size_t                      number,
+                     const std::vector<const StudyCurve *> &curves)
     {
       const StudyCurve &first   = *curves.front();
       const bool        is_time = first.kind == StudySequence::Kind::time_step;
       const std::string title   = "Convergence of the " + first.quantity +
                                 (is_time ? " with the time step" : "");
-      Figure figure(folder,
+      Figure figure(page.pictures,
                     "convergence_" + std::to_string(number),
                     title,
                     picture_width,
@@ -135,39 +213,129 @@ namespace SlipStep
         "), which is itself uncertain by " +
         short_text(first.relative_uncertainty(), 2) +
         " of it. Runs whose difference is not above that are not shown.";
-      return finish(figure, title, caption, warnings);
+      const Picture picture = page.draw(figure, title, caption);
+      return picture.svg.empty() ? "" : figure_element(picture);
+    }
+
+
+
+    /// Error against unknowns and against processor time, a picture per
+    /// quantity.
+    std::string draw_study(Page &page, const std::vector<StudyCurve> &curves)
+    {
+      std::string html;
+      std::size_t number = 0;
+      for (std::size_t i = 0; i < curves.size();)
+        {
+          // Uniform and adaptive meshes of a quantity share a picture.
+          std::vector<const StudyCurve *> together = {&curves[i++]};
+          while (i < curves.size() &&
+                 together[0]->kind == StudySequence::Kind::uniform &&
+                 curves[i].kind == StudySequence::Kind::adaptive)
+            together.push_back(&curves[i++]);
+          html += draw(page, ++number, together);
+        }
+      return html;
     }
   } // namespace
 
 
 
-  std::vector<Picture> draw_study(const std::filesystem::path   &folder,
-                                  const std::vector<StudyCurve> &curves,
-                                  std::vector<std::string>      &warnings)
+  std::string study_tables(const std::vector<StudyCurve> &curves)
   {
-    std::vector<Picture> pictures;
-    std::size_t          number = 0;
-    for (std::size_t i = 0; i < curves.size();)
+    std::ostringstream    out;
+    std::set<std::string> problems;
+    out << '\n' << text_table(study_summary(curves));
+    for (const StudyCurve &curve : curves)
       {
-        // Uniform and adaptive meshes of a quantity share a picture.
-        std::vector<const StudyCurve *> together = {&curves[i++]};
-        while (i < curves.size() &&
-               together[0]->kind == StudySequence::Kind::uniform &&
-               curves[i].kind == StudySequence::Kind::adaptive)
-          together.push_back(&curves[i++]);
-        const Picture picture = draw(folder, ++number, together, warnings);
-        if (!picture.svg.empty())
-          pictures.push_back(picture);
+        std::vector<TableLine> lines = {
+          {"run", "unknowns", "steps", "CPU [s]", "value", "error", "order"}};
+        for (const StudyPoint &point : curve.points)
+          lines.push_back(run_line(point));
+        for (const std::string &problem : curve.problems())
+          problems.insert("  " + problem + "\n");
+        out << '\n'
+            << name_with_unit(curve) << ", " << curve.sequence << ": "
+            << reference_text(curve) << '\n'
+            << text_table(lines);
       }
-    return pictures;
+    // Once, not for every quantity.
+    out << (problems.empty() ? "" : "\n");
+    for (const std::string &failure : problems)
+      out << failure;
+    return out.str();
   }
 
 
 
-  std::string study_html(const std::vector<StudyCurve> &curves,
-                         const std::vector<Picture>    &pictures)
+  void write_study_csv(const std::filesystem::path   &file,
+                       const std::vector<StudyCurve> &curves)
   {
-    std::string html =
+    std::ostringstream out;
+    out << "sequence,run,status,cells,unknowns,steps,cpu_s,memory_MB,quantity,"
+           "unit,value,reference,relative_error,order,"
+           "reference_uncertainty,error_bound\n";
+    const auto quoted = [](const std::string &text) {
+      return "\"" + text + "\"";
+    };
+    const auto text = [](const double value) {
+      return std::isfinite(value) ? exact_text(value) : std::string("nan");
+    };
+    for (const StudyCurve &curve : curves)
+      for (const StudyPoint &point : curve.points)
+        out << curve.sequence << ',' << quoted(point.label) << ','
+            << point.summary.status << ',' << point.summary.cells << ','
+            << point.summary.dofs << ',' << point.summary.steps << ','
+            << text(point.summary.cpu_time) << ','
+            << text(point.summary.peak_memory) << ',' << quoted(curve.quantity)
+            << ',' << curve.unit << ',' << text(point.value) << ','
+            << text(curve.reference) << ',' << text(point.error) << ','
+            << text(point.order) << ',' << text(curve.uncertainty) << ','
+            << text(point.error_bound) << '\n';
+    write_file(file, out.str());
+  }
+
+
+
+  void write_study_json(const std::filesystem::path   &file,
+                        const std::vector<StudyCurve> &curves)
+  {
+    using json = nlohmann::ordered_json;
+    json list  = json::array();
+    for (const StudyCurve &curve : curves)
+      {
+        json runs = json::array();
+        for (const StudyPoint &point : curve.points)
+          runs.push_back({{"run", point.label},
+                          {"status", point.summary.status},
+                          {"unknowns", point.summary.dofs},
+                          {"steps", point.summary.steps},
+                          {"cpu_s", point.summary.cpu_time},
+                          {"value", point.value},
+                          {"relative_error", point.error},
+                          {"error_bound", point.error_bound},
+                          {"order", point.order}});
+        const StudyPoint *cheapest = curve.cheapest(0.01);
+        list.push_back({{"quantity", curve.quantity},
+                        {"unit", curve.unit},
+                        {"sequence", curve.sequence},
+                        {"reference", curve.reference},
+                        {"reference_from", curve.reference_name},
+                        {"reference_uncertainty", curve.uncertainty},
+                        {"problems", curve.problems()},
+                        {"order", curve.order},
+                        {"cheapest_for_1_percent",
+                         cheapest == nullptr ? json() : json(cheapest->label)},
+                        {"runs", runs}});
+      }
+    write_json(file, {{"version", version()}, {"curves", list}});
+  }
+
+
+
+  std::string study_section(Page &page, const std::vector<StudyCurve> &curves)
+  {
+    const std::string html =
       heading("What was found") + html_table(study_summary(curves)) +
       "<p>Errors are relative; \"&lt;\" stands where the "
       "difference to the reference is not above the "
@@ -175,9 +343,8 @@ namespace SlipStep
       "in sight. An order takes three monotone differences. "
       "The cheapest run for 1 % is the one with the least "
       "unknowns times steps whose error, and that of all "
-      "finer ones, is at most 1 % with that uncertainty.</p>\n";
-    for (const Picture &picture : pictures)
-      html += figure_element(picture);
+      "finer ones, is at most 1 % with that uncertainty.</p>\n" +
+      draw_study(page, curves);
     std::vector<TableLine> lines = {{"quantity",
                                      "run",
                                      "unknowns",

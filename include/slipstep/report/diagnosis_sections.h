@@ -3,7 +3,7 @@
 #define slipstep_report_diagnosis_sections_h
 
 #include <slipstep/diagnosis/diagnosis.h>
-#include <slipstep/report/diagnosis_figures.h>
+#include <slipstep/report/page.h>
 
 #include <string>
 
@@ -36,9 +36,22 @@ namespace SlipStep
 
   std::string parameters_section(const Diagnosis &diagnosis);
 
-  /// @param gallery the curves
-  std::string elements_section(const Diagnosis &diagnosis,
-                               const Gallery   &gallery);
+  /// The block before and after, with the contact point.
+  std::string elements_section(Page &page, const Diagnosis &diagnosis);
+
+  /// Friction as measured, before and after with the noise, one picture per
+  /// condition.
+  std::string draw_tests(Page &page, const Diagnosis &diagnosis);
+
+  /// What is left over along each covariate, with what the effects would
+  /// change.
+  std::string draw_covariates(Page &page, const Diagnosis &diagnosis);
+
+  /// What the formulas of named effects lack along their covariates.
+  std::string draw_completed_formulas(Page &page, const Diagnosis &diagnosis);
+
+  /// Increase of the objective along each parameter that was named.
+  std::string draw_named_profiles(Page &page, const Diagnosis &diagnosis);
   ///@}
 
   /// A bar of @p value with what it was before it, and a mark at the noise.

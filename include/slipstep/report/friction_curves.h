@@ -4,7 +4,6 @@
 
 #include <slipstep/report/gallery.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -62,15 +61,16 @@ namespace SlipStep
   extern const LegendLine measured_line, replicate_line, before_line,
     noise_band_line;
 
-  /// Measured and simulated friction with the noise, a picture per frame.
+  /// Measured and simulated friction with the noise, a picture per frame, as
+  /// HTML.
   /// @param name of the files; "_1" and so on is added
   /// @param simulated what the legend calls the last simulation
-  Gallery draw_friction(const std::filesystem::path       &folder,
-                        const std::string                 &name,
-                        const std::string                 &title,
-                        const std::vector<ConditionFrame> &frames,
-                        const std::string                 &simulated,
-                        std::vector<std::string>          &warnings);
+  std::string draw_friction(Page                              &page,
+                            const std::string                 &name,
+                            const std::string                 &title,
+                            const std::string                 &caption,
+                            const std::vector<ConditionFrame> &frames,
+                            const std::string                 &simulated);
 
   /// An axis from zero, unless that would hide the difference.
   Range with_zero(Range y);

@@ -2,9 +2,8 @@
 #ifndef slipstep_report_gallery_h
 #define slipstep_report_gallery_h
 
-#include <slipstep/report/figure.h>
+#include <slipstep/report/page.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -45,9 +44,7 @@ namespace SlipStep
   {
   public:
     /// @param name of its files
-    SmallPicture(const std::filesystem::path &folder,
-                 const std::string           &name,
-                 const std::string           &title);
+    SmallPicture(Page &page, const std::string &name, const std::string &title);
 
     /// Axes; a range of no width is widened.
     void axes(const std::string &x_label,
@@ -61,7 +58,10 @@ namespace SlipStep
 
     /// Draw; nothing is added to the gallery if gnuplot is missing, of which
     /// there is one warning per gallery.
-    void finish(Gallery &gallery, std::vector<std::string> &warnings);
+    void finish(Gallery &gallery);
+
+  private:
+    Page &page;
   };
 
   /// Colours that colour-blind readers tell apart, the same in all pictures.

@@ -5,7 +5,6 @@
 #include <slipstep/calibration/calibration.h>
 #include <slipstep/report/gallery.h>
 
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -28,12 +27,11 @@ namespace SlipStep
   };
 
   /// How the misfit grows when one parameter is held at other values and the
-  /// others are fitted again; profiles of one point are left out.
-  Gallery draw_profiles(const std::filesystem::path     &folder,
-                        const std::string               &title,
-                        const std::vector<DrawnProfile> &profiles,
-                        const std::string               &interval_name,
-                        std::vector<std::string>        &warnings);
+  /// others are fitted again, as HTML; profiles of one point are left out.
+  std::string draw_profiles(Page                            &page,
+                            const std::string               &title,
+                            const std::vector<DrawnProfile> &profiles,
+                            const double                     confidence);
 } // namespace SlipStep
 
 #endif

@@ -11,6 +11,30 @@
 
 namespace SlipStep
 {
+  /// report.html in the making, and a folder `report` beside it with the data
+  /// and scripts of its pictures.
+  struct Page
+  {
+    /// Creates the folders.
+    explicit Page(const std::filesystem::path &folder);
+
+    /// Draw a picture; one that could not be drawn has no SVG and gives a
+    /// warning.
+    Picture draw(Figure            &figure,
+                 const std::string &title,
+                 const std::string &caption = "");
+
+    /// html_page() into the file.
+    /// @throws RunError if the disk refuses
+    void write(const std::string &title,
+               const std::string &headline,
+               const std::string &content) const;
+
+    const std::filesystem::path file;
+    const std::filesystem::path pictures; ///< the folder
+    std::vector<std::string>    warnings; ///< for the user
+  };
+
   /// A page complete in itself: style, heading, content, and the program's
   /// version at its end.
   /// @param title,headline plain text
@@ -33,6 +57,7 @@ namespace SlipStep
 
   /// Something that the reader has to know first.
   std::string problem_box(const std::string &text);
+  std::string problem_boxes(const std::vector<std::string> &texts);
 
   /// A table, the first line being its head.
   /// @param kind style: "numbers", with "unbroken" also of long cells, or "values"

@@ -2,7 +2,7 @@
 #ifndef slipstep_report_run_figures_h
 #define slipstep_report_run_figures_h
 
-#include <slipstep/report/figure.h>
+#include <slipstep/report/page.h>
 #include <slipstep/report/run_results.h>
 
 namespace SlipStep
@@ -10,17 +10,21 @@ namespace SlipStep
   /// Finished runs, and the pictures of them that have been drawn so far.
   struct RunFigures
   {
-    const std::filesystem::path    folder; ///< of data and scripts
+    Page                          &page;
     const Parameters              &parameters;
     const std::vector<RunResults> &runs;
     const Reference               &reference;
-    std::vector<std::string>      &warnings;
     std::vector<Picture>           pictures = {};
 
     /// The parameters that a run had.
     Parameters parameters_of(const RunResults &run) const;
 
-    /// Draw one more; if that fails, it has no SVG and gives a warning.
+    /// An empty one of the usual width.
+    Figure figure(const std::string &name,
+                  const std::string &title,
+                  const unsigned int height) const;
+
+    /// Draw one more, see Page::draw().
     Picture &add(Figure            &figure,
                  const std::string &title,
                  const std::string &caption = "");
@@ -60,12 +64,6 @@ namespace SlipStep
                 const Rows                     &points,
                 const double                    line_width = 2.,
                 const bool                      is_named   = true);
-
-  /// Draw; a picture that could not be drawn has no SVG and gives a warning.
-  Picture finish(Figure                   &figure,
-                 const std::string        &title,
-                 const std::string        &caption,
-                 std::vector<std::string> &warnings);
 
   /// Draw all pictures of the report, each with its data and script: those that
   /// the case asks for, friction over displacement, its beginning enlarged, r

@@ -2,9 +2,8 @@
 #ifndef slipstep_report_study_report_h
 #define slipstep_report_study_report_h
 
-#include <slipstep/report/figure.h>
 #include <slipstep/experiment/study_results.h>
-#include <slipstep/report/text_table.h>
+#include <slipstep/report/page.h>
 
 #include <filesystem>
 #include <string>
@@ -27,24 +26,9 @@ namespace SlipStep
   void write_study_json(const std::filesystem::path   &file,
                         const std::vector<StudyCurve> &curves);
 
-  /// Error against unknowns and against processor time, a picture per
-  /// quantity, with data and scripts in @p folder.
-  std::vector<Picture> draw_study(const std::filesystem::path   &folder,
-                                  const std::vector<StudyCurve> &curves,
-                                  std::vector<std::string>      &warnings);
-
-  std::string name_with_unit(const StudyCurve &curve);
-
-  /// One run: its label, unknowns, steps, CPU time, value, error, order.
-  TableLine run_line(const StudyPoint &point);
-
-  /// What was found, one line per curve: quantity, runs, reference, error of
-  /// the finest run, order, cheapest run for 1 %.
-  std::vector<TableLine> study_summary(const std::vector<StudyCurve> &curves);
-
-  /// The part of report.html about a study.
-  std::string study_html(const std::vector<StudyCurve> &curves,
-                         const std::vector<Picture>    &pictures);
+  /// The part of report.html about a study: what was found, error against
+  /// unknowns and against processor time, and all runs.
+  std::string study_section(Page &page, const std::vector<StudyCurve> &curves);
 } // namespace SlipStep
 
 #endif

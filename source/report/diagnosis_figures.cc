@@ -1,21 +1,63 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Pictures of what speaks for a name: differences along the covariates, and
-// profiles of the parameters.
+// Pictures of tests and of what speaks for a name: differences along the
+// covariates, and profiles of the parameters.
 
-#include <slipstep/report/diagnosis_figures.h>
+#include <slipstep/report/diagnosis_sections.h>
 #include <slipstep/report/diagnosis_text.h>
+#include <slipstep/report/friction_curves.h>
 #include <slipstep/report/likelihood_profiles.h>
 
 #include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace SlipStep
 {
   namespace
   {
+    DrawnTest drawn_axis(const DiagnosedTest &test,
+                         const bool           is_second_axis,
+                         const bool           is_after)
+    {
+      DrawnTest   drawn;
+      const auto &before = is_second_axis ? test.before_y : test.before;
+      drawn.name         = test.name;
+      drawn.condition = (test.condition.empty() ? test.name : test.condition) +
+                        (is_second_axis ? ", second axis" : "");
+      drawn.time         = test.time;
+      drawn.displacement = test.displacement;
+      drawn.measured     = is_second_axis ? test.measured_y : test.measured;
+      drawn.simulated =
+        is_after ? is_second_axis ? test.after_y : test.after : before;
+      if (is_after)
+        drawn.before = before;
+      // Of a test with two axes each has its share.
+      drawn.noise =
+        test.measured_y.empty() ? test.noise : test.noise / std::sqrt(2.);
+      drawn.gap = test.rms_before;
+      for (const Phase phase : test.phase)
+        drawn.is_flank.push_back(is_flank(phase) || phase == Phase::hold);
+      return drawn;
+    }
+
+    std::vector<DrawnTest> drawn_tests(const Diagnosis &diagnosis)
+    {
+      const bool             is_after = has_after(diagnosis);
+      std::vector<DrawnTest> tests;
+      for (const DiagnosedTest &test : diagnosis.tests)
+        {
+          tests.push_back(drawn_axis(test, false, is_after));
+          if (!test.measured_y.empty())
+            tests.push_back(drawn_axis(test, true, is_after));
+        }
+      return tests;
+    }
+
+
+
     constexpr std::size_t most_signatures = 4;
 
     std::string with_unit(const std::string &name, const std::string &unit)
@@ -105,13 +147,12 @@ namespace SlipStep
 
 
 
-    // Into a gallery with a title and a caption.
-    void draw_panels(const std::filesystem::path       &folder,
-                     const std::string                 &name,
-                     const std::vector<CovariatePanel> &panels,
-                     const std::vector<LegendLine>     &lines,
-                     Gallery                           &gallery,
-                     std::vector<std::string>          &warnings)
+    // @param gallery has a title and a caption
+    std::string draw_panels(Page                              &page,
+                            const std::string                 &name,
+                            const std::vector<CovariatePanel> &panels,
+                            const std::vector<LegendLine>     &lines,
+                            Gallery                            gallery)
     {
       gallery.legend.insert(gallery.legend.end(), lines.begin(), lines.end());
       for (std::size_t i = 0; i < panels.size(); ++i)
@@ -119,20 +160,40 @@ namespace SlipStep
           const CovariatePanel &panel = panels[i];
           if (panel.x.empty() || panel.residual.size() != panel.x.size())
             continue;
-          SmallPicture picture(folder,
+          SmallPicture picture(page,
                                name + "_" + std::to_string(i + 1),
                                "Against " + panel.covariate);
           draw_panel(picture, panel, lines);
-          picture.finish(gallery, warnings);
+          picture.finish(gallery);
         }
+      return gallery_section(gallery);
     }
   } // namespace
 
 
 
-  Gallery draw_covariates(const std::filesystem::path &folder,
-                          const Diagnosis             &diagnosis,
-                          std::vector<std::string>    &warnings)
+  std::string draw_tests(Page &page, const Diagnosis &diagnosis)
+  {
+    const bool                        is_after   = has_after(diagnosis);
+    const std::vector<DrawnTest>      tests      = drawn_tests(diagnosis);
+    std::size_t                       n_left_out = 0;
+    const std::vector<ConditionFrame> frames =
+      condition_frames(tests, n_left_out);
+    return draw_friction(
+      page,
+      "test",
+      is_after ? "Measured, before and after" : "Measured and simulated",
+      frames_caption(frames, n_left_out) +
+        "With a law that lacks nothing, nearly all that was measured lies "
+        "within the band of the noise. Steep flanks are cut off where the "
+        "difference is elsewhere.",
+      frames,
+      is_after ? "after" : "simulated");
+  }
+
+
+
+  std::string draw_covariates(Page &page, const Diagnosis &diagnosis)
   {
     const std::vector<LegendLine> lines =
       signature_lines(diagnosis, diagnosis.panels);
@@ -151,16 +212,12 @@ namespace SlipStep
                           "with two standard deviations.";
         gallery.legend[0].text = "left over";
       }
-    draw_panels(
-      folder, "covariate", diagnosis.panels, lines, gallery, warnings);
-    return gallery;
+    return draw_panels(page, "covariate", diagnosis.panels, lines, gallery);
   }
 
 
 
-  Gallery draw_completed_formulas(const std::filesystem::path &folder,
-                                  const Diagnosis             &diagnosis,
-                                  std::vector<std::string>    &warnings)
+  std::string draw_completed_formulas(Page &page, const Diagnosis &diagnosis)
   {
     std::vector<CovariatePanel> panels;
     std::string                 effects;
@@ -177,20 +234,13 @@ namespace SlipStep
       "case. Its shape tells what the formula lacks.",
       {{"left over by the formula", "#222222", LegendLine::points}},
       {}};
-    draw_panels(folder,
-                "formula",
-                panels,
-                signature_lines(diagnosis, panels),
-                gallery,
-                warnings);
-    return gallery;
+    return draw_panels(
+      page, "formula", panels, signature_lines(diagnosis, panels), gallery);
   }
 
 
 
-  Gallery draw_named_profiles(const std::filesystem::path &folder,
-                              const Diagnosis             &diagnosis,
-                              std::vector<std::string>    &warnings)
+  std::string draw_named_profiles(Page &page, const Diagnosis &diagnosis)
   {
     const double quantile =
       boost::math::quantile(boost::math::normal(),
@@ -207,10 +257,9 @@ namespace SlipStep
         std::sort(drawn.profile.begin(), drawn.profile.end());
         profiles.push_back(drawn);
       }
-    return draw_profiles(folder,
+    return draw_profiles(page,
                          "How sharply the new parameters are determined",
                          profiles,
-                         interval_name(diagnosis.confidence),
-                         warnings);
+                         diagnosis.confidence);
   }
 } // namespace SlipStep
