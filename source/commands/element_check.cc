@@ -3,10 +3,9 @@
 
 #include <slipstep/friction/law.h>
 #include <slipstep/measured_data/measured_test.h>
-#include <slipstep/report/case_text.h>
+#include <slipstep/commands/new_case.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/text.h>
-#include <slipstep/utilities/write_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,8 +52,7 @@ namespace SlipStep
         parameters.set(effect->section() + effect->test_number,
                        rounded_text(*order, 15),
                        "diagnosis");
-      write_file(job.case_file,
-                 case_text(parameters, folder, inactive_sections));
+      write_case(job.case_file, parameters, inactive_sections);
       return job;
     }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/effect.h>
 #include <slipstep/report/run_figures.h>
-#include <slipstep/report/run_law.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/run_report.h>
 
-#include <slipstep/report/repeat_command.h>
 #include <slipstep/report/run_results.h>
 #include <slipstep/report/run_figures.h>
-#include <slipstep/report/run_law.h>
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/text.h>
 

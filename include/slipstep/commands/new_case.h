@@ -11,12 +11,19 @@
 
 namespace SlipStep
 {
+  /// Write all of a case, with the intervals of the parameters as comments
+  /// behind their values.
+  /// @param head paragraphs of comment at the beginning
+  void write_case(const std::filesystem::path           &file,
+                  const Parameters                      &the_case,
+                  const std::set<std::string>           &inactive_sections,
+                  const std::vector<DiagnosedParameter> &parameters = {},
+                  const std::vector<std::string>        &head       = {});
+
   /// Write the case that a calibration or diagnosis came to: as Output/New
   /// cases says, an "include" of the case that it began with and what has
   /// changed, or all there is. It is complete, too, if the short form would not
   /// be read back as the same.
-  /// @param parameters intervals for comments behind their values
-  /// @param head paragraphs of comment at the beginning
   void write_new_case(const std::filesystem::path           &file,
                       const Parameters                      &the_case,
                       const std::set<std::string>           &inactive_sections,

@@ -51,6 +51,16 @@ namespace SlipStep
   /// Small grey text; of none nothing.
   std::string note(const std::string &text);
 
+  /// How the user calls the program with a case: "slipstep point case.prm", or
+  /// by the script that was used, or under mpirun.
+  std::string program_call(const std::string &command,
+                           const std::string &file,
+                           const unsigned int n_ranks = 1);
+
+  /// The options --set and --sweep that the user gave, each preceded by a
+  /// blank.
+  std::string given_settings(const Parameters &parameters);
+
   /// How to come to the same page again, by a command that reads one case.
   std::string repeat_section(const std::string &command,
                              const Parameters  &parameters);

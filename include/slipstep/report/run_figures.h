@@ -93,6 +93,16 @@ namespace SlipStep
   /// Draw pressure and slip on the contact face at the end of a run, which has
   /// one: maps, or lines in two dimensions.
   void add_face_picture(RunFigures &figures, const std::size_t run);
+
+  /// The law at work, as HTML: friction, the variables of the law and what its
+  /// effects remember, one below the other over the path of the drive. What
+  /// stays the same all along is said in words.
+  std::string law_at_work(const RunFigures &figures);
+
+  /// The active effects of all runs with formulas, and their parameters with
+  /// symbols, values in base units, and units. Where variants differ, all their
+  /// values are named.
+  std::vector<TableLine> effect_table(const RunFigures &figures);
 } // namespace SlipStep
 
 #endif
