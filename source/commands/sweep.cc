@@ -131,20 +131,172 @@ namespace SlipStep
         , exit_code(jobs.size(), 1)
       {}
 
-      std::vector<int> run();
+      std::vector<int> run()
+      {
+        const SignalGuard guard(true);
+        while (n_finished < jobs.size() && SignalGuard::caught() == 0)
+          {
+            start_children();
+            if (SignalGuard::take_checkpoint_request())
+              for (const Child &child : children)
+                kill(child.pid, SIGUSR1);
+            listen();
+            bury_the_dead();
+            show_progress();
+          }
+        if (SignalGuard::caught() != 0)
+          stop_children();
+        else
+          {
+            const auto n_failed =
+              exit_code.size() -
+              std::count(exit_code.begin(), exit_code.end(), 0);
+            progress.finish(n_failed == 0 ?
+                              "done in" :
+                              std::to_string(n_failed) + " of " +
+                                std::to_string(jobs.size()) + " failed, after");
+          }
+        return exit_code;
+      }
 
     private:
-      void start_children();
+      void start_children()
+      {
+        while (children.size() < n_parallel && n_started < jobs.size())
+          {
+            const std::size_t number = n_started++;
+            try
+              {
+                children.push_back(start(jobs[number], number));
+              }
+            catch (const RunError &error)
+              {
+                progress.clear();
+                std::cerr << error.what() << std::endl;
+                ++n_finished;
+              }
+          }
+      }
 
-      void listen();
+      // Wait until a child says something, at most a little while.
+      void listen()
+      {
+        std::vector<pollfd> descriptors;
+        for (const Child &child : children)
+          for (const Pipe *pipe : {&child.out, &child.err})
+            if (pipe->descriptor >= 0)
+              descriptors.push_back({pipe->descriptor, POLLIN, 0});
+        if (poll(descriptors.data(), descriptors.size(), 200) <= 0)
+          return;
+        for (const pollfd &polled : descriptors)
+          if (polled.revents != 0)
+            for (Child &child : children)
+              if (child.out.descriptor == polled.fd ||
+                  child.err.descriptor == polled.fd)
+                {
+                  pass_on(child);
+                  break;
+                }
+      }
 
-      void pass_on(Child &child);
+      void pass_on(Child &child)
+      {
+        const auto is_ready = [](const Pipe &pipe) {
+          pollfd polled{pipe.descriptor, POLLIN, 0};
+          return pipe.descriptor >= 0 && poll(&polled, 1, 0) > 0;
+        };
+        const std::string        label = jobs[child.job].label;
+        std::vector<std::string> lines;
+        if (is_ready(child.out))
+          child.out.read_lines(lines);
+        for (const std::string &line : lines)
+          if (!parse_progress_line(line, child.progress))
+            {
+              progress.clear();
+              std::cout << label << ": " << line << std::endl;
+            }
+        fraction[child.job] = child.progress.fraction;
 
-      void bury_the_dead();
+        lines.clear();
+        if (is_ready(child.err))
+          child.err.read_lines(lines);
+        for (const std::string &line : lines)
+          {
+            progress.clear();
+            std::cerr << label << ": " << line << std::endl;
+          }
+      }
 
-      void show_progress();
+      void bury_the_dead()
+      {
+        for (auto child = children.begin(); child != children.end();)
+          {
+            if (child->is_open())
+              {
+                ++child;
+                continue;
+              }
+            int status = 0;
+            while (waitpid(child->pid, &status, 0) < 0 && errno == EINTR)
+              if (SignalGuard::caught() != 0)
+                return;
+            if (WIFEXITED(status))
+              exit_code[child->job] = WEXITSTATUS(status);
+            else
+              {
+                progress.clear();
+                std::cerr << jobs[child->job].label << ": stopped by signal "
+                          << WTERMSIG(status) << " ("
+                          << strsignal(WTERMSIG(status)) << ")" << std::endl;
+              }
+            fraction[child->job] = 1.;
+            ++n_finished;
+            child = children.erase(child);
+          }
+      }
 
-      void stop_children();
+      void show_progress()
+      {
+        double sum = 0.;
+        for (const double part : fraction)
+          sum += part;
+        std::string text = std::to_string(n_finished) + " of " +
+                           std::to_string(jobs.size()) + " done";
+        for (const Child &child : children)
+          text += "; " + jobs[child.job].label + " " +
+                  std::to_string(static_cast<int>(100. * fraction[child.job])) +
+                  " %";
+        // How long those take that have not begun, nobody knows.
+        double time_left = 0.;
+        bool   is_known  = n_started == jobs.size();
+        for (const Child &child : children)
+          {
+            is_known  = is_known && std::isfinite(child.progress.time_left);
+            time_left = std::max(time_left, child.progress.time_left);
+          }
+        // All work done is announced by finish() only.
+        progress.update(std::min(sum / jobs.size(), 0.999),
+                        text,
+                        is_known ? time_left :
+                                   std::numeric_limits<double>::quiet_NaN());
+      }
+
+      void stop_children()
+      {
+        progress.clear();
+        for (const Child &child : children)
+          kill(child.pid, SIGTERM);
+        // They write a checkpoint after the present step, if that is soon.
+        const auto start = std::chrono::steady_clock::now();
+        for (const Child &child : children)
+          while (waitpid(child.pid, nullptr, WNOHANG) == 0)
+            {
+              if (std::chrono::steady_clock::now() - start >
+                  std::chrono::seconds(30))
+                kill(child.pid, SIGKILL);
+              std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            }
+      }
 
       const std::vector<SweepJob> &jobs;
       const unsigned int           n_parallel;
@@ -158,183 +310,6 @@ namespace SlipStep
 
 
 
-    std::vector<int> Crew::run()
-    {
-      const SignalGuard guard(true);
-      while (n_finished < jobs.size() && SignalGuard::caught() == 0)
-        {
-          start_children();
-          if (SignalGuard::take_checkpoint_request())
-            for (const Child &child : children)
-              kill(child.pid, SIGUSR1);
-          listen();
-          bury_the_dead();
-          show_progress();
-        }
-      if (SignalGuard::caught() != 0)
-        stop_children();
-      else
-        {
-          const auto n_failed =
-            exit_code.size() -
-            std::count(exit_code.begin(), exit_code.end(), 0);
-          progress.finish(n_failed == 0 ?
-                            "done in" :
-                            std::to_string(n_failed) + " of " +
-                              std::to_string(jobs.size()) + " failed, after");
-        }
-      return exit_code;
-    }
-
-
-
-    void Crew::start_children()
-    {
-      while (children.size() < n_parallel && n_started < jobs.size())
-        {
-          const std::size_t number = n_started++;
-          try
-            {
-              children.push_back(start(jobs[number], number));
-            }
-          catch (const RunError &error)
-            {
-              progress.clear();
-              std::cerr << error.what() << std::endl;
-              ++n_finished;
-            }
-        }
-    }
-
-
-
-    // Wait until a child says something, at most a little while.
-    void Crew::listen()
-    {
-      std::vector<pollfd> descriptors;
-      for (const Child &child : children)
-        for (const Pipe *pipe : {&child.out, &child.err})
-          if (pipe->descriptor >= 0)
-            descriptors.push_back({pipe->descriptor, POLLIN, 0});
-      if (poll(descriptors.data(), descriptors.size(), 200) <= 0)
-        return;
-      for (const pollfd &polled : descriptors)
-        if (polled.revents != 0)
-          for (Child &child : children)
-            if (child.out.descriptor == polled.fd ||
-                child.err.descriptor == polled.fd)
-              {
-                pass_on(child);
-                break;
-              }
-    }
-
-
-
-    void Crew::pass_on(Child &child)
-    {
-      const auto is_ready = [](const Pipe &pipe) {
-        pollfd polled{pipe.descriptor, POLLIN, 0};
-        return pipe.descriptor >= 0 && poll(&polled, 1, 0) > 0;
-      };
-      const std::string        label = jobs[child.job].label;
-      std::vector<std::string> lines;
-      if (is_ready(child.out))
-        child.out.read_lines(lines);
-      for (const std::string &line : lines)
-        if (!parse_progress_line(line, child.progress))
-          {
-            progress.clear();
-            std::cout << label << ": " << line << std::endl;
-          }
-      fraction[child.job] = child.progress.fraction;
-
-      lines.clear();
-      if (is_ready(child.err))
-        child.err.read_lines(lines);
-      for (const std::string &line : lines)
-        {
-          progress.clear();
-          std::cerr << label << ": " << line << std::endl;
-        }
-    }
-
-
-
-    void Crew::bury_the_dead()
-    {
-      for (auto child = children.begin(); child != children.end();)
-        {
-          if (child->is_open())
-            {
-              ++child;
-              continue;
-            }
-          int status = 0;
-          while (waitpid(child->pid, &status, 0) < 0 && errno == EINTR)
-            if (SignalGuard::caught() != 0)
-              return;
-          if (WIFEXITED(status))
-            exit_code[child->job] = WEXITSTATUS(status);
-          else
-            {
-              progress.clear();
-              std::cerr << jobs[child->job].label << ": stopped by signal "
-                        << WTERMSIG(status) << " ("
-                        << strsignal(WTERMSIG(status)) << ")" << std::endl;
-            }
-          fraction[child->job] = 1.;
-          ++n_finished;
-          child = children.erase(child);
-        }
-    }
-
-
-
-    void Crew::show_progress()
-    {
-      double sum = 0.;
-      for (const double part : fraction)
-        sum += part;
-      std::string text = std::to_string(n_finished) + " of " +
-                         std::to_string(jobs.size()) + " done";
-      for (const Child &child : children)
-        text += "; " + jobs[child.job].label + " " +
-                std::to_string(static_cast<int>(100. * fraction[child.job])) +
-                " %";
-      // How long those take that have not begun, nobody knows.
-      double time_left = 0.;
-      bool   is_known  = n_started == jobs.size();
-      for (const Child &child : children)
-        {
-          is_known  = is_known && std::isfinite(child.progress.time_left);
-          time_left = std::max(time_left, child.progress.time_left);
-        }
-      // All work done is announced by finish() only.
-      progress.update(std::min(sum / jobs.size(), 0.999),
-                      text,
-                      is_known ? time_left :
-                                 std::numeric_limits<double>::quiet_NaN());
-    }
-
-
-
-    void Crew::stop_children()
-    {
-      progress.clear();
-      for (const Child &child : children)
-        kill(child.pid, SIGTERM);
-      // They write a checkpoint after the present step, if that is soon.
-      const auto start = std::chrono::steady_clock::now();
-      for (const Child &child : children)
-        while (waitpid(child.pid, nullptr, WNOHANG) == 0)
-          {
-            if (std::chrono::steady_clock::now() - start >
-                std::chrono::seconds(30))
-              kill(child.pid, SIGKILL);
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-          }
-    }
   } // namespace
 
 

@@ -149,6 +149,79 @@ namespace SlipStep
 
 
 
+    // One of 40 colours of viridis: 0 its first, 1 its last.
+    std::string shade(const double share)
+    {
+      static const std::vector<Colour3> viridis = {{{68., 1., 84.}},
+                                                   {{65., 68., 135.}},
+                                                   {{42., 120., 142.}},
+                                                   {{34., 168., 132.}},
+                                                   {{122., 209., 81.}},
+                                                   {{253., 231., 37.}}};
+
+      const Colour3 colour =
+        mixed_colour(viridis,
+                     std::round(39. * std::clamp(share, 0., 1.)) / 39.);
+      char text[8];
+      std::snprintf(text,
+                    sizeof(text),
+                    "#%02x%02x%02x",
+                    static_cast<unsigned char>(colour[0]),
+                    static_cast<unsigned char>(colour[1]),
+                    static_cast<unsigned char>(colour[2]));
+      return text;
+    }
+
+
+
+    std::string colour_bar(const SurfaceField &field,
+                           const double        view_width,
+                           const double        view_height)
+    {
+      constexpr unsigned int n     = 40;
+      const double           width = 260., top = view_height - 32.,
+                   left = (view_width - width) / 2.;
+
+      const auto text = [&](const double       x,
+                            const double       y,
+                            const std::string &anchor,
+                            const std::string &content) {
+        return "<text x='" + fixed_text(x, 1) + "' y='" + fixed_text(y, 1) +
+               "' text-anchor='" + anchor + "'>" + html_text(content) +
+               "</text>\n";
+      };
+      std::string svg;
+      for (unsigned int i = 0; i < n; ++i)
+        svg += "<rect x='" + fixed_text(left + width * i / n, 1) + "' y='" +
+               fixed_text(top, 1) + "' width='7' height='10' fill='" +
+               shade(i / (n - 1.)) + "'/>";
+      return svg + text(left, top - 6., "start", field.label()) +
+             text(left, top + 25., "start", short_text(field.range.lower, 3)) +
+             text(left + width,
+                  top + 25.,
+                  "end",
+                  short_text(field.range.upper, 3));
+    }
+
+
+
+    using Point = std::array<double, 3>;
+
+    // To the right, upwards and towards the eye, of a block turned about z and
+    // then tilted.
+    Point turned(const Point &p)
+    {
+      constexpr double turn = -0.6, tilt = 0.45;
+
+      const double a = std::cos(turn) * p[0] + std::sin(turn) * p[1];
+      const double b = -std::sin(turn) * p[0] + std::cos(turn) * p[1];
+      return {{a,
+               std::cos(tilt) * p[2] + std::sin(tilt) * b,
+               std::sin(tilt) * p[2] - std::cos(tilt) * b}};
+    }
+
+
+
     /// Moments of a block, and how to show them.
     class BlockView
     {
@@ -320,10 +393,88 @@ namespace SlipStep
       // The last moment, seen from above; all faces of one colour are one path.
       std::string drawing(const double width,
                           const double height,
-                          const bool   is_coloured) const;
+                          const bool   is_coloured) const
+      {
+        const SurfaceField &field  = fields[0];
+        const double        margin = is_coloured ? 25. : 8.;
+        const double        foot   = is_coloured ? 65. : 8.;
+        const double        shown  = is_coloured ? scale : 0.;
+
+        const Surface     &moment = moments.back();
+        std::vector<Point> places;
+        Range              x, y;
+        for (const Corner &corner : moment.corners)
+          {
+            Point p;
+            for (unsigned int d = 0; d < 3; ++d)
+              p[d] = corner[d] + shown * corner[3 + d] - box[d].middle();
+            places.push_back(is_flat ? p : turned(p));
+            x.add(places.back()[0]);
+            y.add(places.back()[1]);
+          }
+        const double size = std::min((width - 2. * margin) / x.width(),
+                                     (height - margin - foot) / y.width());
+
+        std::map<std::string, std::string> paths;
+        for (std::size_t i = 0; i < moment.quadrilaterals.size(); ++i)
+          {
+            const auto &corners = moment.quadrilaterals[i];
+            if (!is_seen(corners))
+              continue;
+            const double share =
+              (field.factor * moment.values.at(field.column)[i] -
+               field.range.lower) /
+              field.range.width();
+            std::string &path = paths[is_coloured ? shade(share) : "#e8eef4"];
+            for (unsigned int k = 0; k < 4; ++k)
+              path += (k == 0 ? "M" : "L") +
+                      fixed_text(width / 2. +
+                                   size * (places[corners[k]][0] - x.middle()),
+                                 1) +
+                      " " +
+                      fixed_text((height - foot + margin) / 2. -
+                                   size * (places[corners[k]][1] - y.middle()),
+                                 1);
+            path += "Z";
+          }
+        std::string svg =
+          "<svg viewBox='0 0 " + fixed_text(width, 0) + " " +
+          fixed_text(height, 0) +
+          "' role='img' font-size='13' fill='currentColor'><title>The block at "
+          "the end of the run</title>\n<g stroke='#777' stroke-width='.5' "
+          "stroke-linejoin='round'>\n";
+        for (const auto &path : paths)
+          svg += "<path fill='" + path.first + "' d='" + path.second + "'/>\n";
+        return svg + "</g>\n" +
+               (is_coloured ? colour_bar(field, width, height) : "") +
+               "</svg>\n";
+      }
 
       // Whether a face of the last moment does not look away.
-      bool is_seen(const std::array<std::size_t, 4> &corners) const;
+      bool is_seen(const std::array<std::size_t, 4> &corners) const
+      {
+        if (is_flat)
+          return true;
+        const auto &all = moments.back().corners;
+        Point       outwards, one, other; // from the middle; the diagonals
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            outwards[d] = -box[d].middle();
+            for (const std::size_t corner : corners)
+              outwards[d] += all[corner][d] / 4.;
+            one[d]   = all[corners[2]][d] - all[corners[0]][d];
+            other[d] = all[corners[3]][d] - all[corners[1]][d];
+          }
+        Point  normal;
+        double product = 0.;
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            const unsigned int e = (d + 1) % 3, f = (d + 2) % 3;
+            normal[d] = one[e] * other[f] - one[f] * other[e];
+            product += normal[d] * outwards[d];
+          }
+        return product * turned(normal)[2] > 0.;
+      }
 
       std::vector<Surface>      moments;
       std::array<Range, 3>      box;
@@ -332,166 +483,6 @@ namespace SlipStep
       double                    scale   = 1.;
       std::vector<SurfaceField> fields;
     };
-
-
-
-    // One of 40 colours of viridis: 0 its first, 1 its last.
-    std::string shade(const double share)
-    {
-      static const std::vector<Colour3> viridis = {{{68., 1., 84.}},
-                                                   {{65., 68., 135.}},
-                                                   {{42., 120., 142.}},
-                                                   {{34., 168., 132.}},
-                                                   {{122., 209., 81.}},
-                                                   {{253., 231., 37.}}};
-
-      const Colour3 colour =
-        mixed_colour(viridis,
-                     std::round(39. * std::clamp(share, 0., 1.)) / 39.);
-      char text[8];
-      std::snprintf(text,
-                    sizeof(text),
-                    "#%02x%02x%02x",
-                    static_cast<unsigned char>(colour[0]),
-                    static_cast<unsigned char>(colour[1]),
-                    static_cast<unsigned char>(colour[2]));
-      return text;
-    }
-
-
-
-    std::string colour_bar(const SurfaceField &field,
-                           const double        view_width,
-                           const double        view_height)
-    {
-      constexpr unsigned int n     = 40;
-      const double           width = 260., top = view_height - 32.,
-                   left = (view_width - width) / 2.;
-
-      const auto text = [&](const double       x,
-                            const double       y,
-                            const std::string &anchor,
-                            const std::string &content) {
-        return "<text x='" + fixed_text(x, 1) + "' y='" + fixed_text(y, 1) +
-               "' text-anchor='" + anchor + "'>" + html_text(content) +
-               "</text>\n";
-      };
-      std::string svg;
-      for (unsigned int i = 0; i < n; ++i)
-        svg += "<rect x='" + fixed_text(left + width * i / n, 1) + "' y='" +
-               fixed_text(top, 1) + "' width='7' height='10' fill='" +
-               shade(i / (n - 1.)) + "'/>";
-      return svg + text(left, top - 6., "start", field.label()) +
-             text(left, top + 25., "start", short_text(field.range.lower, 3)) +
-             text(left + width,
-                  top + 25.,
-                  "end",
-                  short_text(field.range.upper, 3));
-    }
-
-
-
-    using Point = std::array<double, 3>;
-
-    // To the right, upwards and towards the eye, of a block turned about z and
-    // then tilted.
-    Point turned(const Point &p)
-    {
-      constexpr double turn = -0.6, tilt = 0.45;
-
-      const double a = std::cos(turn) * p[0] + std::sin(turn) * p[1];
-      const double b = -std::sin(turn) * p[0] + std::cos(turn) * p[1];
-      return {{a,
-               std::cos(tilt) * p[2] + std::sin(tilt) * b,
-               std::sin(tilt) * p[2] - std::cos(tilt) * b}};
-    }
-
-
-
-    bool BlockView::is_seen(const std::array<std::size_t, 4> &corners) const
-    {
-      if (is_flat)
-        return true;
-      const auto &all = moments.back().corners;
-      Point       outwards, one, other; // from the middle; the diagonals
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          outwards[d] = -box[d].middle();
-          for (const std::size_t corner : corners)
-            outwards[d] += all[corner][d] / 4.;
-          one[d]   = all[corners[2]][d] - all[corners[0]][d];
-          other[d] = all[corners[3]][d] - all[corners[1]][d];
-        }
-      Point  normal;
-      double product = 0.;
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          const unsigned int e = (d + 1) % 3, f = (d + 2) % 3;
-          normal[d] = one[e] * other[f] - one[f] * other[e];
-          product += normal[d] * outwards[d];
-        }
-      return product * turned(normal)[2] > 0.;
-    }
-
-
-
-    std::string BlockView::drawing(const double width,
-                                   const double height,
-                                   const bool   is_coloured) const
-    {
-      const SurfaceField &field  = fields[0];
-      const double        margin = is_coloured ? 25. : 8.;
-      const double        foot   = is_coloured ? 65. : 8.;
-      const double        shown  = is_coloured ? scale : 0.;
-
-      const Surface     &moment = moments.back();
-      std::vector<Point> places;
-      Range              x, y;
-      for (const Corner &corner : moment.corners)
-        {
-          Point p;
-          for (unsigned int d = 0; d < 3; ++d)
-            p[d] = corner[d] + shown * corner[3 + d] - box[d].middle();
-          places.push_back(is_flat ? p : turned(p));
-          x.add(places.back()[0]);
-          y.add(places.back()[1]);
-        }
-      const double size = std::min((width - 2. * margin) / x.width(),
-                                   (height - margin - foot) / y.width());
-
-      std::map<std::string, std::string> paths;
-      for (std::size_t i = 0; i < moment.quadrilaterals.size(); ++i)
-        {
-          const auto &corners = moment.quadrilaterals[i];
-          if (!is_seen(corners))
-            continue;
-          const double share =
-            (field.factor * moment.values.at(field.column)[i] -
-             field.range.lower) /
-            field.range.width();
-          std::string &path = paths[is_coloured ? shade(share) : "#e8eef4"];
-          for (unsigned int k = 0; k < 4; ++k)
-            path += (k == 0 ? "M" : "L") +
-                    fixed_text(width / 2. +
-                                 size * (places[corners[k]][0] - x.middle()),
-                               1) +
-                    " " +
-                    fixed_text((height - foot + margin) / 2. -
-                                 size * (places[corners[k]][1] - y.middle()),
-                               1);
-          path += "Z";
-        }
-      std::string svg =
-        "<svg viewBox='0 0 " + fixed_text(width, 0) + " " +
-        fixed_text(height, 0) +
-        "' role='img' font-size='13' fill='currentColor'><title>The block at "
-        "the end of the run</title>\n<g stroke='#777' stroke-width='.5' "
-        "stroke-linejoin='round'>\n";
-      for (const auto &path : paths)
-        svg += "<path fill='" + path.first + "' d='" + path.second + "'/>\n";
-      return svg + "</g>\n" +
-             (is_coloured ? colour_bar(field, width, height) : "") + "</svg>\n";
-    }
   } // namespace
 
 
