@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/commands/commands.h>
-#include <slipstep/commands/element_check.h>
 #include <slipstep/commands/new_case.h>
 #include <slipstep/diagnosis/diagnose.h>
 #include <slipstep/report/diagnosis_report.h>
@@ -9,14 +8,23 @@
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/commands/sweep.h>
 #include <slipstep/commands/case.h>
+#include <slipstep/friction/law.h>
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
+#include <slipstep/utilities/text.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
+#include <map>
+#include <optional>
 
 namespace SlipStep
 {
+  namespace fs = std::filesystem;
+
   namespace
   {
     void write_results(const DiagnosedCase &diagnosed,
@@ -38,6 +46,17 @@ namespace SlipStep
 
 
 
+    /// A case to be simulated with finite elements, and where to. A job that
+    /// fails leaves no history.csv.
+    struct ElementJob
+    {
+      std::string label;
+      fs::path    case_file;
+      fs::path    output;
+    };
+
+
+
     // The block is simulated by processes of their own, one per core.
     void simulate_blocks(const std::vector<ElementJob> &element_jobs,
                          const Parameters              &parameters,
@@ -56,6 +75,215 @@ namespace SlipStep
         throw RunError(SignalGuard::in_words() +
                        "; what was found on the contact point is kept, without "
                        "the simulation of the block");
+    }
+
+
+
+    /// The same test simulated before and after.
+    struct Jobs
+    {
+      ElementJob before, after;
+    };
+
+
+
+    ElementJob write_job(const Parameters    &the_case,
+                         const DiagnosedTest &test,
+                         const std::size_t    number,
+                         const std::string   &label,
+                         const fs::path      &folder,
+                         const RunOptions    &options)
+    {
+      // The number tells files of the same name in two folders apart.
+      const std::string name = std::to_string(number) + "_" +
+                               fs::path(test.file).stem().string() + "_" +
+                               label;
+      ElementJob job{test.name + ", " + label,
+                     folder / (name + ".prm"),
+                     folder / name};
+      Parameters parameters = the_case;
+      parameters.set("Loading/Programme",
+                     "follow " + fs::proximate(test.file, the_case.resolve("."))
+                                   .generic_string(),
+                     "diagnosis");
+      const std::optional<double> order = read_measured_test(test.file).order();
+      const EffectInfo *const     effect =
+        effect_of_order(FrictionLaw(parameters).effects());
+      if (order.has_value() && effect != nullptr)
+        parameters.set(effect->section() + effect->test_number,
+                       rounded_text(*order, 15),
+                       "diagnosis");
+      write_case(job.case_file, parameters, options.inactive_sections);
+      return job;
+    }
+
+
+
+    /// Friction along both axes; the second one is empty where a test has one.
+    struct Curves
+    {
+      std::vector<double> x, y;
+
+      // Of a test with two axes the resultant.
+      std::vector<double> along_motion() const
+      {
+        std::vector<double> result = x;
+        for (std::size_t i = 0; i < y.size(); ++i)
+          result[i] = std::hypot(x[i], y[i]);
+        return result;
+      }
+
+      double squared_distance(const Curves &other) const
+      {
+        double sum = 0.;
+        for (std::size_t i = 0; i < x.size(); ++i)
+          sum += std::pow(x[i] - other.x[i], 2);
+        for (std::size_t i = 0; i < y.size(); ++i)
+          sum += std::pow(y[i] - other.y[i], 2);
+        return sum;
+      }
+    };
+
+
+
+    // Of a simulation, at the times of the test; empty without one.
+    Curves block_friction(const ElementJob &job, const DiagnosedTest &test)
+    {
+      const fs::path file = job.output / "history.csv";
+      if (!fs::exists(file))
+        return {};
+      const MeasuredTest history = read_measured_test(file);
+      if (history.time.back() < 0.999 * (test.time.back() - test.time.front()))
+        return {};
+      // The simulation begins with the first row of the file, the comparison
+      // perhaps later.
+      const double begin =
+        test.start_time - read_measured_test(test.file).time.front();
+      Curves      result;
+      std::size_t i = 1;
+      for (const double since_begin : test.time)
+        {
+          const double time = begin + since_begin;
+          while (i + 1 < history.time.size() && history.time[i] < time)
+            ++i;
+          const double share =
+            std::clamp((time - history.time[i - 1]) /
+                         (history.time[i] - history.time[i - 1]),
+                       0.,
+                       1.);
+          const auto between = [&](const std::vector<double> &values) {
+            return (1. - share) * values[i - 1] + share * values[i];
+          };
+          result.x.push_back(between(history.friction));
+          if (!test.measured_y.empty())
+            result.y.push_back(
+              history.friction_y.empty() ? 0. : between(history.friction_y));
+        }
+      return result;
+    }
+
+
+
+    ElementCheck compare(const Jobs &jobs, const DiagnosedTest &test)
+    {
+      ElementCheck check;
+      const Curves measured{test.measured, test.measured_y};
+      const Curves point_before{test.before, test.before_y};
+      const Curves point_after{test.after, test.after_y};
+      check.test         = test.name;
+      check.displacement = test.displacement;
+      check.measured     = measured.along_motion();
+      check.point_before = point_before.along_motion();
+      check.point_after  = point_after.along_motion();
+      Curves block_before, block_after;
+      try
+        {
+          block_before = block_friction(jobs.before, test);
+          block_after  = block_friction(jobs.after, test);
+        }
+      catch (const InputError &error)
+        {
+          check.remark = error.what();
+        }
+      if (block_before.x.empty() || block_after.x.empty())
+        {
+          check.remark = "the block could not be simulated to the end" +
+                         (check.remark.empty() ? "" : ": " + check.remark);
+          return check;
+        }
+      check.block_before  = block_before.along_motion();
+      check.block_after   = block_after.along_motion();
+      const auto distance = [&](const Curves &a, const Curves &b) {
+        return std::sqrt(a.squared_distance(b) / a.x.size()) / test.level;
+      };
+      check.block_gap_before = distance(block_before, measured);
+      check.block_gap_after  = distance(block_after, measured);
+      check.point_gap_before = distance(point_before, measured);
+      check.point_gap_after  = distance(point_after, measured);
+      check.difference       = distance(block_after, point_after);
+      return check;
+    }
+
+
+
+    ElementCheck without_block(const std::string &test,
+                               const std::string &remark)
+    {
+      ElementCheck check;
+      check.test   = test;
+      check.remark = remark;
+      return check;
+    }
+
+
+
+    // Simulates tests with the block, before and after, and compares.
+    std::vector<ElementCheck>
+    check_with_elements(const DiagnosedCase            &diagnosed,
+                        const std::vector<std::size_t> &tests,
+                        const Parameters               &parameters,
+                        const RunOptions               &options,
+                        const CommandLine              &line)
+    {
+      const Parameters         &before    = diagnosed.before;
+      const Diagnosis          &diagnosis = diagnosed.diagnosis;
+      const fs::path            folder    = options.output / "elements";
+      std::vector<ElementCheck> checks;
+      const bool                has_machine =
+        before.text("Loading/Machine stiffness") != "rigid";
+      if (has_machine || before.number("Calibration/Lead-in") > 0.)
+        return {without_block(
+          diagnosis.tests[tests.front()].name,
+          has_machine ?
+            "the case has a machine in series; the block is elastic itself and "
+            "takes none" :
+            "the records begin in the middle of a slide (Calibration/Lead-in), "
+            "which the block is not led to")};
+      std::error_code error;
+      fs::create_directories(folder, error);
+      std::map<std::size_t, Jobs> jobs; ///< by test
+      std::vector<ElementJob>     all;
+      for (const std::size_t i : tests)
+        {
+          const DiagnosedTest &test = diagnosis.tests[i];
+          if (test.is_outlier)
+            continue;
+          jobs[i] = {
+            write_job(before, test, i + 1, "before", folder, options),
+            write_job(diagnosed.after, test, i + 1, "after", folder, options)};
+          all.push_back(jobs[i].before);
+          all.push_back(jobs[i].after);
+        }
+      simulate_blocks(all, parameters, line);
+      for (const std::size_t i : tests)
+        {
+          const DiagnosedTest &test = diagnosis.tests[i];
+          checks.push_back(
+            test.is_outlier ?
+              without_block(test.name, "the test is left out as an outlier") :
+              compare(jobs.at(i), test));
+        }
+      return checks;
     }
 
 
@@ -101,15 +329,7 @@ namespace SlipStep
       {
         progress.update(0.9, "simulating the block");
         diagnosis.element_checks =
-          check_with_elements(diagnosed.before,
-                              diagnosed.after,
-                              diagnosis,
-                              tests,
-                              options.output / "elements",
-                              options.inactive_sections,
-                              [&](const std::vector<ElementJob> &jobs) {
-                                simulate_blocks(jobs, parameters, line);
-                              });
+          check_with_elements(diagnosed, tests, parameters, options, line);
         write_results(diagnosed, parameters, options);
       }
     progress.finish();
