@@ -4,6 +4,8 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/write_file.h>
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include <iostream>
 
 namespace SlipStep
@@ -15,10 +17,7 @@ namespace SlipStep
     // As one word of a shell, whatever is in it.
     std::string word(const std::string &text)
     {
-      std::string quoted = "'";
-      for (const char c : text)
-        quoted += c == '\'' ? "'\\''" : std::string(1, c);
-      return quoted + "'";
+      return "'" + boost::algorithm::replace_all_copy(text, "'", "'\\''") + "'";
     }
 
 

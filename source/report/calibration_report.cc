@@ -6,6 +6,7 @@
 #include <slipstep/report/likelihood_profiles.h>
 #include <slipstep/utilities/text.h>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
@@ -105,10 +106,7 @@ namespace SlipStep
     /// A place where a long name may be broken.
     std::string breakable(const std::string &name)
     {
-      std::string html;
-      for (const char c : html_text(name))
-        html += c == '/' ? std::string("/<wbr>") : std::string(1, c);
-      return html;
+      return boost::algorithm::replace_all_copy(html_text(name), "/", "/<wbr>");
     }
 
     std::string correlation_section(const Calibration &calibration)

@@ -60,11 +60,6 @@ namespace SlipStep
 
     constexpr std::size_t most_signatures = 4;
 
-    std::string with_unit(const std::string &name, const std::string &unit)
-    {
-      return name + (unit.empty() ? "  [–]" : "  [" + unit + "]");
-    }
-
     /// The same effect has the same line in all pictures.
     std::vector<LegendLine>
     signature_lines(const Diagnosis                   &diagnosis,
@@ -131,14 +126,8 @@ namespace SlipStep
       // Points shall not stand on the border.
       const bool is_logarithmic =
         panel.is_logarithmic && x.lower > 0. && x.upper > x.lower;
-      if (is_logarithmic)
-        {
-          const double factor = std::pow(x.upper / x.lower, 0.04);
-          x                   = {x.lower / factor, x.upper * factor};
-        }
-      else
-        x = {x.lower - 0.04 * x.width(), x.upper + 0.04 * x.width()};
-      picture.axes(with_unit(panel.covariate, panel.unit),
+      x = with_margin(x, 0.04, is_logarithmic);
+      picture.axes(axis_label(panel.covariate, panel.unit),
                    x,
                    "Left over  [% of friction]",
                    y,

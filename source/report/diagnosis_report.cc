@@ -9,6 +9,8 @@
 
 #include <slipstep_diagnosis_style.h>
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include <algorithm>
 #include <sstream>
 
@@ -43,13 +45,9 @@ namespace SlipStep
     }
 
     /// No line ends between a number and its sign of percent.
-    std::string kept_together(std::string text)
+    std::string kept_together(const std::string &text)
     {
-      const std::string breakable = " %", unbreakable = "\u00a0%";
-      for (std::size_t at = text.find(breakable); at != std::string::npos;
-           at             = text.find(breakable, at))
-        text.replace(at, breakable.size(), unbreakable);
-      return text;
+      return boost::algorithm::replace_all_copy(text, " %", "\u00a0%");
     }
 
     std::string where_card(const Diagnosis &diagnosis)

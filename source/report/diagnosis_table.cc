@@ -4,12 +4,10 @@
 
 #include <slipstep/report/diagnosis_text.h>
 
-#include <slipstep/report/run_results.h>
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/text.h>
 
-#include <algorithm>
-#include <utility>
+#include <nlohmann/json.hpp>
 
 namespace SlipStep
 {
@@ -100,19 +98,10 @@ namespace SlipStep
         return "";
       std::string text = "\n" + text_table(lines, terminal_width);
       // Those of one reason together, in the order of the first of them.
-      std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+      nlohmann::ordered_map<std::string, std::vector<std::string>> reasons;
       for (const CandidateResult &candidate : diagnosis.candidates)
         if (was_left_out(candidate.standing))
-          {
-            auto found = std::find_if(reasons.begin(),
-                                      reasons.end(),
-                                      [&](const auto &reason) {
-                                        return reason.first == candidate.why;
-                                      });
-            if (found == reasons.end())
-              found = reasons.insert(found, {candidate.why, {}});
-            found->second.push_back(candidate.name);
-          }
+          reasons[candidate.why].push_back(candidate.name);
       for (const auto &[why, names] : reasons)
         text += wrapped_text(list_text(names) + ": " + why, 2, terminal_width);
       return text;

@@ -5,6 +5,8 @@
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -22,6 +24,14 @@ namespace SlipStep
         if (line.find(word) != std::string::npos)
           return line;
       return "";
+    }
+    // One after the other.
+    void replace(
+      std::string                                              &text,
+      const std::vector<std::pair<const char *, const char *>> &replacements)
+    {
+      for (const auto &[old, replacement] : replacements)
+        boost::algorithm::replace_all(text, old, replacement);
     }
   } // namespace
 
@@ -78,20 +88,6 @@ namespace SlipStep
                     const std::string              &style)
   {
     plot(add_data(title, columns, rows) + ' ' + style);
-  }
-
-
-
-  void Figure::plot(const std::string &plotted)
-  {
-    plots += (plots.empty() ? "plot " : ", \\\n  ") + plotted;
-  }
-
-
-
-  std::ostream &Figure::script()
-  {
-    return commands;
   }
 
 
@@ -199,70 +195,23 @@ namespace SlipStep
 
 
 
-  std::filesystem::path Figure::svg_file() const
-  {
-    return folder / (name + ".svg");
-  }
-
-
-
-  std::string gnuplot_text(const std::string &text)
+  std::string gnuplot_text(std::string text)
   {
     // Inside double quotes one backslash is used up by the string, the other
-    // by the enhanced text mode.
-    std::string result = "\"";
-    for (const char c : text)
-      switch (c)
-        {
-          case '"':
-            result += "\\\"";
-            break;
-          case '\\':
-          case '_':
-          case '^':
-          case '@':
-          case '&':
-          case '~':
-          case '{':
-          case '}':
-            result += std::string(c == '\\' ? "\\\\\\" : "\\\\") + c;
-            break;
-          case '`': // would run a command
-            result += '\'';
-            break;
-          case '\n':
-            result += ' ';
-            break;
-          default:
-            result += c;
-        }
-    return result + "\"";
+    // by the enhanced text mode. A backquote would run a command.
+    replace(text,
+            {{"\\", "\\\\\\\\"}, {"\"", "\\\""}, {"`", "'"}, {"\n", " "}});
+    return '"' + std::regex_replace(text, std::regex("[_^@&~{}]"), "\\\\$&") +
+           '"';
   }
 
 
 
-  std::string html_text(const std::string &text)
+  std::string html_text(std::string text)
   {
-    std::string result;
-    for (const char c : text)
-      switch (c)
-        {
-          case '&':
-            result += "&amp;";
-            break;
-          case '<':
-            result += "&lt;";
-            break;
-          case '>':
-            result += "&gt;";
-            break;
-          case '"':
-            result += "&quot;";
-            break;
-          default:
-            result += c;
-        }
-    return result;
+    replace(text,
+            {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}});
+    return text;
   }
 
 
@@ -270,11 +219,8 @@ namespace SlipStep
   Rows thinned(const Rows &points)
   {
     Range x, y;
-    for (const auto &point : points)
-      {
-        x.add(point[0]);
-        y.add(point[1]);
-      }
+    x.add(points, 0);
+    y.add(points, 1);
     const double dx = std::max(x.width(), 1e-300);
     const double dy = std::max(y.width(), 1e-300);
 
@@ -294,6 +240,20 @@ namespace SlipStep
         last = i;
       }
     return kept;
+  }
+
+
+
+  Range
+  with_margin(const Range &range, const double share, const bool is_logarithmic)
+  {
+    if (is_logarithmic)
+      {
+        const double factor = std::pow(range.upper / range.lower, share);
+        return {range.lower / factor, range.upper * factor};
+      }
+    const double margin = share * range.width();
+    return {range.lower - margin, range.upper + margin};
   }
 
 

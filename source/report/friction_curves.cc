@@ -185,14 +185,6 @@ namespace SlipStep
 
 
 
-  const std::vector<double> &
-  ConditionFrame::abscissa(const DrawnTest &test) const
-  {
-    return is_over_time ? test.time : test.displacement;
-  }
-
-
-
   Rows ConditionFrame::rows(const DrawnTest           &test,
                             const std::vector<double> &values) const
   {

@@ -55,14 +55,6 @@ namespace SlipStep
 
 
 
-  std::string LegendLine::style(const double width) const
-  {
-    return "lc rgb '" + colour + "' lw " + exact_text(width) +
-           (kind == dashed ? " dt (6,3)" : "");
-  }
-
-
-
   SmallPicture::SmallPicture(Page              &page,
                              const std::string &name,
                              const std::string &title)
@@ -98,13 +90,6 @@ namespace SlipStep
              << range_text(y) << (is_x_logarithmic ? "set logscale x\n" : "")
              << few_tics('x', x.lower, x.upper, is_x_logarithmic)
              << "set ytics " << round_up(y.width() / 8.) << '\n';
-  }
-
-
-
-  void SmallPicture::plot_level(const double level, const std::string &style)
-  {
-    plot(exact_text(level) + " with lines " + style);
   }
 
 

@@ -28,11 +28,8 @@ namespace SlipStep
     {
       const Rows rows = points_of(x, y);
       Range      of_x, of_y;
-      for (const auto &row : rows)
-        {
-          of_x.add(row[0]);
-          of_y.add(row[1]);
-        }
+      of_x.add(rows, 0);
+      of_y.add(rows, 1);
       SmallPicture picture(page, name, labels[1] + " over " + labels[0]);
       picture.axes(labels[0], of_x, labels[1], of_y);
       picture.plot(labels[1],

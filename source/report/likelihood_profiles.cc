@@ -44,17 +44,12 @@ namespace SlipStep
         view.x.lower > 0. &&
         view.x.upper > (profile.is_logarithmic ? 3. : 10.) * view.x.lower;
       const double share = 0.06;
-      if (view.is_logarithmic)
-        {
-          const double factor = std::pow(view.x.upper / view.x.lower, share);
-          view.x              = {view.x.lower / factor, view.x.upper * factor};
-        }
+      if (view.is_logarithmic || view.x.width() > 0.)
+        view.x = with_margin(view.x, share, view.is_logarithmic);
       else
         {
-          double margin = share * view.x.width();
-          if (!(margin > 0.))
-            margin = std::max(share * std::abs(view.x.upper), 1e-9);
-          view.x = {view.x.lower - margin, view.x.upper + margin};
+          const double margin = std::max(share * std::abs(view.x.upper), 1e-9);
+          view.x              = {view.x.lower - margin, view.x.upper + margin};
         }
       return view;
     }
@@ -169,9 +164,7 @@ namespace SlipStep
                    {{profile.value, 0.}},
                    "with points pt 7 ps 0.9 lc rgb '" + value_line.colour +
                      "'");
-      picture.axes(profile.name + (profile.unit.empty() ?
-                                     "  [–]" :
-                                     "  [" + profile.unit + "]"),
+      picture.axes(axis_label(profile.name, profile.unit),
                    view.x,
                    "Increase / threshold  [–]",
                    {0., view.highest},

@@ -8,6 +8,10 @@
 #include <slipstep_page_script.h>
 #include <slipstep_page_style.h>
 
+#include <boost/algorithm/string/join.hpp>
+
+#include <nlohmann/json.hpp>
+
 #include <cstdlib>
 
 namespace SlipStep
@@ -124,29 +128,15 @@ namespace SlipStep
           parameters.origin(path).compare(0, 5, "--set") == 0)
         text += " --set \"" + path + "=" + parameters.text(path) + "\"";
     // Every value once, in the order of the variants.
-    std::vector<std::pair<std::string, std::vector<std::string>>> sweeps;
+    nlohmann::ordered_map<std::string, std::vector<std::string>> sweeps;
     for (const Variant &variant : parameters.variants())
       for (const Variant::Override &setting : variant.overrides)
-        if (setting.origin == "--sweep")
-          {
-            auto sweep = std::find_if(sweeps.begin(),
-                                      sweeps.end(),
-                                      [&](const auto &known) {
-                                        return known.first == setting.path;
-                                      });
-            if (sweep == sweeps.end())
-              sweep = sweeps.insert(sweep, {setting.path, {}});
-            auto &values = sweep->second;
-            if (!holds(values, setting.value))
-              values.push_back(setting.value);
-          }
+        if (setting.origin == "--sweep" &&
+            !holds(sweeps[setting.path], setting.value))
+          sweeps[setting.path].push_back(setting.value);
     for (const auto &[path, values] : sweeps)
-      {
-        text += " --sweep \"" + path;
-        for (std::size_t i = 0; i < values.size(); ++i)
-          text += (i == 0 ? "=" : "|") + values[i];
-        text += "\"";
-      }
+      text +=
+        " --sweep \"" + path + "=" + boost::algorithm::join(values, "|") + "\"";
     return text;
   }
 

@@ -88,7 +88,7 @@ namespace SlipStep
       const Reference &reference = figures.reference;
       return place_legend(figures.runs,
                           reference.exists() ?
-                            std::vector<std::string>{reference.name()} :
+                            std::vector<std::string>{reference.name} :
                             std::vector<std::string>(),
                           height);
     }
@@ -109,8 +109,8 @@ namespace SlipStep
     std::vector<double> marked_speeds(const std::vector<RunResults> &runs,
                                       const Reference               &reference)
     {
-      if (!reference.exists() || !reference.speeds().empty())
-        return reference.exists() ? reference.speeds() : std::vector<double>();
+      if (!reference.exists() || !reference.speeds.empty())
+        return reference.exists() ? reference.speeds : std::vector<double>();
       std::vector<double> speeds;
       for (const RunResults &run : runs)
         for (const SlideSummary &slide : run.summary.slides)
@@ -137,17 +137,16 @@ namespace SlipStep
         {
           const double      level = reference.kinetic(speed);
           const std::size_t run   = run_of_speed(runs, speed);
-          const std::string style = run < runs.size() ?
-                                      without_dash(run_style(run)) :
-                                      "lc rgb '#777777'";
-          figure.plot(reference.name() + " at " + speed_text(speed),
+          const std::string style =
+            run < runs.size() ? run_colour(run) : "lc rgb '#777777'";
+          figure.plot(reference.name + " at " + speed_text(speed),
                       {"displacement_mm", "friction"},
                       {{from, level}, {to, level}},
                       "with lines lw 4 " + style + " notitle");
         }
       if (!speeds.empty())
         figure.plot("NaN with lines lw 4 lc rgb '#777777' title " +
-                    gnuplot_text(reference.name()));
+                    gnuplot_text(reference.name));
     }
 
 
@@ -164,11 +163,8 @@ namespace SlipStep
       for (const std::size_t i : from_top_to_bottom(runs))
         {
           const Rows points = curve(runs[i]);
-          for (const auto &point : points)
-            {
-              x.add(point[0]);
-              y.add(point[1]);
-            }
+          x.add(points, 0);
+          y.add(points, 1);
           plot_run(figure, runs[i], i, {"displacement_mm", "friction"}, points);
         }
       if (!(x.width() > 0.))
@@ -195,7 +191,7 @@ namespace SlipStep
         caption = "Both along the direction of the first slide. ";
       if (reference.exists())
         caption += "Strokes at the right end: kinetic level after " +
-                   reference.name() + ", in the colour of the run.";
+                   reference.name + ", in the colour of the run.";
       figures.add(figure, "Friction against displacement", caption);
     }
 
@@ -248,8 +244,7 @@ namespace SlipStep
             figure.add_data("peak of " + legend(runs[i]),
                             {"displacement_mm", "friction"},
                             {{slide.peak_displacement, slide.peak}}) +
-            " with points pt 7 ps 0.7 " + without_dash(run_style(i)) +
-            " notitle");
+            " with points pt 7 ps 0.7 " + run_colour(i) + " notitle");
         }
       for (const std::string &peak : peaks)
         figure.plot(peak);
@@ -322,7 +317,7 @@ namespace SlipStep
                                      380);
       figure.script()
         << axes_style
-        << place_legend({}, {reference.name(), "simulated"}, 380).commands
+        << place_legend({}, {reference.name, "simulated"}, 380).commands
         << "set logscale x\nset format x '%g'\n"
            "set xlabel 'Sliding speed  [mm/min]'\n"
            "set ylabel 'Dynamic loading ratio  r  [–]'\n"
@@ -332,15 +327,15 @@ namespace SlipStep
       const std::vector<std::string> columns = {"speed_mm/min", "r"};
       if (!marks.empty())
         {
-          figure.plot(reference.name(),
+          figure.plot(reference.name,
                       columns,
                       line,
                       "with lines lw 1.2 lc rgb '#D55E00' notitle");
-          figure.plot(reference.name() + ", marks",
+          figure.plot(reference.name + ", marks",
                       columns,
                       marks,
                       "with points pt 6 ps 1.3 lw 1.8 lc rgb '#D55E00' title " +
-                        gnuplot_text(reference.name()));
+                        gnuplot_text(reference.name));
         }
       figure.plot("simulated",
                   columns,
@@ -404,7 +399,7 @@ namespace SlipStep
 
 
 
-  std::string run_style(const std::size_t i)
+  std::string run_colour(const std::size_t i)
   {
     static const std::array<const char *, 7> colours = {"#0072B2",
                                                         "#D55E00",
@@ -413,19 +408,18 @@ namespace SlipStep
                                                         "#E69F00",
                                                         "#56B4E9",
                                                         "#000000"};
-    static const std::array<const char *, 4> dashes  = {"solid",
-                                                        "(12,4)",
-                                                        "(4,3)",
-                                                        "(12,4,3,4)"};
-    return std::string("lc rgb '") + colours[i % colours.size()] + "' dt " +
-           dashes[i % dashes.size()];
+    return std::string("lc rgb '") + colours[i % colours.size()] + "'";
   }
 
 
 
-  std::string without_dash(const std::string &style)
+  std::string run_style(const std::size_t i)
   {
-    return style.substr(0, style.find(" dt "));
+    static const std::array<const char *, 4> dashes = {"solid",
+                                                       "(12,4)",
+                                                       "(4,3)",
+                                                       "(12,4,3,4)"};
+    return run_colour(i) + " dt " + dashes[i % dashes.size()];
   }
 
 

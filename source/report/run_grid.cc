@@ -88,8 +88,7 @@ namespace SlipStep
                       const Rows        &cells)
     {
       Range range;
-      for (const auto &cell : cells)
-        range.add(cell[2]);
+      range.add(cells, 2);
       // One colour and no number say nothing.
       if (cells.empty() || !(range.width() > 0.))
         return;

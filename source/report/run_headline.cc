@@ -128,7 +128,7 @@ namespace SlipStep
         return "";
       const auto ends = extremes(rows, {&ResultRow::difference, nullptr});
       return comparison(ends.first.difference, ends.second.difference) +
-             reference.name();
+             reference.name;
     }
 
     std::string one_slide(const ResultRow &row, const Reference &reference)

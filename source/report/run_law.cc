@@ -70,8 +70,7 @@ namespace SlipStep
     {
       Range range;
       for (const Rows &curve : curves)
-        for (const auto &point : curve)
-          range.add(point[column]);
+        range.add(curve, column);
       return range;
     }
 

@@ -308,11 +308,8 @@ namespace SlipStep
           curves.points.push_back(points_of(requested, run, figures.reference));
           curves.names.push_back(runs.size() > 1 ? legend(run) : "");
           longest = std::max(longest, curves.points.back().size());
-          for (const auto &point : curves.points.back())
-            {
-              curves.x.add(point[0]);
-              curves.y.add(point[1]);
-            }
+          curves.x.add(curves.points.back(), 0);
+          curves.y.add(curves.points.back(), 1);
         }
       // The speeds of a sweep make one curve of all runs.
       const bool is_joined = !requested.is_of<OfStep>() && longest <= 1;

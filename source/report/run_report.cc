@@ -202,7 +202,7 @@ namespace SlipStep
         });
       if (reference.exists() && with_kinetic)
         {
-          table.add(reference.name(), 4, &ResultRow::reference);
+          table.add(reference.name, 4, &ResultRow::reference);
           table.add("difference [%]", [](const ResultRow &row) {
             return (row.difference > 0. ? "+" : "") +
                    fixed_text(row.difference, 2);

@@ -82,6 +82,26 @@ namespace SlipStep
             runs[i].short_label = text;
         }
     }
+
+
+
+    /// By more than steps in time scatter.
+    bool exceeds(const double a, const double b)
+    {
+      return a - b > 5e-4 * std::abs(a);
+    }
+
+    /// Whether the motion before went on without a rest at another speed.
+    bool is_speed_step(const std::vector<SlideSummary> &slides,
+                       const SlideSummary              &slide)
+    {
+      if (&slide == &slides.front())
+        return false;
+      const SlideSummary &before = *(&slide - 1);
+      return slide.rest < 1e-9 &&
+             std::cos(slide.angle - before.angle) > 0.999 &&
+             std::abs(slide.speed - before.speed) > 1e-3 * before.speed;
+    }
   } // namespace
 
 
@@ -123,15 +143,15 @@ namespace SlipStep
 
 
   Reference::Reference(const Parameters &parameters)
-    : reference_name(parameters.text("Report/Reference name"))
+    : name(parameters.text("Report/Reference name"))
     , quasi_static(
         parameters.number("Report/Reference quasi-static coefficient"))
   {
     for (const std::string &text : parameters.list("Report/Reference speeds"))
       try
         {
-          speed_list.push_back(read_speed(text));
-          if (!(speed_list.back() > 0.))
+          speeds.push_back(read_speed(text));
+          if (!(speeds.back() > 0.))
             throw InputError("'" + text + "' is not above zero");
         }
       catch (const InputError &error)
@@ -160,13 +180,6 @@ namespace SlipStep
 
 
 
-  bool Reference::exists() const
-  {
-    return formula != nullptr;
-  }
-
-
-
   double Reference::kinetic(const double speed) const
   {
     const double value = exists() ? (*formula)(speed * mm_min) : undefined;
@@ -179,79 +192,6 @@ namespace SlipStep
   {
     return quasi_static > 0. && exists() ? kinetic(speed) / quasi_static : 0.;
   }
-
-
-
-  const std::vector<double> &Reference::speeds() const
-  {
-    return speed_list;
-  }
-
-
-
-  const std::string &Reference::name() const
-  {
-    return reference_name;
-  }
-
-
-
-  double ResultRow::peak() const
-  {
-    return has_peak ? slide.peak : undefined;
-  }
-
-
-
-  double ResultRow::dip() const
-  {
-    return has_dip ? slide.dip : undefined;
-  }
-
-
-
-  bool ResultRow::slides_fully() const
-  {
-    return slide.slip_fraction > 0.999;
-  }
-
-
-
-  bool ResultRow::is_on_the_way() const
-  {
-    return slide.is_complete && is_steady && !slide.swings() && !has_kinetic();
-  }
-
-
-
-  bool ResultRow::has_kinetic() const
-  {
-    return slide.is_complete && is_steady && slides_fully() &&
-           slide.is_settled();
-  }
-
-
-
-  namespace
-  {
-    /// By more than steps in time scatter.
-    bool exceeds(const double a, const double b)
-    {
-      return a - b > 5e-4 * std::abs(a);
-    }
-
-    /// Whether the motion before went on without a rest at another speed.
-    bool is_speed_step(const std::vector<SlideSummary> &slides,
-                       const SlideSummary              &slide)
-    {
-      if (&slide == &slides.front())
-        return false;
-      const SlideSummary &before = *(&slide - 1);
-      return slide.rest < 1e-9 &&
-             std::cos(slide.angle - before.angle) > 0.999 &&
-             std::abs(slide.speed - before.speed) > 1e-3 * before.speed;
-    }
-  } // namespace
 
 
 

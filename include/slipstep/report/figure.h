@@ -31,6 +31,13 @@ namespace SlipStep
         }
     }
 
+    /// Of a column of points.
+    void add(const Rows &points, const std::size_t column)
+    {
+      for (const auto &point : points)
+        add(point[column]);
+    }
+
     double width() const
     {
       return upper - lower;
@@ -86,10 +93,16 @@ namespace SlipStep
               const std::string              &style);
 
     /// The same of what is no data: "0.1 with lines ...".
-    void plot(const std::string &plotted);
+    void plot(const std::string &plotted)
+    {
+      plots += (plots.empty() ? "plot " : ", \\\n  ") + plotted;
+    }
 
     /// Commands of the gnuplot script, after the terminal has been set.
-    std::ostream &script();
+    std::ostream &script()
+    {
+      return commands;
+    }
 
     /// Write data and script and draw.
     /// @return "" or, when gnuplot is missing, fails or hangs, a warning for the user
@@ -101,7 +114,10 @@ namespace SlipStep
     /// place of its axes for the page's script; "" if it was not drawn.
     std::string inline_svg() const;
 
-    std::filesystem::path svg_file() const;
+    std::filesystem::path svg_file() const
+    {
+      return folder / (name + ".svg");
+    }
 
   protected:
     const std::string title;
@@ -120,6 +136,11 @@ namespace SlipStep
     std::ostringstream commands;
     std::string        plots;
   };
+
+  /// The range with so much of it on either side.
+  Range with_margin(const Range &range,
+                    const double share,
+                    const bool   is_logarithmic = false);
 
   /// Width of the pictures [pixel].
   constexpr unsigned int picture_width = 860;
@@ -151,10 +172,10 @@ namespace SlipStep
 
   /// Text as gnuplot string in double quotes, with the characters escaped that
   /// would change the font or end the string.
-  std::string gnuplot_text(const std::string &text);
+  std::string gnuplot_text(std::string text);
 
   /// Text with the characters escaped that mean something in HTML.
-  std::string html_text(const std::string &text);
+  std::string html_text(std::string text);
 } // namespace SlipStep
 
 #endif

@@ -37,7 +37,10 @@ namespace SlipStep
     /// Columns of pixels per curve.
     std::size_t n_columns = 0;
 
-    const std::vector<double> &abscissa(const DrawnTest &test) const;
+    const std::vector<double> &abscissa(const DrawnTest &test) const
+    {
+      return is_over_time ? test.time : test.displacement;
+    }
 
     /// Curve of a test, without what is outside of the frame, and of many rows
     /// only those that a reader could see. NaN are left out.

@@ -25,7 +25,11 @@ namespace SlipStep
     Kind        kind = line;
 
     /// As gnuplot has it, for `plot ... with lines`.
-    std::string style(const double width = 2.) const;
+    std::string style(const double width = 2.) const
+    {
+      return "lc rgb '" + colour + "' lw " + exact_text(width) +
+             (kind == dashed ? " dt (6,3)" : "");
+    }
   };
 
   /// Small pictures under one heading, which stand side by side where there is
@@ -54,7 +58,10 @@ namespace SlipStep
               const bool         is_x_logarithmic = false);
 
     /// A line all across the picture at this height.
-    void plot_level(const double level, const std::string &style);
+    void plot_level(const double level, const std::string &style)
+    {
+      plot(exact_text(level) + " with lines " + style);
+    }
 
     /// Draw; nothing is added to the gallery if gnuplot is missing, of which
     /// there is one warning per gallery.
@@ -63,6 +70,13 @@ namespace SlipStep
   private:
     Page &page;
   };
+
+  /// "speed  [mm/s]", "r  [–]"
+  inline std::string axis_label(const std::string &name,
+                                const std::string &unit)
+  {
+    return name + "  [" + (unit.empty() ? "–" : unit) + "]";
+  }
 
   /// Colours that colour-blind readers tell apart, the same in all pictures.
   namespace Colour

@@ -9,6 +9,7 @@
 #include <slipstep/utilities/formula.h>
 #include <slipstep/utilities/parameters.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,7 +43,10 @@ namespace SlipStep
     explicit Reference(const Parameters &parameters);
 
     /// Whether the case states a reference at all.
-    bool exists() const;
+    bool exists() const
+    {
+      return formula != nullptr;
+    }
 
     /// Kinetic coefficient at a speed [mm/s].
     double kinetic(const double speed) const;
@@ -51,15 +55,12 @@ namespace SlipStep
     /// coefficient is not given.
     double dynamic_ratio(const double speed) const;
 
+    const std::string name;
     /// Where marks are drawn [mm/s]; may be empty.
-    const std::vector<double> &speeds() const;
-
-    const std::string &name() const;
+    std::vector<double> speeds;
 
   private:
-    std::string                          reference_name;
-    double                               quasi_static = 0.;
-    std::vector<double>                  speed_list;
+    const double                         quasi_static;
     std::shared_ptr<const ParsedFormula> formula;
   };
 
@@ -82,17 +83,35 @@ namespace SlipStep
     /// Whether friction was lower than that, after a step of speed.
     bool has_dip = false;
 
-    double peak() const;
-    double dip() const;
+    double peak() const
+    {
+      return has_peak ? slide.peak : std::nan("");
+    }
+
+    double dip() const
+    {
+      return has_dip ? slide.dip : std::nan("");
+    }
 
     /// Whether all of the contact slips at the end.
-    bool slides_fully() const;
-
-    /// Whether it ends before steady sliding.
-    bool is_on_the_way() const;
+    bool slides_fully() const
+    {
+      return slide.slip_fraction > 0.999;
+    }
 
     /// A completed and steady slide of all of the contact, which has settled.
-    bool has_kinetic() const;
+    bool has_kinetic() const
+    {
+      return slide.is_complete && is_steady && slides_fully() &&
+             slide.is_settled();
+    }
+
+    /// Whether it ends before steady sliding.
+    bool is_on_the_way() const
+    {
+      return slide.is_complete && is_steady && !slide.swings() &&
+             !has_kinetic();
+    }
 
     /// NaN without a reference.
     double reference  = 0.;
