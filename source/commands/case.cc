@@ -85,6 +85,27 @@ namespace SlipStep
                        ", which is what the variants change: leave out one of "
                        "the two");
     }
+
+
+
+    // A run has the number that the case says, whichever test it follows.
+    void warn_of_order(const Parameters      &parameters,
+                       const Programme       &programme,
+                       std::set<std::string> &warnings)
+    {
+      const EffectInfo *const effect =
+        effect_of_order(FrictionLaw(parameters).effects());
+      if (effect == nullptr)
+        return;
+      const std::string key = effect->section() + effect->test_number;
+      for (const FollowedTest &followed : programme.followed())
+        if (followed.test.order().value_or(parameters.number(key)) !=
+            parameters.number(key))
+          warnings.insert(followed.test.file.string() +
+                          " was made as test number " +
+                          rounded_text(*followed.test.order(), 6) + ", but " +
+                          key + " is " + parameters.text(key));
+    }
   } // namespace
 
 
@@ -175,30 +196,6 @@ namespace SlipStep
           throw InputError(message);
         }
   }
-
-
-
-  namespace
-  {
-    // A run has the number that the case says, whichever test it follows.
-    void warn_of_order(const Parameters      &parameters,
-                       const Programme       &programme,
-                       std::set<std::string> &warnings)
-    {
-      const EffectInfo *const effect =
-        effect_of_order(FrictionLaw(parameters).effects());
-      if (effect == nullptr)
-        return;
-      const std::string key = effect->section() + effect->test_number;
-      for (const FollowedTest &followed : programme.followed())
-        if (followed.test.order().value_or(parameters.number(key)) !=
-            parameters.number(key))
-          warnings.insert(followed.test.file.string() +
-                          " was made as test number " +
-                          rounded_text(*followed.test.order(), 6) + ", but " +
-                          key + " is " + parameters.text(key));
-    }
-  } // namespace
 
 
 

@@ -82,22 +82,16 @@ namespace SlipStep
         throw InputError(where + "neither a folder of results nor a measured "
                                  "test (.csv)");
       Source source{path.string(), "", {}};
-      if (is_run(path))
+      for (const fs::path &folder :
+           is_run(path) ? std::vector<fs::path>{path} : folders_of_runs(path))
         {
-          const Summary summary = read_summary(path / "summary.json");
+          const Summary summary = read_summary(folder / "summary.json");
           source.case_name      = summary.case_name;
-          source.runs.push_back({summary.label, path});
+          source.runs.push_back({summary.label.empty() && folder != path ?
+                                   folder.filename().string() :
+                                   summary.label,
+                                 folder});
         }
-      else
-        for (const fs::path &folder : folders_of_runs(path))
-          {
-            const Summary summary = read_summary(folder / "summary.json");
-            source.case_name      = summary.case_name;
-            source.runs.push_back({summary.label.empty() ?
-                                     folder.filename().string() :
-                                     summary.label,
-                                   folder});
-          }
       if (source.runs.empty())
         throw InputError(where + "it holds no results of slipstep run or "
                                  "slipstep point");

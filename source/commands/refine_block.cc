@@ -53,8 +53,7 @@ namespace SlipStep
       std::vector<EarlierRun>     earlier(runs.size(), EarlierRun::none);
       if (!line.resume)
         return earlier;
-      Parameters declared;
-      declare_all_parameters(declared);
+      const Parameters declared = declared_parameters();
       for (unsigned int i = 0; i < runs.size(); ++i)
         earlier[i] = find_earlier_run(output / runs[i].folder,
                                       parameters_of(runs[i], parameters),
@@ -170,8 +169,7 @@ namespace SlipStep
     const RefinementStudy study(the_case.parameters);
     check_study(study, the_case.parameters);
     const fs::path output = chosen_output(the_case, line);
-    check_output_folder(output,
-                        line.output.empty() ? "Output/Directory" : "--output");
+    check_output(the_case, line);
     const auto earlier =
       find_earlier_runs(study, the_case.parameters, line, output);
 

@@ -260,8 +260,7 @@ namespace SlipStep
 
       void look_for_earlier_runs()
       {
-        Parameters declared;
-        declare_all_parameters(declared);
+        const Parameters declared = declared_parameters();
         for (unsigned int i = 0; i < the_case.complete.size(); ++i)
           earlier[i] = find_earlier_run(options(i).output,
                                         the_case.complete[i],

@@ -82,15 +82,6 @@ namespace SlipStep
              note(text + ".");
     }
 
-    std::string derived_section(const Calibration &calibration)
-    {
-      if (calibration.derived.empty())
-        return "";
-      return heading("Derived quantities") +
-             html_table(derived_lines(calibration, true)) +
-             note("In units of mm, s, N, MPa, rad.");
-    }
-
     /// Blue for negative, orange for positive, both pale enough for the number
     /// on them.
     std::string correlation_colour(const double correlation)
@@ -140,13 +131,13 @@ namespace SlipStep
 
     std::string tests_section(const Calibration &calibration)
     {
-      if (calibration.tests.empty())
-        return "";
-      return heading("Tests") + html_table(test_lines(calibration, true)) +
-             note("rms: of measured minus fitted friction; start rms: with the "
-                  "start values; noise: estimated from the rows unless stated; "
-                  "correlated rows: how many in a row are off together; work: "
-                  "of friction per area of contact.");
+      return table_section(
+        "Tests",
+        test_lines(calibration, true),
+        "rms: of measured minus fitted friction; start rms: with the start "
+        "values; noise: estimated from the rows unless stated; correlated "
+        "rows: how many in a row are off together; work: of friction per area "
+        "of contact.");
     }
 
     /// In how far the result depends on where the search began.
@@ -374,7 +365,6 @@ namespace SlipStep
                       "stays near zero.",
                       {residual_line},
                       {}};
-      bool    has_replicates = false;
       for (std::size_t i = 0; i < frames.size(); ++i)
         {
           SmallPicture picture(page,
@@ -382,9 +372,8 @@ namespace SlipStep
                                frames[i].title);
           draw_residuals(picture, frames[i]);
           picture.finish(gallery);
-          has_replicates = has_replicates || frames[i].tests.size() > 1;
         }
-      if (has_replicates)
+      if (any_of(frames, has_replicates))
         gallery.legend.push_back(replicate_line);
       gallery.legend.insert(gallery.legend.end(), {mean_line, noise_band_line});
       return gallery_section(gallery);
@@ -396,16 +385,12 @@ namespace SlipStep
     /// those that have an early peak; and what is left over against the noise.
     std::string draw_curves(Page &page, const Calibration &calibration)
     {
-      const std::vector<DrawnTest>      tests      = drawn_tests(calibration);
-      std::size_t                       n_left_out = 0;
+      const std::vector<DrawnTest>      tests = drawn_tests(calibration);
+      std::string                       caption;
       const std::vector<ConditionFrame> frames =
-        condition_frames(tests, n_left_out);
-      std::string html = draw_friction(page,
-                                       "curves",
-                                       "Measured and fitted",
-                                       frames_caption(frames, n_left_out),
-                                       frames,
-                                       "fitted");
+        condition_frames(tests, caption);
+      std::string html = draw_friction(
+        page, "curves", "Measured and fitted", caption, frames, "fitted");
       html += draw_friction(page,
                             "curves_start",
                             "The beginning enlarged",
@@ -461,7 +446,10 @@ namespace SlipStep
                calibration_headline(calibration),
                problem_boxes(calibration.warnings) +
                  problem_boxes(page.warnings) + weak_section(calibration) +
-                 parameter_section(calibration) + derived_section(calibration) +
+                 parameter_section(calibration) +
+                 table_section("Derived quantities",
+                               derived_lines(calibration, true),
+                               "In units of mm, s, N, MPa, rad.") +
                  curves + profiles + correlation_section(calibration) +
                  tests_section(calibration) + starts_section(calibration) +
                  cost_section(calibration) +

@@ -214,15 +214,6 @@ namespace SlipStep
 
 
 
-  std::string deviation_text(const DerivedQuantity &quantity)
-  {
-    return std::isfinite(quantity.deviation) ?
-             "± " + short_text(quantity.deviation, 2) :
-             "unknown";
-  }
-
-
-
   std::vector<TableLine> derived_lines(const Calibration &calibration,
                                        const bool         in_full)
   {
@@ -230,11 +221,11 @@ namespace SlipStep
     table.add(in_full ? "quantity" : "derived", &DerivedQuantity::name);
     if (in_full)
       table.add("formula", &DerivedQuantity::formula);
-    table.add("value", [](const DerivedQuantity &quantity) {
-      return short_text(quantity.value);
-    });
+    table.add_short("value", 4, &DerivedQuantity::value);
     table.add("standard deviation", [](const DerivedQuantity &quantity) {
-      return deviation_text(quantity);
+      return std::isfinite(quantity.deviation) ?
+               "± " + short_text(quantity.deviation, 2) :
+               "unknown";
     });
     return table.lines;
   }
@@ -245,19 +236,10 @@ namespace SlipStep
                                     const bool         in_full)
   {
     ColumnTable<TestMisfit> table(calibration.tests);
-    const auto              add = [&](const std::string &head,
-                         double TestMisfit::*value,
-                         const int           n_digits) {
-      table.add(head, [&](const TestMisfit &test) {
-        return short_text(test.*value, n_digits);
-      });
-    };
     table.add("test", &TestMisfit::name);
-    table.add("rows", [](const TestMisfit &test) {
-      return std::to_string(test.n_rows);
-    });
-    add("start rms", &TestMisfit::start_rms, 3);
-    add("rms", &TestMisfit::rms, 3);
+    table.add("rows", &TestMisfit::n_rows);
+    table.add_short("start rms", 3, &TestMisfit::start_rms);
+    table.add_short("rms", 3, &TestMisfit::rms);
     table.add("noise", [&](const TestMisfit &test) {
       return short_text(test.noise, 3) +
              (in_full && test.noise_is_stated ? " (stated)" : "");
@@ -267,9 +249,9 @@ namespace SlipStep
       return table.lines;
 
     table.add("mean offset", 5, &TestMisfit::mean);
-    add("correlated rows", &TestMisfit::correlation_length, 2);
-    add("work measured [N/mm]", &TestMisfit::measured_work, 4);
-    add("fitted [N/mm]", &TestMisfit::simulated_work, 4);
+    table.add_short("correlated rows", 2, &TestMisfit::correlation_length);
+    table.add_short("work measured [N/mm]", 4, &TestMisfit::measured_work);
+    table.add_short("fitted [N/mm]", 4, &TestMisfit::simulated_work);
     table.add("difference [%]", [](const TestMisfit &test) {
       const double difference =
         100. * (test.simulated_work / test.measured_work - 1.);

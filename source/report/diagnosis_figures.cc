@@ -163,16 +163,15 @@ namespace SlipStep
 
   std::string draw_tests(Page &page, const Diagnosis &diagnosis)
   {
-    const bool                        is_after   = has_after(diagnosis);
-    const std::vector<DrawnTest>      tests      = drawn_tests(diagnosis);
-    std::size_t                       n_left_out = 0;
-    const std::vector<ConditionFrame> frames =
-      condition_frames(tests, n_left_out);
+    const bool                        is_after = has_after(diagnosis);
+    const std::vector<DrawnTest>      tests    = drawn_tests(diagnosis);
+    std::string                       caption;
+    const std::vector<ConditionFrame> frames = condition_frames(tests, caption);
     return draw_friction(
       page,
       "test",
       is_after ? "Measured, before and after" : "Measured and simulated",
-      frames_caption(frames, n_left_out) +
+      caption +
         "With a law that lacks nothing, nearly all that was measured lies "
         "within the band of the noise. Steep flanks are cut off where the "
         "difference is elsewhere.",

@@ -77,7 +77,7 @@ namespace SlipStep
       return plain_words(effect) + " (" + effect + ")";
     }
 
-    std::string named_card(const Diagnosis &diagnosis)
+    std::string named_effects(const Diagnosis &diagnosis)
     {
       std::string html;
       for (const std::string &effect : diagnosis.effects)
@@ -124,31 +124,26 @@ namespace SlipStep
              (n_blind > 0 ? " " + blind : "");
     }
 
-    std::string what_card(const Diagnosis &diagnosis)
+    std::string what_was_missing(const Diagnosis &diagnosis)
     {
       switch (diagnosis.verdict)
         {
           case Verdict::named:
           case Verdict::ambiguous:
-            return card("What was missing", named_card(diagnosis));
+            return named_effects(diagnosis);
           case Verdict::unnamed:
-            return card("What was missing",
-                        paragraph("Something that " +
-                                    nothing_explains(diagnosis),
-                                  "big") +
-                          (diagnosis.withdrawn.empty() ?
-                             "" :
-                             paragraph("Taken back, since too much remained: " +
-                                       list_text(diagnosis.withdrawn) + ".")));
+            return paragraph("Something that " + nothing_explains(diagnosis),
+                             "big") +
+                   (diagnosis.withdrawn.empty() ?
+                      "" :
+                      paragraph("Taken back, since too much remained: " +
+                                list_text(diagnosis.withdrawn) + "."));
           case Verdict::no_gap:
-            return card("What was missing",
-                        paragraph("Nothing, as far as these tests can tell",
-                                  "big") +
-                          paragraph(power_words(diagnosis)));
+            return paragraph("Nothing, as far as these tests can tell", "big") +
+                   paragraph(power_words(diagnosis));
           case Verdict::not_testable:
-            return card("What was missing",
-                        paragraph("These tests cannot tell", "big") +
-                          paragraph(power_words(diagnosis)));
+            return paragraph("These tests cannot tell", "big") +
+                   paragraph(power_words(diagnosis));
         }
       return "";
     }
@@ -346,7 +341,8 @@ namespace SlipStep
   std::string first_screen(const Diagnosis &diagnosis)
   {
     return badge(diagnosis) + "<div class='cards'>\n" + where_card(diagnosis) +
-           what_card(diagnosis) + shrink_card(diagnosis) + "</div>\n";
+           card("What was missing", what_was_missing(diagnosis)) +
+           shrink_card(diagnosis) + "</div>\n";
   }
 
 

@@ -95,75 +95,9 @@ namespace SlipStep
           lines.push_back(element_line(check));
       return lines.size() > 1 ? html_table(lines) : "";
     }
-  } // namespace
 
 
 
-  std::string gap_bar(const std::string &label,
-                      const double       value,
-                      const double       before,
-                      const double       noise,
-                      const double       largest,
-                      const std::string &colour)
-  {
-    std::string html = "<div class='bar'><span class='label'>" +
-                       html_text(label) + "</span><span class='track'>";
-    const auto width = [&](const double end) {
-      return css("width", std::min(1., end / largest));
-    };
-    if (before > value)
-      html += "<i class='was' style='" + width(before) + "'></i>";
-    html += "<i" + std::string(value > largest ? " class='cut'" : "") +
-            " style='" + width(value) + ";background:" + colour + "'></i>";
-    if (noise > 0.)
-      html +=
-        "<i class='floor' style='" + css("left", noise / largest) + "'></i>";
-    return html + "</span><span class='number'>" + percent_text(value) +
-           "</span></div>\n";
-  }
-
-
-
-  std::string tests_section(const Diagnosis &diagnosis)
-  {
-    if (diagnosis.tests.empty())
-      return "";
-    const bool                 is_after = has_after(diagnosis);
-    ColumnTable<DiagnosedTest> table(diagnosis.tests);
-    const bool                 is_left_out = table.has(
-      [](const DiagnosedTest &test) { return test.left_out_before > 0.; });
-    const auto add = [&](const std::string &head,
-                         double DiagnosedTest::*share) {
-      table.add(head, [&](const DiagnosedTest &test) {
-        return percent_text(test.*share);
-      });
-    };
-    table.add("test", [](const DiagnosedTest &test) {
-      return test.name + (test.is_outlier ? " (outlier)" : "");
-    });
-    add(is_after ? "rms before" : "rms", &DiagnosedTest::rms_before);
-    if (is_after)
-      add("after", &DiagnosedTest::rms_after);
-    if (is_left_out)
-      add(is_after ? "left out, before" : "left out",
-          &DiagnosedTest::left_out_before);
-    if (is_left_out && is_after)
-      add("left out, after", &DiagnosedTest::left_out_after);
-    table.add("noise", [](const DiagnosedTest &test) {
-      return percent_text(test.level > 0. ? test.noise / test.level : 0.);
-    });
-    table.add("condition", &DiagnosedTest::condition);
-    return heading("Every test in numbers") +
-           html_table(table.lines, "numbers tests") +
-           note("Root mean square of measured minus simulated, in % of the "
-                "friction of the test; left out: as predicted from the tests "
-                "under all other conditions.");
-  }
-
-
-
-  namespace
-  {
     // What covariates of the history mean, for those that are told.
     std::string history_words(const Diagnosis &diagnosis)
     {
@@ -198,7 +132,142 @@ namespace SlipStep
                          list_text(where.tests)});
       return html_table(lines, "places");
     }
+
+
+
+    void draw_element_check(SmallPicture &picture, const ElementCheck &check)
+    {
+      Range y, x;
+      for (const double position : check.displacement)
+        x.add(position);
+      const auto add = [&](const std::string         &what,
+                           const std::vector<double> &curve,
+                           const std::string         &style) {
+        Rows rows;
+        for (std::size_t i = 0;
+             i < std::min(check.displacement.size(), curve.size());
+             ++i)
+          {
+            rows.push_back({check.displacement[i], curve[i]});
+            y.add(curve[i]);
+          }
+        if (!rows.empty())
+          picture.plot(what,
+                       {"displacement_mm", "friction"},
+                       rows,
+                       "with lines " + style);
+      };
+      add("measured", check.measured, measured_line.style(1.2));
+      add("contact point before", check.point_before, "lc rgb '#f0b58c' lw 4");
+      add("contact point after", check.point_after, "lc rgb '#8fc3e6' lw 4");
+      add("block before", check.block_before, before_line.style());
+      add("block after",
+          check.block_after,
+          LegendLine{"", Colour::after}.style());
+      picture.axes("Displacement  [mm]", x, "Friction  [–]", with_zero(y));
+    }
+
+    std::string draw_element_checks(Page                            &page,
+                                    const std::vector<ElementCheck> &checks)
+    {
+      Gallery gallery{"",
+                      "",
+                      {measured_line,
+                       {"block before", Colour::before, LegendLine::dashed},
+                       {"block after", Colour::after},
+                       {"contact point before", "#f0b58c"},
+                       {"contact point after", "#8fc3e6"}},
+                      {}};
+      for (std::size_t i = 0; i < checks.size(); ++i)
+        {
+          const ElementCheck &check = checks[i];
+          if (check.displacement.empty())
+            continue;
+          SmallPicture picture(page,
+                               "block_" + std::to_string(i + 1),
+                               check.test);
+          draw_element_check(picture, check);
+          picture.finish(gallery);
+        }
+      return gallery.pictures.empty() ? "" : figures_html(gallery);
+    }
+
+    std::string block_words(const Diagnosis &diagnosis)
+    {
+      const bool is_far =
+        any_of(diagnosis.element_checks, [&](const ElementCheck &check) {
+          return check.difference > diagnosis.shrink.noise_floor;
+        });
+      return is_far ? " Here they differ by more than the noise: the block "
+                      "bends, and friction at its foot tilts it, so that its "
+                      "pressure is uneven; the parameters were fitted without "
+                      "that." :
+                      "";
+    }
   } // namespace
+
+
+
+  std::string gap_bar(const std::string &label,
+                      const double       value,
+                      const double       before,
+                      const double       noise,
+                      const double       largest,
+                      const std::string &colour)
+  {
+    std::string html = "<div class='bar'><span class='label'>" +
+                       html_text(label) + "</span><span class='track'>";
+    const auto width = [&](const double end) {
+      return css("width", std::min(1., end / largest));
+    };
+    if (before > value)
+      html += "<i class='was' style='" + width(before) + "'></i>";
+    html += "<i" + std::string(value > largest ? " class='cut'" : "") +
+            " style='" + width(value) + ";background:" + colour + "'></i>";
+    if (noise > 0.)
+      html +=
+        "<i class='floor' style='" + css("left", noise / largest) + "'></i>";
+    return html + "</span><span class='number'>" + percent_text(value) +
+           "</span></div>\n";
+  }
+
+
+
+  std::string tests_section(const Diagnosis &diagnosis)
+  {
+    const bool                 is_after = has_after(diagnosis);
+    ColumnTable<DiagnosedTest> table(diagnosis.tests);
+    const bool                 is_left_out = table.has(
+      [](const DiagnosedTest &test) { return test.left_out_before > 0.; });
+    const auto add = [&](const std::string &head,
+                         double DiagnosedTest::*share) {
+      table.add(head, [&](const DiagnosedTest &test) {
+        return percent_text(test.*share);
+      });
+    };
+    table.add("test", [](const DiagnosedTest &test) {
+      return test.name + (test.is_outlier ? " (outlier)" : "");
+    });
+    add(is_after ? "rms before" : "rms", &DiagnosedTest::rms_before);
+    if (is_after)
+      add("after", &DiagnosedTest::rms_after);
+    if (is_left_out)
+      add(is_after ? "left out, before" : "left out",
+          &DiagnosedTest::left_out_before);
+    if (is_left_out && is_after)
+      add("left out, after", &DiagnosedTest::left_out_after);
+    table.add("noise", [](const DiagnosedTest &test) {
+      return percent_text(test.level > 0. ? test.noise / test.level : 0.);
+    });
+    table.add("condition", &DiagnosedTest::condition);
+    return table_section(
+      "Every test in numbers",
+      table.lines,
+      "Root mean square of measured minus simulated, in % of the friction of "
+      "the test; left out: as predicted from the tests under all other "
+      "conditions.",
+      "numbers tests");
+  }
 
 
 
@@ -316,93 +385,17 @@ namespace SlipStep
                                      interval_name(diagnosis.confidence)}};
     add_lines(lines, diagnosis.start_parameters);
     add_lines(lines, named_parameters(diagnosis));
-    if (lines.size() == 1)
-      return "";
     if (!has_after(diagnosis))
       lines[0][3] = "fitted";
-    return heading("Parameters") + html_table(lines, "numbers unbroken") +
-           note(std::string("≥, ≤, open: the tests do not limit the value on "
-                            "the other side.") +
-                (diagnosis.improved_case.empty() ?
-                   "" :
-                   " The case with these values: " + diagnosis.improved_case +
-                     "."));
+    return table_section(
+      "Parameters",
+      lines,
+      "≥, ≤, open: the tests do not limit the value on the other side." +
+        (diagnosis.improved_case.empty() ?
+           "" :
+           " The case with these values: " + diagnosis.improved_case + "."),
+      "numbers unbroken");
   }
-
-
-
-  namespace
-  {
-    void draw_element_check(SmallPicture &picture, const ElementCheck &check)
-    {
-      Range y, x;
-      for (const double position : check.displacement)
-        x.add(position);
-      const auto add = [&](const std::string         &what,
-                           const std::vector<double> &curve,
-                           const std::string         &style) {
-        Rows rows;
-        for (std::size_t i = 0;
-             i < std::min(check.displacement.size(), curve.size());
-             ++i)
-          {
-            rows.push_back({check.displacement[i], curve[i]});
-            y.add(curve[i]);
-          }
-        if (!rows.empty())
-          picture.plot(what,
-                       {"displacement_mm", "friction"},
-                       rows,
-                       "with lines " + style);
-      };
-      add("measured", check.measured, measured_line.style(1.2));
-      add("contact point before", check.point_before, "lc rgb '#f0b58c' lw 4");
-      add("contact point after", check.point_after, "lc rgb '#8fc3e6' lw 4");
-      add("block before", check.block_before, before_line.style());
-      add("block after",
-          check.block_after,
-          LegendLine{"", Colour::after}.style());
-      picture.axes("Displacement  [mm]", x, "Friction  [–]", with_zero(y));
-    }
-
-    std::string draw_element_checks(Page                            &page,
-                                    const std::vector<ElementCheck> &checks)
-    {
-      Gallery gallery{"",
-                      "",
-                      {measured_line,
-                       {"block before", Colour::before, LegendLine::dashed},
-                       {"block after", Colour::after},
-                       {"contact point before", "#f0b58c"},
-                       {"contact point after", "#8fc3e6"}},
-                      {}};
-      for (std::size_t i = 0; i < checks.size(); ++i)
-        {
-          const ElementCheck &check = checks[i];
-          if (check.displacement.empty())
-            continue;
-          SmallPicture picture(page,
-                               "block_" + std::to_string(i + 1),
-                               check.test);
-          draw_element_check(picture, check);
-          picture.finish(gallery);
-        }
-      return gallery.pictures.empty() ? "" : figures_html(gallery);
-    }
-
-    std::string block_words(const Diagnosis &diagnosis)
-    {
-      const bool is_far =
-        any_of(diagnosis.element_checks, [&](const ElementCheck &check) {
-          return check.difference > diagnosis.shrink.noise_floor;
-        });
-      return is_far ? " Here they differ by more than the noise: the block "
-                      "bends, and friction at its foot tilts it, so that its "
-                      "pressure is uneven; the parameters were fitted without "
-                      "that." :
-                      "";
-    }
-  } // namespace
 
 
 

@@ -296,6 +296,19 @@ namespace SlipStep
                "let it be fitted (Calibration/Parameters) if it is not known." :
                "take it off if it is one (Correction/Zero of an import).";
     }
+
+
+
+    /// "0.5 … 1.7 mm/s", or the length of a wave
+    std::string values_text(const Localisation &where)
+    {
+      const bool        is_wave = where.wavelength > 0.;
+      const std::string from =
+        plain_text(is_wave ? where.wavelength : where.from, 3);
+      const std::string to = is_wave ? from : plain_text(where.to, 3);
+      return (from == to ? from : from + " … " + to) +
+             (where.unit.empty() ? "" : " " + where.unit);
+    }
   } // namespace
 
 
@@ -434,22 +447,6 @@ namespace SlipStep
              (is_lost ? "that could be simulated " : "") + "explains";
     return "none of the effects asked for (" + list_text(tried) + ") explains";
   }
-
-
-
-  namespace
-  {
-    /// "0.5 … 1.7 mm/s", or the length of a wave
-    std::string values_text(const Localisation &where)
-    {
-      const bool        is_wave = where.wavelength > 0.;
-      const std::string from =
-        plain_text(is_wave ? where.wavelength : where.from, 3);
-      const std::string to = is_wave ? from : plain_text(where.to, 3);
-      return (from == to ? from : from + " … " + to) +
-             (where.unit.empty() ? "" : " " + where.unit);
-    }
-  } // namespace
 
 
 

@@ -217,7 +217,7 @@ namespace SlipStep
 
 
   std::vector<ConditionFrame>
-  condition_frames(const std::vector<DrawnTest> &tests, std::size_t &n_left_out)
+  condition_frames(const std::vector<DrawnTest> &tests, std::string &caption)
   {
     std::vector<ConditionFrame> frames;
     for (const DrawnTest &test : tests)
@@ -240,7 +240,8 @@ namespace SlipStep
           frame->is_over_time || comes_back(test.displacement);
         frame->gap = std::max(frame->gap, test.gap);
       }
-    for (n_left_out = 0; frames.size() > most_frames; ++n_left_out)
+    const std::size_t n_all = frames.size();
+    while (frames.size() > most_frames)
       frames.erase(std::min_element(frames.begin(),
                                     frames.end(),
                                     [](const auto &a, const auto &b) {
@@ -256,23 +257,13 @@ namespace SlipStep
           for (const double position : frame.abscissa(*test))
             frame.x.add(position);
       }
-    return frames;
-  }
-
-
-
-  std::string frames_caption(const std::vector<ConditionFrame> &frames,
-                             const std::size_t                  n_left_out)
-  {
-    std::string caption;
-    if (any_of(frames,
-               [](const auto &frame) { return frame.tests.size() > 1; }))
+    if (any_of(frames, has_replicates))
       caption = "Tests under the same condition share a picture. ";
-    if (n_left_out > 0)
-      caption += std::to_string(n_left_out) + " of " +
-                 std::to_string(n_left_out + frames.size()) +
+    if (n_all > frames.size())
+      caption += std::to_string(n_all - frames.size()) + " of " +
+                 std::to_string(n_all) +
                  " conditions are left out: those met best. ";
-    return caption;
+    return frames;
   }
 
 
@@ -286,7 +277,6 @@ namespace SlipStep
   {
     const LegendLine simulated_line{simulated, Colour::after};
     Gallery          gallery{title, caption, {measured_line}, {}};
-    bool             has_replicates = false, has_before = false;
     for (std::size_t i = 0; i < frames.size(); ++i)
       {
         SmallPicture picture(page,
@@ -294,12 +284,12 @@ namespace SlipStep
                              frames[i].title);
         draw_frame(picture, frames[i], simulated_line);
         picture.finish(gallery);
-        has_replicates = has_replicates || frames[i].tests.size() > 1;
-        has_before     = has_before || !frames[i].tests.front()->before.empty();
       }
-    if (has_replicates)
+    if (any_of(frames, has_replicates))
       gallery.legend.push_back(replicate_line);
-    if (has_before)
+    if (any_of(frames, [](const ConditionFrame &frame) {
+          return !frame.tests.front()->before.empty();
+        }))
       gallery.legend.push_back(before_line);
     gallery.legend.push_back(simulated_line);
     gallery.legend.push_back(noise_band_line);

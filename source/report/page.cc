@@ -187,6 +187,18 @@ namespace SlipStep
 
 
 
+  std::string table_section(const std::string            &title,
+                            const std::vector<TableLine> &lines,
+                            const std::string            &meaning,
+                            const std::string            &kind)
+  {
+    return lines.size() < 2 ?
+             "" :
+             heading(title) + html_table(lines, kind) + note(meaning);
+  }
+
+
+
   std::string figure_element(const Picture &picture)
   {
     return heading(picture.title) + "<figure" +

@@ -15,26 +15,25 @@ namespace SlipStep
 {
   namespace
   {
-    /// Displacement and friction along the axis of the first slide, so that a
-    /// reverse slide shows as the way back.
-    Rows curve(const RunResults &run)
+    /// Displacement and friction along a direction.
+    Rows curve_along(const RunResults &run, const double c, const double s)
     {
-      double c = 1., s = 0.;
-      if (!run.summary.slides.empty())
-        {
-          c = std::cos(run.summary.slides[0].angle);
-          s = std::sin(run.summary.slides[0].angle);
-          if (c < -1e-9)
-            {
-              c = -c;
-              s = -s;
-            }
-        }
       Rows points;
       for (const HistoryRow &row : run.history)
         points.push_back({c * row.displacement + s * row.displacement_y,
                           c * row.friction + s * row.friction_y});
       return points;
+    }
+
+    /// Along the axis of the first slide, so that a reverse slide shows as the
+    /// way back.
+    Rows curve(const RunResults &run)
+    {
+      if (run.summary.slides.empty())
+        return curve_along(run, 1., 0.);
+      const double angle = run.summary.slides[0].angle;
+      const double sign  = std::cos(angle) < -1e-9 ? -1. : 1.;
+      return curve_along(run, sign * std::cos(angle), sign * std::sin(angle));
     }
 
     /// Whether a slide is neither along the first one nor back.
@@ -49,22 +48,19 @@ namespace SlipStep
     /// The curve of the first slide alone, from where it starts.
     Rows first_slide(const RunResults &run)
     {
-      Rows points;
       if (run.summary.slides.empty() || run.history.empty())
-        return points;
-      const SlideSummary &slide = run.summary.slides[0];
-      const double        c     = std::cos(slide.angle);
-      const double        s     = std::sin(slide.angle);
-      const double        start =
-        c * run.history[0].displacement + s * run.history[0].displacement_y;
-      for (const HistoryRow &row : run.history)
-        {
-          const double x =
-            c * row.displacement + s * row.displacement_y - start;
-          if (!points.empty() && x < points.back()[0])
-            break;
-          points.push_back({x, c * row.friction + s * row.friction_y});
-        }
+        return {};
+      const double angle  = run.summary.slides[0].angle;
+      Rows         points = curve_along(run, std::cos(angle), std::sin(angle));
+      const double start  = points[0][0];
+      for (auto &point : points)
+        point[0] -= start;
+      points.erase(std::is_sorted_until(points.begin(),
+                                        points.end(),
+                                        [](const auto &a, const auto &b) {
+                                          return a[0] < b[0];
+                                        }),
+                   points.end());
       return points;
     }
 

@@ -409,25 +409,26 @@ namespace SlipStep
 
   std::string headline_of_pushes(const std::vector<RunResults> &runs)
   {
-    const RunResults *least = nullptr, *most = nullptr;
+    std::vector<const RunResults *> moved;
     for (const RunResults &run : runs)
       if (!run.history.empty())
-        {
-          if (least == nullptr ||
-              run.history.back().slip < least->history.back().slip)
-            least = &run;
-          if (most == nullptr ||
-              run.history.back().slip > most->history.back().slip)
-            most = &run;
-        }
+        moved.push_back(&run);
+    if (moved.empty())
+      return "No slide has been reached.";
+    const auto is_less = [](const RunResults *a, const RunResults *b) {
+      return a->history.back().slip < b->history.back().slip;
+    };
+    const RunResults &least =
+      **std::min_element(moved.begin(), moved.end(), is_less);
+    const RunResults &most =
+      **std::max_element(moved.begin(), moved.end(), is_less);
     const auto slip = [](const RunResults &run) {
       return short_text(run.history.back().slip, 3) + " mm";
     };
-    const bool is_finished =
-      most != nullptr && all_of(runs, [](const RunResults &run) {
-        return run.summary.status == "finished";
-      });
-    if (most == nullptr || (!is_finished && !(most->history.back().slip > 0.)))
+    const bool is_finished = all_of(runs, [](const RunResults &run) {
+      return run.summary.status == "finished";
+    });
+    if (!is_finished && !(most.history.back().slip > 0.))
       return "No slide has been reached.";
     const bool is_pushed =
       all_of(runs, [](const RunResults &run) { return run.summary.is_pushed; });
@@ -436,9 +437,9 @@ namespace SlipStep
                   "has slipped " :
                   "The programme has no straight slide; in the end the contact "
                   "has slipped ";
-    if (slip(*least) == slip(*most))
-      return text + slip(*most) + ".";
-    return text + slip(*least) + " (" + least->label + ") to " + slip(*most) +
-           " (" + most->label + ").";
+    if (slip(least) == slip(most))
+      return text + slip(most) + ".";
+    return text + slip(least) + " (" + least.label + ") to " + slip(most) +
+           " (" + most.label + ").";
   }
 } // namespace SlipStep

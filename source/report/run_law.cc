@@ -124,48 +124,9 @@ namespace SlipStep
       return panel.name == "friction" ||
              y.width() > 1e-6 * std::max(std::abs(y.lower), std::abs(y.upper));
     }
-  } // namespace
 
 
 
-  std::string law_at_work(const RunFigures &figures)
-  {
-    std::vector<LawPanel>          shown;
-    std::vector<std::vector<Rows>> curves;
-    std::string                    constants;
-    for (const LawPanel &panel : law_panels())
-      {
-        std::vector<Rows> of_runs;
-        for (const RunResults &run : figures.runs)
-          of_runs.push_back(over_path(run, panel));
-        if (!(range_of(of_runs, 0).width() > 0.))
-          return "";
-        if (is_used(panel, of_runs))
-          {
-            shown.push_back(panel);
-            curves.push_back(of_runs);
-          }
-        else if (panel.name.size() <= 3) // of every law
-          constants += (constants.empty() ? "" : ", ") + panel.label + " = " +
-                       short_text(range_of(of_runs, 1).upper, 5);
-      }
-    std::string svg;
-    for (std::size_t i = 0; i < shown.size(); ++i)
-      svg += draw_panel(figures, shown[i], curves[i], i + 1 == shown.size());
-    if (svg.empty())
-      return "";
-    return heading("The law at work") + "<figure class='stack'>\n" + svg +
-           "<figcaption>Means over the contact. r: load over strength, above 1 "
-           "by overstress; r_s: what it may be at rest; μ: the coefficient." +
-           (constants.empty() ? "" :
-                                " All along: " + html_text(constants) + ".") +
-           "</figcaption></figure>\n";
-  }
-
-
-
-  namespace
-  {
     /// In base units, so that the column of units holds.
     std::string value_text(const EffectParameter &parameter,
                            const std::string     &text)
@@ -212,6 +173,42 @@ namespace SlipStep
       return different.size() == 1 ? *different.begin() : all;
     }
   } // namespace
+
+
+
+  std::string law_at_work(const RunFigures &figures)
+  {
+    std::vector<LawPanel>          shown;
+    std::vector<std::vector<Rows>> curves;
+    std::string                    constants;
+    for (const LawPanel &panel : law_panels())
+      {
+        std::vector<Rows> of_runs;
+        for (const RunResults &run : figures.runs)
+          of_runs.push_back(over_path(run, panel));
+        if (!(range_of(of_runs, 0).width() > 0.))
+          return "";
+        if (is_used(panel, of_runs))
+          {
+            shown.push_back(panel);
+            curves.push_back(of_runs);
+          }
+        else if (panel.name.size() <= 3) // of every law
+          constants += (constants.empty() ? "" : ", ") + panel.label + " = " +
+                       short_text(range_of(of_runs, 1).upper, 5);
+      }
+    std::string svg;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      svg += draw_panel(figures, shown[i], curves[i], i + 1 == shown.size());
+    if (svg.empty())
+      return "";
+    return heading("The law at work") + "<figure class='stack'>\n" + svg +
+           "<figcaption>Means over the contact. r: load over strength, above 1 "
+           "by overstress; r_s: what it may be at rest; μ: the coefficient." +
+           (constants.empty() ? "" :
+                                " All along: " + html_text(constants) + ".") +
+           "</figcaption></figure>\n";
+  }
 
 
 

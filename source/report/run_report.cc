@@ -165,9 +165,7 @@ namespace SlipStep
       if (labels_matter(table.rows))
         table.add("run", &ResultRow::label);
       if (statements_matter(table.rows))
-        table.add("statement", [](const ResultRow &row) {
-          return std::to_string(row.slide.statement);
-        });
+        table.add("statement", of_slide(&SlideSummary::statement));
       table.add("speed [mm/min]", [with_angles](const ResultRow &row) {
         return (is_reverse(row.slide) && !with_angles ? "-" : "") +
                short_text(60. * row.slide.speed);
@@ -175,13 +173,9 @@ namespace SlipStep
       if (with_angles)
         table.add("angle [deg]", degrees_text);
       if (pressures_matter(table.rows))
-        table.add("pressure [MPa]", [](const ResultRow &row) {
-          return short_text(row.slide.pressure);
-        });
+        table.add_short("pressure [MPa]", 4, of_slide(&SlideSummary::pressure));
       if (rests_matter(table.rows))
-        table.add("rest before [s]", [](const ResultRow &row) {
-          return short_text(row.slide.rest, 6);
-        });
+        table.add_short("rest before [s]", 6, of_slide(&SlideSummary::rest));
     }
 
     /// What was found: no column for what no slide has.
@@ -223,9 +217,7 @@ namespace SlipStep
                                   "–";
           });
         }
-      table.add("length [mm]", [](const ResultRow &row) {
-        return short_text(row.slide.length);
-      });
+      table.add_short("length [mm]", 4, of_slide(&SlideSummary::length));
       if (with_kinetic)
         {
           table.add("r", 4, of_slide(&SlideSummary::dynamic_ratio));
@@ -286,10 +278,8 @@ namespace SlipStep
       ColumnTable<RunResults> table(runs);
       const bool              has_mesh = table.has(
         [](const RunResults &run) { return run.summary.command != "point"; });
-      const auto count = [&](const std::string &head, const auto &number) {
-        table.add(head, [&](const RunResults &run) {
-          return std::to_string(run.summary.*number);
-        });
+      const auto of_summary = [](const auto number) {
+        return [=](const RunResults &run) { return run.summary.*number; };
       };
       const auto ratio = [](const double a, const double b) {
         return b > 0. ? fixed_text(a / b, 2) : std::string("–");
@@ -297,9 +287,9 @@ namespace SlipStep
       table.add("run", run_name);
       if (has_mesh)
         {
-          count("cells", &Summary::cells);
-          count("unknowns", &Summary::dofs);
-          count("ranks", &Summary::ranks);
+          table.add("cells", of_summary(&Summary::cells));
+          table.add("unknowns", of_summary(&Summary::dofs));
+          table.add("ranks", of_summary(&Summary::ranks));
         }
       const auto is_adaptive = [](const RunResults &run) {
         return run.summary.mesh_error.tolerance > 0.;
@@ -314,8 +304,8 @@ namespace SlipStep
                      short_text(100. * run.summary.mesh_error.*error, 2) :
                      "–";
           });
-      count("steps", &Summary::steps);
-      count("rejected", &Summary::rejected_steps);
+      table.add("steps", of_summary(&Summary::steps));
+      table.add("rejected", of_summary(&Summary::rejected_steps));
       if (has_mesh)
         {
           table.add("Newton per step", [&](const RunResults &run) {
@@ -326,16 +316,9 @@ namespace SlipStep
                          run.summary.newton_iterations);
           });
         }
-      const auto cost = [&](const std::string &head,
-                            const int          decimals,
-                            double Summary::*number) {
-        table.add(head, decimals, [&](const RunResults &run) {
-          return run.summary.*number;
-        });
-      };
-      cost("wall time [s]", 1, &Summary::wall_time);
-      cost("CPU time [s]", 1, &Summary::cpu_time);
-      cost("memory [MB]", 0, &Summary::peak_memory);
+      table.add("wall time [s]", 1, of_summary(&Summary::wall_time));
+      table.add("CPU time [s]", 1, of_summary(&Summary::cpu_time));
+      table.add("memory [MB]", 0, of_summary(&Summary::peak_memory));
       return table.lines;
     }
 
@@ -378,8 +361,8 @@ namespace SlipStep
       return table.lines;
     }
 
-    /// Whether the machine lets the contact slide steadily; empty without a
-    /// spring.
+    /// Whether the machine lets the contact slide steadily; a head alone
+    /// without a spring.
     std::vector<TableLine> stability_lines(const std::vector<RunResults> &runs)
     {
       std::vector<TableLine> lines = {{"run",
@@ -401,18 +384,7 @@ namespace SlipStep
                short_text(s.critical_stiffness),
              s.critical_frequency > 0. ? short_text(s.critical_frequency) : "–",
              s.is_stable() ? "stable" : "unstable: stick-slip"});
-      return lines.size() > 1 ? lines : std::vector<TableLine>();
-    }
-
-    std::string stability(const std::vector<RunResults> &runs)
-    {
-      const std::vector<TableLine> lines = stability_lines(runs);
-      if (lines.empty())
-        return "";
-      return heading("Stability of steady sliding") + html_table(lines) +
-             "<p class='origin'>Below the critical stiffness k of the machine a "
-             "small disturbance of steady sliding grows, swinging with the "
-             "frequency given.</p>\n";
+      return lines;
     }
 
     /// The quantities of interest of all runs; "" if there are none.
@@ -459,44 +431,9 @@ namespace SlipStep
             {"in " + variant.label + ": " + change.path, change.value});
       return lines;
     }
-  } // namespace
 
 
 
-  std::string result_table(const Parameters               &parameters,
-                           const std::vector<ReportedRun> &runs)
-  {
-    const Reference          reference(parameters);
-    std::vector<std::string> problems;
-    const auto               results = load_runs(runs, problems);
-    const auto               rows    = result_rows(results, reference);
-
-    std::string text;
-    if (!rows.empty())
-      text += text_table(shortened(result_lines(rows, reference, false)));
-    const auto stability = stability_lines(results);
-    if (!stability.empty())
-      text += "\n" + text_table(stability);
-    for (const RunResults &run : results)
-      if (run.summary.status == "failed")
-        text += "  " + run_name(run) + ": failed: " + run.summary.reason + "\n";
-    for (const RunResults &run : results)
-      if (!run.summary.missing_energy().empty())
-        text += "  " + run_name(run) +
-                ": warning: " + run.summary.missing_energy() + "\n";
-    for (const RunResults &run : results)
-      if (!run.summary.mesh_error.missed().empty())
-        text += "  " + run_name(run) +
-                ": warning: " + run.summary.mesh_error.missed() + "\n";
-    for (const std::string &problem : problems)
-      text += "  " + problem + "\n";
-    return text;
-  }
-
-
-
-  namespace
-  {
     std::string problems_of(const std::vector<RunResults> &runs)
     {
       std::string html;
@@ -584,7 +521,12 @@ namespace SlipStep
       if (!rows.empty())
         html << html_table(result_lines(rows, drawn.reference, true))
              << result_note(rows);
-      html << figures(drawn.pictures) << law << stability(runs);
+      html << figures(drawn.pictures) << law
+           << table_section("Stability of steady sliding",
+                            stability_lines(runs),
+                            "Below the critical stiffness k of the machine a "
+                            "small disturbance of steady sliding grows, "
+                            "swinging with the frequency given.");
       if (!runs.empty())
         {
           html << heading("Energy") << html_table(energy_lines(runs))
@@ -608,6 +550,42 @@ namespace SlipStep
                        html.str());
     }
   } // namespace
+
+
+
+  std::string result_table(const Parameters               &parameters,
+                           const std::vector<ReportedRun> &runs)
+  {
+    const Reference          reference(parameters);
+    std::vector<std::string> problems;
+    const auto               results = load_runs(runs, problems);
+    const auto               rows    = result_rows(results, reference);
+
+    std::string text;
+    if (!rows.empty())
+      text += text_table(shortened(result_lines(rows, reference, false)));
+    const auto stability = stability_lines(results);
+    if (stability.size() > 1)
+      text += "\n" + text_table(stability);
+    std::string failures, of_energy, of_mesh;
+    for (const RunResults &run : results)
+      {
+        const auto tell = [&](std::string       &lines,
+                              const std::string &kind,
+                              const std::string &what) {
+          if (!what.empty())
+            lines += "  " + run_name(run) + kind + what + "\n";
+        };
+        if (run.summary.status == "failed")
+          tell(failures, ": failed: ", run.summary.reason);
+        tell(of_energy, ": warning: ", run.summary.missing_energy());
+        tell(of_mesh, ": warning: ", run.summary.mesh_error.missed());
+      }
+    text += failures + of_energy + of_mesh;
+    for (const std::string &problem : problems)
+      text += "  " + problem + "\n";
+    return text;
+  }
 
 
 

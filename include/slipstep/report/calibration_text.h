@@ -42,7 +42,6 @@ namespace SlipStep
 
   /// "± 0.002", or "×/÷ 1.05" on a logarithmic scale.
   std::string deviation_text(const FittedParameter &fitted);
-  std::string deviation_text(const DerivedQuantity &quantity);
 
   /// @param in_full with what the terminal has no room for
   std::vector<TableLine> derived_lines(const Calibration &calibration,

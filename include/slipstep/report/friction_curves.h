@@ -53,13 +53,14 @@ namespace SlipStep
 
   /// A frame per condition, as the tests come; of too many those that are met
   /// worst. They point into the tests.
+  /// @param caption what has to be said of them
   std::vector<ConditionFrame>
-  condition_frames(const std::vector<DrawnTest> &tests,
-                   std::size_t                  &n_left_out);
+  condition_frames(const std::vector<DrawnTest> &tests, std::string &caption);
 
-  /// What a caption says of frames; "" if nothing has to be said.
-  std::string frames_caption(const std::vector<ConditionFrame> &frames,
-                             const std::size_t                  n_left_out);
+  inline bool has_replicates(const ConditionFrame &frame)
+  {
+    return frame.tests.size() > 1;
+  }
 
   extern const LegendLine measured_line, replicate_line, before_line,
     noise_band_line;

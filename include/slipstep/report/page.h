@@ -74,6 +74,12 @@ namespace SlipStep
   std::string html_table(const std::vector<TableLine> &lines,
                          const std::string            &kind = "numbers");
 
+  /// A table with its heading and what it means; nothing if it has a head only.
+  std::string table_section(const std::string            &title,
+                            const std::vector<TableLine> &lines,
+                            const std::string            &meaning = "",
+                            const std::string            &kind    = "numbers");
+
   /// A picture with heading and caption.
   std::string figure_element(const Picture &picture);
 } // namespace SlipStep

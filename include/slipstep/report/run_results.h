@@ -119,7 +119,8 @@ namespace SlipStep
   };
 
   /// A value of the slide of a row.
-  inline auto of_slide(double SlideSummary::*value)
+  template <typename Value>
+  auto of_slide(Value SlideSummary::*value)
   {
     return [value](const ResultRow &row) { return row.slide.*value; };
   }

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace SlipStep
@@ -39,13 +40,17 @@ namespace SlipStep
       , lines(1 + rows.size())
     {}
 
-    /// @param text of a row: a function of it, or a member
+    /// @param text of a row, or a whole number: a function of it, or a member
     template <typename Text>
     void add(const std::string &head, const Text &text)
     {
       lines[0].push_back(head);
       for (std::size_t i = 0; i < rows.size(); ++i)
-        lines[i + 1].push_back(std::invoke(text, rows[i]));
+        if constexpr (std::is_integral_v<
+                        std::decay_t<std::invoke_result_t<Text, Row>>>)
+          lines[i + 1].push_back(std::to_string(std::invoke(text, rows[i])));
+        else
+          lines[i + 1].push_back(std::invoke(text, rows[i]));
     }
 
     /// @param value of a row, shown with so many decimals
@@ -54,6 +59,16 @@ namespace SlipStep
     {
       add(head, [&](const Row &row) {
         return fixed_text(std::invoke(value, row), decimals);
+      });
+    }
+
+    /// The same with so many significant digits.
+    template <typename Value>
+    void
+    add_short(const std::string &head, const int digits, const Value &value)
+    {
+      add(head, [&](const Row &row) {
+        return short_text(std::invoke(value, row), digits);
       });
     }
 
