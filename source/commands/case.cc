@@ -9,7 +9,6 @@
 #include <slipstep/experiment/refinement_study.h>
 #include <slipstep/report/run_report.h>
 #include <slipstep/commands/results_folder.h>
-#include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/step_control.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/solid/block_parameters.h>

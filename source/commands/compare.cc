@@ -134,6 +134,17 @@ namespace SlipStep
 
 
 
+    std::vector<TableLine> exchanged(const std::vector<TableLine> &table)
+    {
+      std::vector<TableLine> result(table[0].size());
+      for (const TableLine &line : table)
+        for (std::size_t i = 0; i < line.size(); ++i)
+          result[i].push_back(line[i]);
+      return result;
+    }
+
+
+
     // A column for each key in which the cases differ; lines and columns
     // exchanged where that is the narrower table.
     std::vector<TableLine>
@@ -142,15 +153,13 @@ namespace SlipStep
       const std::string                  off = "-";
       std::vector<Parameters>            used;
       std::vector<std::set<std::string>> inactive;
+      std::vector<TableLine>             keys = {{"run"}};
       for (const ReportedRun &run : runs)
         {
           used.push_back(used_parameters(run));
           inactive.push_back(FrictionLaw(used.back()).inactive_sections());
+          keys[0].push_back(run.label);
         }
-      std::vector<TableLine> table(runs.size() + 1);
-      table[0].push_back("run");
-      for (std::size_t i = 0; i < runs.size(); ++i)
-        table[i + 1].push_back(runs[i].label);
       for (const std::string &path : used[0].paths())
         {
           const std::string section = path.substr(0, path.find('/'));
@@ -172,21 +181,15 @@ namespace SlipStep
           };
           if (all_of(values, is_first))
             continue;
-          table[0].push_back(path);
-          for (std::size_t i = 0; i < runs.size(); ++i)
-            table[i + 1].push_back(values[i]);
+          values.insert(values.begin(), path);
+          keys.push_back(values);
         }
-      const std::size_t n_keys = table[0].size() - 1;
-      if (n_keys == 0)
+      if (keys.size() == 1)
         return {};
-      if (n_keys <= runs.size())
-        return table;
-      std::vector<TableLine> turned(table[0].size());
-      for (const TableLine &line : table)
-        for (std::size_t i = 0; i < line.size(); ++i)
-          turned[i].push_back(line[i]);
-      turned[0][0] = "key";
-      return turned;
+      if (keys.size() - 1 <= runs.size())
+        return exchanged(keys);
+      keys[0][0] = "key";
+      return keys;
     }
 
 

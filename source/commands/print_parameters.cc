@@ -55,7 +55,8 @@ show();
     std::string parameters_page(const Parameters               &parameters,
                                 const std::vector<std::string> &only)
     {
-      std::vector<TableLine> lines = {{"key", "default", "allowed", "meaning"}};
+      std::vector<TableLine> lines = {
+        table_head("key | default | allowed | meaning")};
       for (const std::string &path : only.empty() ? parameters.paths() : only)
         {
           const Parameters::Entry &entry = parameters.entry(path);

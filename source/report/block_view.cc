@@ -487,10 +487,9 @@ namespace SlipStep
 
 
 
-  Picture block_picture(const RunResults         &run,
-                        std::vector<std::string> &warnings)
+  std::string block_picture(const RunResults         &run,
+                            std::vector<std::string> &warnings)
   {
-    Picture picture;
     try
       {
         std::vector<Surface> moments =
@@ -498,19 +497,19 @@ namespace SlipStep
                        run.history.empty() ? 0. : run.history.back().time,
                        most_moments);
         if (moments.empty() || moments.back().quadrilaterals.empty())
-          return picture;
+          return "";
         const BlockView view(std::move(moments));
-        picture.title =
-          "The block" + (run.label.empty() ? "" : ", " + run.label);
-        picture.caption = view.caption();
-        picture.svg     = view.html();
+        return figure_element("The block" +
+                                (run.label.empty() ? "" : ", " + run.label),
+                              view.html(),
+                              view.caption());
       }
     catch (const InputError &error)
       {
         warnings.push_back(std::string("the block is not shown: ") +
                            error.what());
+        return "";
       }
-    return picture;
   }
 
 

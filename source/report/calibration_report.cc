@@ -39,13 +39,9 @@ namespace SlipStep
 
     std::vector<TableLine> parameter_lines(const Calibration &calibration)
     {
-      std::vector<TableLine> lines = {{"parameter",
-                                       "unit",
-                                       "value",
-                                       interval_name(calibration.confidence),
-                                       "standard deviation",
-                                       "start",
-                                       "bounds"}};
+      std::vector<TableLine> lines = {table_head(
+        "parameter | unit | value | " + interval_name(calibration.confidence) +
+        " | standard deviation | start | bounds")};
       for (const FittedParameter &fitted : calibration.parameters)
         {
           const FitParameter &parameter = fitted.parameter;
@@ -166,13 +162,9 @@ namespace SlipStep
       const std::vector<StartComparison> compared = compare_starts(calibration);
       if (compared.empty())
         return "";
-      std::vector<TableLine> lines = {{"search",
-                                       "misfit at the end",
-                                       "above the best",
-                                       "largest distance [% of the range]",
-                                       "of",
-                                       "iterations",
-                                       "ended because"}};
+      std::vector<TableLine> lines = {table_head(
+        "search | misfit at the end | above the best | "
+        "largest distance [% of the range] | of | iterations | ended because")};
       for (std::size_t i = 0; i < compared.size(); ++i)
         {
           const StartResult     &start        = calibration.starts[i];

@@ -63,122 +63,84 @@ namespace SlipStep
       return field;
     }
 
-    Figure face_figure(const RunFigures  &figures,
-                       const std::size_t  run,
-                       const unsigned int height)
+    /// A line per cell: its centre, half its size, and the fields.
+    Rows cells_of(const CsvTable             &face,
+                  const std::array<Field, 2> &fields,
+                  const bool                  is_line)
     {
-      return figures.figure("contact_face_" + std::to_string(run + 1),
-                            "Contact face, " + legend(figures.runs[run]),
-                            height);
-    }
-
-    /// The rows with the values of the fields behind.
-    Rows with_fields(Rows                        rows,
-                     const CsvTable             &face,
-                     const std::array<Field, 2> &fields)
-    {
-      for (const Field &field : fields)
-        for (std::size_t i = 0; i < face.size(); ++i)
-          rows[i].push_back(field.factor *
-                            (face[field.column][i] - field.offset));
+      Rows rows;
+      for (std::size_t i = 0; i < face.size(); ++i)
+        {
+          std::vector<double> row = {face["x_mm"][i]};
+          if (!is_line)
+            row.insert(row.end(),
+                       {face["y_mm"][i],
+                        0.5 * face["cell_size_x_mm"][i],
+                        0.5 * face["cell_size_y_mm"][i]});
+          for (const Field &field : fields)
+            row.push_back(field.factor *
+                          (face[field.column][i] - field.offset));
+          rows.push_back(row);
+        }
+      if (is_line)
+        std::sort(rows.begin(), rows.end());
       return rows;
     }
 
-    /// Two maps side by side, in the proportions of the face.
-    Figure face_map(const RunFigures           &figures,
-                    const std::size_t           run,
-                    const std::array<Field, 2> &fields)
+    /// Along an axis, with the whole of the outer cells.
+    Range extent_of(const Rows &cells, const unsigned int axis)
     {
-      const CsvTable &face = *figures.runs[run].contact_face;
-      Rows            rows;
-      Range           x, y;
-      for (std::size_t i = 0; i < face.size(); ++i)
-        {
-          const double px = face["x_mm"][i], py = face["y_mm"][i];
-          const double hx = 0.5 * face["cell_size_x_mm"][i];
-          const double hy = 0.5 * face["cell_size_y_mm"][i];
-          rows.push_back({px, py, hx, hy});
-          for (const double sign : {-1., 1.})
-            {
-              x.add(px + sign * hx);
-              y.add(py + sign * hy);
-            }
-        }
+      Range range;
+      for (const auto &cell : cells)
+        for (const double sign : {-1., 1.})
+          range.add(cell[axis] + sign * cell[axis + 2]);
+      return range;
+    }
 
-      const double map_width = 280.;
-      const double map_height =
-        std::max(60., std::min(400., map_width * y.width() / x.width()));
-      const double height = map_height + 130.;
-      Figure       figure =
-        face_figure(figures, run, static_cast<unsigned int>(height));
-      const std::string data =
-        figure.add_data("contact face of " + legend(figures.runs[run]),
-                        {"x_mm",
-                         "y_mm",
-                         "half_size_x_mm",
-                         "half_size_y_mm",
-                         fields[0].label,
-                         fields[1].label},
-                        with_fields(rows, face, fields));
-      figure.script()
-        << "set palette defined (0 '#440154', 1 '#414487', 2 '#2a788e', "
-           "3 '#22a884', 4 '#7ad151', 5 '#fde725')\n"
-           "set border 15 lw 1 lc rgb '#444444'\nunset key\n"
-           "set tics out nomirror scale 0.6\nset size ratio -1\n"
-           "set xlabel 'x  [mm]'\nset ylabel 'y  [mm]' offset 1.5\n"
-           "set multiplot\n"
-        << "set xrange [" << x.lower << ":" << x.upper << "]\nset yrange ["
-        << y.lower << ":" << y.upper << "]\n";
+    /// Two maps side by side, in the proportions of the face.
+    void draw_maps(std::ostream               &script,
+                   const std::string          &data,
+                   const Rows                 &cells,
+                   const std::array<Field, 2> &fields,
+                   const double                height)
+    {
+      script << "set palette defined (0 '#440154', 1 '#414487', 2 '#2a788e', "
+                "3 '#22a884', 4 '#7ad151', 5 '#fde725')\n"
+                "set border 15 lw 1 lc rgb '#444444'\nunset key\n"
+                "set tics out nomirror scale 0.6\nset size ratio -1\n"
+                "set xlabel 'x  [mm]'\nset ylabel 'y  [mm]' offset 1.5\n"
+                "set multiplot\n"
+             << "set xrange " << extent_of(cells, 0) << "\nset yrange "
+             << extent_of(cells, 1) << '\n';
       for (unsigned int k = 0; k < 2; ++k)
-        figure.script() << "set lmargin at screen " << 0.085 + 0.5 * k
-                        << "\nset rmargin at screen " << 0.41 + 0.5 * k
-                        << "\nset tmargin at screen " << 1. - 40. / height
-                        << "\nset bmargin at screen " << 75. / height
-                        << "\nset cbrange [" << fields[k].range.lower << ":"
-                        << fields[k].range.upper << "]\nset title "
-                        << gnuplot_text(fields[k].label) << "\nplot " << data
-                        << " using 1:2:3:4:" << 5 + k
-                        << " with boxxyerror lc palette fs solid 1 noborder\n";
-      return figure;
+        script << "set lmargin at screen " << 0.085 + 0.5 * k
+               << "\nset rmargin at screen " << 0.41 + 0.5 * k
+               << "\nset tmargin at screen " << 1. - 40. / height
+               << "\nset bmargin at screen " << 75. / height << "\nset cbrange "
+               << fields[k].range << "\nset title "
+               << gnuplot_text(fields[k].label) << "\nplot " << data
+               << " using 1:2:3:4:" << 5 + k
+               << " with boxxyerror lc palette fs solid 1 noborder\n";
     }
 
     /// In two dimensions the face is a line.
-    Figure face_lines(const RunFigures           &figures,
-                      const std::size_t           run,
-                      const std::array<Field, 2> &fields)
+    void draw_lines(std::ostream               &script,
+                    const std::string          &data,
+                    const std::array<Field, 2> &fields)
     {
-      const CsvTable &face = *figures.runs[run].contact_face;
-      Rows            rows;
-      for (const double x : face["x_mm"])
-        rows.push_back({x});
-      rows = with_fields(rows, face, fields);
-      std::sort(rows.begin(), rows.end());
-      Figure            figure = face_figure(figures, run, 320);
-      const std::string data =
-        figure.add_data("contact face of " + legend(figures.runs[run]),
-                        {"x_mm", fields[0].label, fields[1].label},
-                        rows);
-      figure.script() << axes_style
-                      << "unset key\nset multiplot layout 1,2\n"
-                         "set xlabel 'x  [mm]'\n";
+      script << axes_style
+             << "unset key\nset multiplot layout 1,2\nset xlabel 'x  [mm]'\n";
       for (unsigned int k = 0; k < 2; ++k)
-        figure.script() << "set ylabel " << gnuplot_text(fields[k].label)
-                        << "\nset yrange ["
-                        << fields[k].range.lower -
-                             0.05 * fields[k].range.width()
-                        << ":"
-                        << fields[k].range.upper +
-                             0.05 * fields[k].range.width()
-                        << "]\nplot " << data << " using 1:" << 2 + k
-                        << " with linespoints lw 2 pt 7 ps 0.4 lc rgb "
-                        << "'#0072B2'\n";
-      return figure;
+        script << "set ylabel " << gnuplot_text(fields[k].label)
+               << "\nset yrange " << with_margin(fields[k].range, 0.05)
+               << "\nplot " << data << " using 1:" << 2 + k
+               << " with linespoints lw 2 pt 7 ps 0.4 lc rgb '#0072B2'\n";
     }
   } // namespace
 
 
 
-  void add_face_picture(RunFigures &figures, const std::size_t run)
+  std::string draw_face(const RunFigures &figures, const std::size_t run)
   {
     const CsvTable            &face   = *figures.runs[run].contact_face;
     const std::array<Field, 2> fields = {
@@ -186,13 +148,35 @@ namespace SlipStep
       field_of(face, "slip_mm", "Slip", "mm")};
     const auto &sizes   = face["cell_size_y_mm"];
     const bool  is_line = *std::max_element(sizes.begin(), sizes.end()) <= 0.;
-    Figure      figure  = is_line ? face_lines(figures, run, fields) :
-                                    face_map(figures, run, fields);
+    const Rows  cells   = cells_of(face, fields, is_line);
+    std::vector<std::string> columns = {"x_mm"};
+    double                   height  = 320.;
+    if (!is_line)
+      {
+        columns.insert(columns.end(),
+                       {"y_mm", "half_size_x_mm", "half_size_y_mm"});
+        height = std::clamp(280. * extent_of(cells, 1).width() /
+                              extent_of(cells, 0).width(),
+                            60.,
+                            400.) +
+                 130.;
+      }
+    for (const Field &field : fields)
+      columns.push_back(field.label);
+    const std::string name = legend(figures.runs[run]);
+    Figure figure = figures.figure("contact_face_" + std::to_string(run + 1),
+                                   "Contact face, " + name,
+                                   height);
+    const std::string data =
+      figure.add_data("contact face of " + name, columns, cells);
+    if (is_line)
+      draw_lines(figure.script(), data, fields);
+    else
+      draw_maps(figure.script(), data, cells, fields, height);
     figure.script() << "unset multiplot\n";
-    figures
-      .add(figure,
-           "Contact face, " + legend(figures.runs[run]),
-           "State at the end of the run.")
-      .is_map = !is_line;
+    return figures.page.draw(figure,
+                             "Contact face, " + name,
+                             "State at the end of the run.",
+                             !is_line);
   }
 } // namespace SlipStep

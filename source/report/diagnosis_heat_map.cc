@@ -71,12 +71,11 @@ namespace SlipStep
       for (const DiagnosedTest *const test : map.tests)
         {
           map.before.push_back(line_of(*test, test->before, test->before_y));
+          for (const auto &[phase, rms] : map.before.back())
+            map.phases.insert(phase);
           if (has_after(diagnosis))
             map.after.push_back(line_of(*test, test->after, test->after_y));
         }
-      for (const Line &line : map.before)
-        for (const auto &[phase, rms] : line)
-          map.phases.insert(phase);
       for (const auto *const lines : {&map.before, &map.after})
         for (const Line &line : *lines)
           for (const auto &[phase, rms] : line)

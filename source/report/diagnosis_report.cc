@@ -260,7 +260,7 @@ namespace SlipStep
       if (diagnosis.noise.empty())
         return "";
       std::vector<TableLine> lines = {
-        {"noise", "value (95 % interval)", "from"}};
+        table_head("noise | value (95 % interval) | from")};
       for (const NoiseComponent &component : diagnosis.noise)
         lines.push_back(
           {component.name, noise_text(component), component.source});

@@ -84,12 +84,9 @@ namespace SlipStep
     /// The numbers of all blocks that were simulated.
     std::string element_table(const std::vector<ElementCheck> &checks)
     {
-      std::vector<TableLine> lines = {{"test",
-                                       "block before",
-                                       "block after",
-                                       "point before",
-                                       "point after",
-                                       "block − point, after"}};
+      std::vector<TableLine> lines = {table_head(
+        "test | block before | block after | point before | point after | "
+        "block − point, after")};
       for (const ElementCheck &check : checks)
         if (!check.displacement.empty())
           lines.push_back(element_line(check));
@@ -122,8 +119,8 @@ namespace SlipStep
 
     std::string places_table(const std::vector<Localisation> &places)
     {
-      std::vector<TableLine> lines = {
-        {"along", "measured friction is", "explains alone", "phases", "tests"}};
+      std::vector<TableLine> lines = {table_head(
+        "along | measured friction is | explains alone | phases | tests")};
       for (const Localisation &where : places)
         lines.push_back({range_text(where),
                          sign_text(where),
@@ -378,11 +375,9 @@ namespace SlipStep
 
   std::string parameters_section(const Diagnosis &diagnosis)
   {
-    std::vector<TableLine> lines = {{"parameter",
-                                     "unit",
-                                     "before",
-                                     "after",
-                                     interval_name(diagnosis.confidence)}};
+    std::vector<TableLine> lines = {
+      table_head("parameter | unit | before | after | " +
+                 interval_name(diagnosis.confidence))};
     add_lines(lines, diagnosis.start_parameters);
     add_lines(lines, named_parameters(diagnosis));
     if (!has_after(diagnosis))

@@ -83,8 +83,8 @@ namespace SlipStep
 
     std::string candidates(const Diagnosis &diagnosis)
     {
-      std::vector<TableLine> lines = {
-        {"candidate", "p", "gain", "left-out gain", "smallest seen", "status"}};
+      std::vector<TableLine> lines = {table_head(
+        "candidate | p | gain | left-out gain | smallest seen | status")};
       for (const CandidateResult &candidate : diagnosis.candidates)
         lines.push_back({candidate.name,
                          candidate.is_testable ?
@@ -109,10 +109,9 @@ namespace SlipStep
 
     std::string parameters(const Diagnosis &diagnosis)
     {
-      std::vector<TableLine> lines = {{"parameter added",
-                                       "value",
-                                       "unit",
-                                       interval_name(diagnosis.confidence)}};
+      std::vector<TableLine> lines = {
+        table_head("parameter added | value | unit | " +
+                   interval_name(diagnosis.confidence))};
       for (const DiagnosedParameter &parameter : named_parameters(diagnosis))
         lines.push_back({label_text(parameter),
                          (parameter.is_at_bound ? "* " : "") +
@@ -136,12 +135,9 @@ namespace SlipStep
       if (diagnosis.element_checks.empty())
         return "";
       std::string            remarks;
-      std::vector<TableLine> lines = {{"with finite elements",
-                                       "block before",
-                                       "after",
-                                       "point before",
-                                       "after",
-                                       "block - point"}};
+      std::vector<TableLine> lines = {table_head(
+        "with finite elements | block before | after | point before | after | "
+        "block - point")};
       for (const ElementCheck &check : diagnosis.element_checks)
         if (check.block_after.empty())
           remarks +=

@@ -97,9 +97,10 @@ namespace SlipStep
   void SmallPicture::finish(Gallery &gallery)
   {
     const std::string warning = write();
-    const Picture     picture{title, "", inline_svg()};
-    if (!picture.svg.empty())
-      gallery.pictures.push_back(picture);
+    const std::string svg     = inline_svg();
+    if (!svg.empty())
+      gallery.pictures += "<figure><figcaption>" + html_text(title) +
+                          "</figcaption>\n" + svg + "</figure>\n";
     if (!warning.empty() && !gallery.has_warned)
       page.warnings.push_back(warning);
     gallery.has_warned = gallery.has_warned || !warning.empty();
@@ -109,11 +110,8 @@ namespace SlipStep
 
   std::string figures_html(const Gallery &gallery)
   {
-    std::string html = legend_html(gallery.legend) + "<div class='gallery'>\n";
-    for (const Picture &picture : gallery.pictures)
-      html += "<figure><figcaption>" + html_text(picture.title) +
-              "</figcaption>\n" + picture.svg + "</figure>\n";
-    return html + "</div>\n";
+    return legend_html(gallery.legend) + "<div class='gallery'>\n" +
+           gallery.pictures + "</div>\n";
   }
 
 

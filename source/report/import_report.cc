@@ -93,7 +93,7 @@ namespace SlipStep
     std::string columns_section(const ImportProposal &proposal)
     {
       std::vector<TableLine> lines = {
-        {"column", "name", "unit", "from", "to", "taken as"}};
+        table_head("column | name | unit | from | to | taken as")};
       for (const SeenColumn &column : proposal.columns)
         lines.push_back(
           {std::to_string(column.number),
@@ -108,7 +108,7 @@ namespace SlipStep
     std::string guesses_section(const ImportProposal        &proposal,
                                 const std::filesystem::path &map)
     {
-      std::vector<TableLine> lines = {{"key", "value", "why"}};
+      std::vector<TableLine> lines = {table_head("key | value | why")};
       for (const ImportGuess &guess : proposal.guesses)
         lines.push_back({guess.path,
                          guess.is_open ? "open: " + guess.value : guess.value,

@@ -37,14 +37,22 @@ namespace SlipStep
 
 
 
-  Picture Page::draw(Figure            &figure,
-                     const std::string &title,
-                     const std::string &caption)
+  std::string Page::svg_of(Figure &figure)
   {
     const std::string warning = figure.write();
     if (!warning.empty())
       warnings.push_back(warning);
-    return {title, caption, figure.inline_svg()};
+    return figure.inline_svg();
+  }
+
+
+
+  std::string Page::draw(Figure            &figure,
+                         const std::string &title,
+                         const std::string &caption,
+                         const bool         is_map)
+  {
+    return figure_element(title, svg_of(figure), caption, is_map);
   }
 
 
@@ -199,11 +207,15 @@ namespace SlipStep
 
 
 
-  std::string figure_element(const Picture &picture)
+  std::string figure_element(const std::string &title,
+                             const std::string &svg,
+                             const std::string &caption,
+                             const bool         is_map)
   {
-    return heading(picture.title) + "<figure" +
-           (picture.is_map ? " class='map'" : "") + ">\n" + picture.svg +
-           "<figcaption>" + html_text(picture.caption) +
-           "</figcaption></figure>\n";
+    return svg.empty() ?
+             "" :
+             heading(title) + "<figure" + (is_map ? " class='map'" : "") +
+               ">\n" + svg + "<figcaption>" + html_text(caption) +
+               "</figcaption></figure>\n";
   }
 } // namespace SlipStep

@@ -458,12 +458,12 @@ namespace SlipStep
 
 
 
-  Picture &RunFigures::add(Figure            &figure,
-                           const std::string &title,
-                           const std::string &caption)
+  void RunFigures::add(Figure            &figure,
+                       const std::string &title,
+                       const std::string &caption,
+                       const bool         is_map)
   {
-    pictures.push_back(page.draw(figure, title, caption));
-    return pictures.back();
+    shown += page.draw(figure, title, caption, is_map);
   }
 
 
@@ -482,9 +482,7 @@ namespace SlipStep
     add_speed_picture(figures);
 
     // One of several blocks that look alike.
-    const Picture block = block_picture(runs.back(), figures.page.warnings);
-    if (!block.svg.empty())
-      figures.pictures.push_back(block);
+    figures.shown += block_picture(runs.back(), figures.page.warnings);
 
     // A cell costs some 300 bytes: the page shall stay quick to open.
     const std::size_t most_cells = 10000;
@@ -495,8 +493,7 @@ namespace SlipStep
           runs[i].contact_face ? runs[i].contact_face->size() : 0;
         if (size == 0 || (n_cells > 0 && n_cells + size > most_cells))
           continue;
-        add_face_picture(figures, i);
-        figures.pictures.back().is_secondary = n_cells > 0;
+        (n_cells > 0 ? figures.folded : figures.shown) += draw_face(figures, i);
         n_cells += size;
       }
   }

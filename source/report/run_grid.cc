@@ -117,7 +117,7 @@ namespace SlipStep
                           << "textcolor rgb '"
                           << (is_bright ? "#000000" : "#ffffff") << "'";
       figure.script() << '\n';
-      figures.add(figure, title).is_map = true;
+      figures.add(figure, title, "", true);
     }
   } // namespace
 

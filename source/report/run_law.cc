@@ -106,16 +106,15 @@ namespace SlipStep
         << axes_style << "set lmargin at screen 0.11\n"
         << (is_named ? legend_place.commands : "set rmargin at screen 0.98\n")
         << "set tmargin at screen 0.91\nset bmargin at screen "
-        << (is_last ? 0.3 : 0.09) << "\nset xrange [" << x.lower << ":"
-        << x.upper << "]\nset yrange [" << y.lower - margin << ":"
-        << y.upper + margin << "]\nset ytics "
+        << (is_last ? 0.3 : 0.09) << "\nset xrange " << x << "\nset yrange "
+        << Range{y.lower - margin, y.upper + margin} << "\nset ytics "
         << round_up(width / 3.)
         // These stand below each other, however wide the numbers are.
         << "\nset label 1 " << gnuplot_text(panel.label)
         << " at screen 0.02, graph 0.5 center rotate by 90\n"
         << (is_last ? "set xlabel 'Path of the drive  [mm]' offset 0,0.5\n" :
                       "set format x ''\n");
-      return figures.page.draw(figure, panel.label).svg;
+      return figures.page.svg_of(figure);
     }
 
     bool is_used(const LawPanel &panel, const std::vector<Rows> &curves)
@@ -219,7 +218,7 @@ namespace SlipStep
     for (const RunResults &run : runs)
       laws.push_back(figures.parameters_of(run));
     std::vector<TableLine> lines = {
-      {"effect", "formula", "parameter", "symbol", "value", "unit"}};
+      table_head("effect | formula | parameter | symbol | value | unit")};
     for (const auto &[name, effect] : effect_registry())
       {
         const bool is_active = any_of(runs, [&](const RunResults &run) {

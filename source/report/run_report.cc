@@ -71,8 +71,7 @@ namespace SlipStep
 
   void check_report_parameters(const Parameters &parameters)
   {
-    const Reference reference(parameters);
-    (void)reference;
+    Reference{parameters};
     check_pictures(parameters);
     for (const std::string &name : parameters.list("Report/Measured"))
       read_measured_test(parameters.resolve(name));
@@ -365,13 +364,9 @@ namespace SlipStep
     /// without a spring.
     std::vector<TableLine> stability_lines(const std::vector<RunResults> &runs)
     {
-      std::vector<TableLine> lines = {{"run",
-                                       "speed [mm/min]",
-                                       "pressure [MPa]",
-                                       "k [MPa/mm]",
-                                       "critical k [MPa/mm]",
-                                       "at [Hz]",
-                                       "steady sliding"}};
+      std::vector<TableLine> lines = {
+        table_head("run | speed [mm/min] | pressure [MPa] | k [MPa/mm] | "
+                   "critical k [MPa/mm] | at [Hz] | steady sliding")};
       for (const RunResults &run : runs)
         for (const StabilitySummary &s : run.summary.stability)
           lines.push_back(
@@ -449,20 +444,6 @@ namespace SlipStep
       return html;
     }
 
-    /// All pictures; those of further runs are folded away.
-    std::string figures(const std::vector<Picture> &pictures)
-    {
-      std::string shown, folded;
-      for (const Picture &picture : pictures)
-        if (!picture.svg.empty())
-          (picture.is_secondary ? folded : shown) += figure_element(picture);
-      if (!folded.empty())
-        shown += "<details><summary>The contact face of the other runs"
-                 "</summary>\n" +
-                 folded + "</details>\n";
-      return shown;
-    }
-
     /// How to get these results again.
     std::string repetition(const Parameters              &parameters,
                            const std::vector<RunResults> &runs,
@@ -521,7 +502,12 @@ namespace SlipStep
       if (!rows.empty())
         html << html_table(result_lines(rows, drawn.reference, true))
              << result_note(rows);
-      html << figures(drawn.pictures) << law
+      html << drawn.shown;
+      if (!drawn.folded.empty())
+        html << "<details><summary>The contact face of the other runs"
+                "</summary>\n"
+             << drawn.folded << "</details>\n";
+      html << law
            << table_section("Stability of steady sliding",
                             stability_lines(runs),
                             "Below the critical stiffness k of the machine a "

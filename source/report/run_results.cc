@@ -8,7 +8,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <set>

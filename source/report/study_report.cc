@@ -41,12 +41,9 @@ namespace SlipStep
     /// the finest run, order, cheapest run for 1 %.
     std::vector<TableLine> study_summary(const std::vector<StudyCurve> &curves)
     {
-      std::vector<TableLine> lines = {{"quantity",
-                                       "runs",
-                                       "reference",
-                                       "error of the finest",
-                                       "order",
-                                       "cheapest for 1 %"}};
+      std::vector<TableLine> lines = {table_head(
+        "quantity | runs | reference | error of the finest | order | "
+        "cheapest for 1 %")};
       for (const StudyCurve &curve : curves)
         {
           const StudyPoint *finest   = curve.finest();
@@ -213,8 +210,7 @@ namespace SlipStep
         "), which is itself uncertain by " +
         short_text(first.relative_uncertainty(), 2) +
         " of it. Runs whose difference is not above that are not shown.";
-      const Picture picture = page.draw(figure, title, caption);
-      return picture.svg.empty() ? "" : figure_element(picture);
+      return page.draw(figure, title, caption);
     }
 
 
@@ -248,8 +244,8 @@ namespace SlipStep
     out << '\n' << text_table(study_summary(curves));
     for (const StudyCurve &curve : curves)
       {
-        std::vector<TableLine> lines = {
-          {"run", "unknowns", "steps", "CPU [s]", "value", "error", "order"}};
+        std::vector<TableLine> lines = {table_head(
+          "run | unknowns | steps | CPU [s] | value | error | order")};
         for (const StudyPoint &point : curve.points)
           lines.push_back(run_line(point));
         for (const std::string &problem : curve.problems())
@@ -345,14 +341,9 @@ namespace SlipStep
       "unknowns times steps whose error, and that of all "
       "finer ones, is at most 1 % with that uncertainty.</p>\n" +
       draw_study(page, curves);
-    std::vector<TableLine> lines = {{"quantity",
-                                     "run",
-                                     "unknowns",
-                                     "steps",
-                                     "CPU time [s]",
-                                     "value",
-                                     "relative error",
-                                     "order"}};
+    std::vector<TableLine> lines = {
+      table_head("quantity | run | unknowns | steps | CPU time [s] | value | "
+                 "relative error | order")};
     for (const StudyCurve &curve : curves)
       for (const StudyPoint &point : curve.points)
         {

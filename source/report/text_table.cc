@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/text_table.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -48,6 +50,13 @@ namespace SlipStep
       if (begins_character(text[end]) && ++n == widest)
         break;
     return text.substr(0, end) + "…";
+  }
+
+
+
+  TableLine table_head(const std::string &names)
+  {
+    return dealii::Utilities::split_string_list(names, '|');
   }
 
 

@@ -49,18 +49,6 @@ namespace SlipStep
     }
   };
 
-  /// A picture of the report.
-  struct Picture
-  {
-    std::string title;
-    std::string caption;
-    std::string svg; ///< "" if gnuplot did not draw it
-    /// Maps of cells are drawn without smoothing, else seams show.
-    bool is_map = false;
-    /// Repeats for another run what has been shown.
-    bool is_secondary = false;
-  };
-
   /// A picture made by gnuplot: collects data and commands, then writes
   /// `<name>.dat`, `<name>.gp` and `<name>.svg`, so that a user can change the
   /// script and draw again with `gnuplot <name>.gp`.
@@ -136,6 +124,12 @@ namespace SlipStep
     std::ostringstream commands;
     std::string        plots;
   };
+
+  /// As gnuplot has it: "[0:1]"
+  inline std::ostream &operator<<(std::ostream &out, const Range &range)
+  {
+    return out << '[' << range.lower << ':' << range.upper << ']';
+  }
 
   /// The range with so much of it on either side.
   Range with_margin(const Range &range,

@@ -39,7 +39,7 @@ namespace SlipStep
     std::string             title;
     std::string             caption;
     std::vector<LegendLine> legend;
-    std::vector<Picture>    pictures;           ///< those that were drawn
+    std::string             pictures; ///< those that were drawn, as HTML
     bool                    has_warned = false; ///< of one that was not
   };
 

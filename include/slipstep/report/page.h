@@ -18,11 +18,14 @@ namespace SlipStep
     /// Creates the folders.
     explicit Page(const std::filesystem::path &folder);
 
-    /// Draw a picture; one that could not be drawn has no SVG and gives a
-    /// warning.
-    Picture draw(Figure            &figure,
-                 const std::string &title,
-                 const std::string &caption = "");
+    /// Draw a picture: its SVG, or "" and a warning.
+    std::string svg_of(Figure &figure);
+
+    /// The same with heading and caption, see figure_element().
+    std::string draw(Figure            &figure,
+                     const std::string &title,
+                     const std::string &caption,
+                     const bool         is_map = false);
 
     /// html_page() into the file.
     /// @throws RunError if the disk refuses
@@ -80,8 +83,12 @@ namespace SlipStep
                             const std::string            &meaning = "",
                             const std::string            &kind    = "numbers");
 
-  /// A picture with heading and caption.
-  std::string figure_element(const Picture &picture);
+  /// A picture with heading and caption; nothing if it was not drawn.
+  /// @param is_map of cells: drawn without smoothing, else seams show
+  std::string figure_element(const std::string &title,
+                             const std::string &svg,
+                             const std::string &caption,
+                             const bool         is_map = false);
 } // namespace SlipStep
 
 #endif

@@ -14,7 +14,8 @@ namespace SlipStep
     const Parameters              &parameters;
     const std::vector<RunResults> &runs;
     const Reference               &reference;
-    std::vector<Picture>           pictures = {};
+    /// As HTML; folded away is what repeats for another run what is shown.
+    std::string shown = {}, folded = {};
 
     /// The parameters that a run had.
     Parameters parameters_of(const RunResults &run) const;
@@ -24,10 +25,11 @@ namespace SlipStep
                   const std::string &title,
                   const unsigned int height) const;
 
-    /// Draw one more, see Page::draw().
-    Picture &add(Figure            &figure,
-                 const std::string &title,
-                 const std::string &caption = "");
+    /// Draw one more to be shown, see Page::draw().
+    void add(Figure            &figure,
+             const std::string &title,
+             const std::string &caption,
+             const bool         is_map = false);
   };
 
   /// What legends call a run.
@@ -90,8 +92,8 @@ namespace SlipStep
   void add_measured_pictures(RunFigures &figures);
 
   /// Draw pressure and slip on the contact face at the end of a run, which has
-  /// one: maps, or lines in two dimensions.
-  void add_face_picture(RunFigures &figures, const std::size_t run);
+  /// one, as HTML: maps, or lines in two dimensions.
+  std::string draw_face(const RunFigures &figures, const std::size_t run);
 
   /// The law at work, as HTML: friction, the variables of the law and what its
   /// effects remember, one below the other over the path of the drive. What

@@ -23,6 +23,9 @@ namespace SlipStep
   /// Characters in a line of what the terminal shows.
   constexpr std::size_t terminal_width = 100;
 
+  /// The first line of a table: "test | rows | rms"
+  TableLine table_head(const std::string &names);
+
   /// A table for the terminal, the first line being its head. The first column
   /// holds names; the others are aligned to the right.
   /// @param widest number of characters in a line beyond which names are cut
