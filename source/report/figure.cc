@@ -7,8 +7,11 @@
 
 #include <boost/algorithm/string/replace.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <regex>
+#include <set>
 
 namespace SlipStep
 {
@@ -214,8 +217,50 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    /// Leaves out lines that lie on lines before them, as those of many cycles
+    /// do, with a gap in their place.
+    Rows drawn_once(const Rows &points, const std::array<Range, 2> &ranges)
+    {
+      constexpr double pixels = 1000.;
+
+      using Place      = std::array<long, 2>;
+      const auto place = [&](const std::vector<double> &point) {
+        Place result;
+        for (const std::size_t i : {0, 1})
+          result[i] = std::lround(pixels * (point[i] - ranges[i].lower) /
+                                  std::max(ranges[i].width(), 1e-300));
+        return result;
+      };
+      std::set<std::pair<Place, Place>> lines;
+      Rows                              kept;
+      bool                              is_broken = true;
+      for (std::size_t i = 1; i < points.size(); ++i)
+        {
+          const Place from = place(points[i - 1]), to = place(points[i]);
+          if (!lines.insert(std::minmax(from, to)).second)
+            {
+              is_broken = true;
+              continue;
+            }
+          if (is_broken && !kept.empty())
+            kept.emplace_back(points[i].size(), std::nan(""));
+          if (is_broken)
+            kept.push_back(points[i - 1]);
+          kept.push_back(points[i]);
+          is_broken = false;
+        }
+      return kept;
+    }
+  } // namespace
+
+
+
   Rows thinned(const Rows &points)
   {
+    constexpr std::size_t many = 5000;
+
     Range x, y;
     x.add(points, 0);
     y.add(points, 1);
@@ -237,7 +282,7 @@ namespace SlipStep
         kept.push_back(points[i]);
         last = i;
       }
-    return kept;
+    return kept.size() > many ? drawn_once(kept, {x, y}) : kept;
   }
 
 

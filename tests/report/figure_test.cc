@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -112,4 +114,30 @@ TEST(Figure, AFolderThatDoesNotExistIsAnError)
 TEST(Figure, HtmlTextIsEscaped)
 {
   EXPECT_EQ(html_text("<E> & \"h\""), "&lt;E&gt; &amp; &quot;h&quot;");
+}
+
+
+
+// Cycles without end are drawn as two or three of them; what is elsewhere is
+// drawn.
+TEST(Figure, LinesOnLinesAreDrawnOnce)
+{
+  const auto circle = [](const double radius, const double turn) {
+    return std::vector<double>{radius * std::cos(turn),
+                               radius * std::sin(turn)};
+  };
+  Rows points;
+  for (unsigned int i = 0; i <= 100000; ++i)
+    points.push_back(circle(1., 0.063 * i));
+  points.push_back(circle(0.5, 1.));
+  const Rows drawn = thinned(points);
+  EXPECT_LT(drawn.size(), 30000u);
+  EXPECT_EQ(drawn.back(), points.back());
+  EXPECT_TRUE(std::any_of(drawn.begin(), drawn.end(), [](const auto &point) {
+    return std::isnan(point[0]) && std::isnan(point[1]);
+  }));
+
+  // Few points stay as they are.
+  points.resize(300);
+  EXPECT_EQ(thinned(points), points);
 }
