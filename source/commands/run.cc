@@ -5,7 +5,6 @@
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/report/run_report.h>
-#include <slipstep/commands/job_array.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/commands/sweep.h>

@@ -5,6 +5,8 @@
 
 #include <slipstep_block_view_script.h>
 
+#include <deal.II/base/tensor.h>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -205,7 +207,7 @@ namespace SlipStep
 
 
 
-    using Point = std::array<double, 3>;
+    using Point = dealii::Tensor<1, 3>;
 
     // To the right, upwards and towards the eye, of a block turned about z and
     // then tilted.
@@ -215,9 +217,9 @@ namespace SlipStep
 
       const double a = std::cos(turn) * p[0] + std::sin(turn) * p[1];
       const double b = -std::sin(turn) * p[0] + std::cos(turn) * p[1];
-      return {{a,
-               std::cos(tilt) * p[2] + std::sin(tilt) * b,
-               std::sin(tilt) * p[2] - std::cos(tilt) * b}};
+      return Point({a,
+                    std::cos(tilt) * p[2] + std::sin(tilt) * b,
+                    std::sin(tilt) * p[2] - std::cos(tilt) * b});
     }
 
 
@@ -455,25 +457,19 @@ namespace SlipStep
       {
         if (is_flat)
           return true;
-        const auto &all = moments.back().corners;
-        Point       outwards, one, other; // from the middle; the diagonals
+        Point middle; // from that of the block
         for (unsigned int d = 0; d < 3; ++d)
+          middle[d] = -box[d].middle();
+        std::array<Point, 4> places;
+        for (unsigned int k = 0; k < 4; ++k)
           {
-            outwards[d] = -box[d].middle();
-            for (const std::size_t corner : corners)
-              outwards[d] += all[corner][d] / 4.;
-            one[d]   = all[corners[2]][d] - all[corners[0]][d];
-            other[d] = all[corners[3]][d] - all[corners[1]][d];
+            for (unsigned int d = 0; d < 3; ++d)
+              places[k][d] = moments.back().corners[corners[k]][d];
+            middle += places[k] / 4.;
           }
-        Point  normal;
-        double product = 0.;
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            const unsigned int e = (d + 1) % 3, f = (d + 2) % 3;
-            normal[d] = one[e] * other[f] - one[f] * other[e];
-            product += normal[d] * outwards[d];
-          }
-        return product * turned(normal)[2] > 0.;
+        const Point normal = dealii::cross_product_3d(places[2] - places[0],
+                                                      places[3] - places[1]);
+        return normal * middle * turned(normal)[2] > 0.;
       }
 
       std::vector<Surface>      moments;

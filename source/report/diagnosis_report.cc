@@ -338,15 +338,6 @@ namespace SlipStep
 
 
 
-  std::string first_screen(const Diagnosis &diagnosis)
-  {
-    return badge(diagnosis) + "<div class='cards'>\n" + where_card(diagnosis) +
-           card("What was missing", what_was_missing(diagnosis)) +
-           shrink_card(diagnosis) + "</div>\n";
-  }
-
-
-
   std::vector<std::string>
   write_diagnosis_report(const std::filesystem::path &folder,
                          const Parameters            &parameters,
@@ -366,9 +357,13 @@ namespace SlipStep
              << correction_section(diagnosis) << honesty_section(diagnosis);
     page.write(title_of(parameters) + ": diagnosis",
                kept_together(headline(diagnosis)),
-               kept_together("<style>\n" + std::string(diagnosis_style) +
-                             "</style>\n" + first_screen(diagnosis) +
-                             problem_boxes(page.warnings) + sections.str()) +
+               kept_together(
+                 "<style>\n" + std::string(diagnosis_style) + "</style>\n" +
+                 badge(diagnosis) + "<div class='cards'>\n" +
+                 where_card(diagnosis) +
+                 card("What was missing", what_was_missing(diagnosis)) +
+                 shrink_card(diagnosis) + "</div>\n" +
+                 problem_boxes(page.warnings) + sections.str()) +
                  repeat_section("diagnose", parameters));
     return page.warnings;
   }

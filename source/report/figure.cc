@@ -174,16 +174,13 @@ namespace SlipStep
     svg = svg.substr(begin);
 
     // Pictures share one page: the same id twice would mix them up.
-    svg = std::regex_replace(svg,
-                             std::regex("\\bid=(['\"])"),
-                             "id=$1" + name + "-");
-    svg = std::regex_replace(svg,
-                             std::regex("href=(['\"])#"),
-                             "href=$1#" + name + "-");
-    svg = std::regex_replace(svg, std::regex("url\\(#"), "url(#" + name + "-");
-    svg = std::regex_replace(svg,
-                             std::regex("<title>Gnuplot</title>"),
-                             "<title>" + html_text(title) + "</title>");
+    for (const auto &[old, unique] :
+         {std::make_pair("\\bid=(['\"])", "id=$1" + name + "-"),
+          std::make_pair("href=(['\"])#", "href=$1#" + name + "-"),
+          std::make_pair("url\\(#", "url(#" + name + "-"),
+          std::make_pair("<title>Gnuplot</title>",
+                         "<title>" + html_text(title) + "</title>")})
+      svg = std::regex_replace(svg, std::regex(old), unique);
     std::smatch       logarithmic;
     const std::string script = commands.str();
     std::regex_search(script, logarithmic, std::regex("set logscale ([xy]+)"));

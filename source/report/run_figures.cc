@@ -15,6 +15,18 @@ namespace SlipStep
 {
   namespace
   {
+    std::string run_colour(const std::size_t i)
+    {
+      static const std::array<const char *, 7> colours = {"#0072B2",
+                                                          "#D55E00",
+                                                          "#009E73",
+                                                          "#CC79A7",
+                                                          "#E69F00",
+                                                          "#56B4E9",
+                                                          "#000000"};
+      return std::string("lc rgb '") + colours[i % colours.size()] + "'";
+    }
+
     /// Displacement and friction along a direction.
     Rows curve_along(const RunResults &run, const double c, const double s)
     {
@@ -102,13 +114,13 @@ namespace SlipStep
 
     /// Speeds at which the reference is marked: the stated ones, or else those
     /// of the runs.
-    std::vector<double> marked_speeds(const std::vector<RunResults> &runs,
-                                      const Reference               &reference)
+    std::vector<double> marked_speeds(const RunFigures &figures)
     {
+      const Reference &reference = figures.reference;
       if (!reference.exists() || !reference.speeds.empty())
         return reference.exists() ? reference.speeds : std::vector<double>();
       std::vector<double> speeds;
-      for (const RunResults &run : runs)
+      for (const RunResults &run : figures.runs)
         for (const SlideSummary &slide : run.summary.slides)
           speeds.push_back(slide.speed);
       std::sort(speeds.begin(), speeds.end());
@@ -122,13 +134,14 @@ namespace SlipStep
     }
 
     /// Short strokes right of the curves where the reference expects them.
-    void plot_reference(Figure                        &figure,
-                        const std::vector<RunResults> &runs,
-                        const Reference               &reference,
-                        const double                   from,
-                        const double                   to)
+    void plot_reference(Figure           &figure,
+                        const RunFigures &figures,
+                        const double      from,
+                        const double      to)
     {
-      const std::vector<double> speeds = marked_speeds(runs, reference);
+      const auto               &runs      = figures.runs;
+      const Reference          &reference = figures.reference;
+      const std::vector<double> speeds    = marked_speeds(figures);
       for (const double speed : speeds)
         {
           const double      level = reference.kinetic(speed);
@@ -166,8 +179,7 @@ namespace SlipStep
       if (!(x.width() > 0.))
         x = {0., 1.};
       plot_reference(figure,
-                     runs,
-                     reference,
+                     figures,
                      x.upper + 0.015 * x.width(),
                      x.upper + 0.06 * x.width());
       figure.script() << axes_style << legend_place.commands
@@ -290,7 +302,6 @@ namespace SlipStep
 
     void add_speed_picture(RunFigures &figures)
     {
-      const auto &runs      = figures.runs;
       const auto &reference = figures.reference;
       Range       speeds;
       const Rows  simulated = steady_ratios(figures, speeds);
@@ -300,7 +311,7 @@ namespace SlipStep
       Rows marks, line;
       if (reference.dynamic_ratio(speeds.lower / mm_min) > 0.)
         {
-          for (const double speed : marked_speeds(runs, reference))
+          for (const double speed : marked_speeds(figures))
             {
               marks.push_back({speed * mm_min, reference.dynamic_ratio(speed)});
               speeds.add(speed * mm_min);
@@ -391,20 +402,6 @@ namespace SlipStep
     place.commands = "set key outside below left Left reverse maxcols " +
                      std::to_string(n_columns) + "\n";
     return place;
-  }
-
-
-
-  std::string run_colour(const std::size_t i)
-  {
-    static const std::array<const char *, 7> colours = {"#0072B2",
-                                                        "#D55E00",
-                                                        "#009E73",
-                                                        "#CC79A7",
-                                                        "#E69F00",
-                                                        "#56B4E9",
-                                                        "#000000"};
-    return std::string("lc rgb '") + colours[i % colours.size()] + "'";
   }
 
 

@@ -2,8 +2,7 @@
 #ifndef slipstep_commands_sweep_h
 #define slipstep_commands_sweep_h
 
-#include <slipstep/utilities/command_line.h>
-#include <slipstep/utilities/parameters.h>
+#include <slipstep/commands/case.h>
 
 #include <filesystem>
 
@@ -41,6 +40,14 @@ namespace SlipStep
                                     const bool                   quiet,
                                     const unsigned int           n_parallel = 0,
                                     const bool is_resumable = true);
+
+  /// Write a job array for Slurm, whose jobs compute a variant each, into the
+  /// file that --slurm names.
+  /// @param output where the sweep's results go
+  /// @throws InputError if the case is no sweep, or the file is there already
+  int write_job_array(const Case                  &the_case,
+                      const CommandLine           &line,
+                      const std::filesystem::path &output);
 } // namespace SlipStep
 
 #endif

@@ -12,10 +12,6 @@ namespace SlipStep
   /// @name Sections of the report of a diagnosis as HTML; "" where there is
   /// nothing to show.
   ///@{
-
-  /// Verdict, where, what and how far, for whoever reads no further.
-  std::string first_screen(const Diagnosis &diagnosis);
-
   /// Tests by phases, before and after.
   std::string heat_map_section(const Diagnosis &diagnosis);
 

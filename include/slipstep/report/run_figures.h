@@ -55,7 +55,6 @@ namespace SlipStep
   /// distinct for colour-blind readers; dashes keep the curves apart in print.
   /// (Their yellow is lost on white.)
   std::string run_style(const std::size_t i);
-  std::string run_colour(const std::size_t i);
 
   /// Plot a curve of the i-th run in its colour and dash.
   void plot_run(Figure                         &figure,
