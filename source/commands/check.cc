@@ -123,19 +123,18 @@ namespace SlipStep
       std::set<std::string> campaigns;
       for (const Parameters &parameters : the_case.complete)
         campaigns.insert(check_campaign(parameters));
-      if (!line.quiet)
-        std::cout << file.string() << ": OK"
-                  << (the_case.is_sweep() ?
-                        ", " + std::to_string(the_case.variants.size()) +
-                          " variants" :
-                        "")
-                  << std::endl;
-      if (!line.quiet)
-        for (const std::string &campaign : campaigns)
-          if (!campaign.empty())
-            std::cout << "  " << campaign << std::endl;
-      if (!line.quiet)
-        print_rate_and_state(the_case);
+      if (line.quiet)
+        return;
+      std::cout << file.string() << ": OK"
+                << (the_case.is_sweep() ?
+                      ", " + std::to_string(the_case.variants.size()) +
+                        " variants" :
+                      "")
+                << std::endl;
+      for (const std::string &campaign : campaigns)
+        if (!campaign.empty())
+          std::cout << "  " << campaign << std::endl;
+      print_rate_and_state(the_case);
     }
 
 

@@ -85,17 +85,24 @@ show();
 
 
 
+    Parameters declared(const bool of_a_map)
+    {
+      Parameters parameters;
+      if (of_a_map)
+        declare_import_parameters(parameters);
+      else
+        declare_all_parameters(parameters);
+      return parameters;
+    }
+
+
+
     // That a key is one of maps, or of cases.
     std::string where_else(const std::string &name, const bool of_a_map)
     {
-      Parameters others;
-      if (of_a_map)
-        declare_all_parameters(others);
-      else
-        declare_import_parameters(others);
       try
         {
-          others.find(name, "");
+          declared(!of_a_map).find(name, "");
         }
       catch (const InputError &)
         {
@@ -112,11 +119,7 @@ show();
   int print_parameters(const CommandLine &line)
   {
     const bool of_a_map = !line.files.empty() && line.files.front() == "import";
-    Parameters parameters;
-    if (of_a_map)
-      declare_import_parameters(parameters);
-    else
-      declare_all_parameters(parameters);
+    Parameters parameters = declared(of_a_map);
     apply_settings(line, parameters);
     std::vector<std::string> only;
     for (std::size_t i = of_a_map ? 1 : 0; i < line.files.size(); ++i)

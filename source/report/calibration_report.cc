@@ -33,7 +33,7 @@ namespace SlipStep
       if (!open.empty())
         html += problem_box(open);
       if (!close.empty())
-        html += "<p>" + html_text(close) + "</p>\n";
+        html += paragraph(close);
       return html;
     }
 

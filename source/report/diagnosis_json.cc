@@ -84,19 +84,18 @@ namespace SlipStep
 
     json to_json(const ElementCheck &check)
     {
-      if (check.block_after.empty())
-        return {{"test", check.test},
-                {"block_percent", nullptr},
-                {"point_percent", nullptr},
-                {"difference_percent", nullptr},
-                {"remark", check.remark}};
-      return {{"test", check.test},
-              {"block_percent",
-               percents(check.block_gap_before, check.block_gap_after)},
-              {"point_percent",
-               percents(check.point_gap_before, check.point_gap_after)},
-              {"difference_percent", percent(check.difference)},
-              {"remark", check.remark}};
+      // Null unless the block came to the end.
+      const auto if_there = [&](const json &value) {
+        return check.block_after.empty() ? json() : value;
+      };
+      return {
+        {"test", check.test},
+        {"block_percent",
+         if_there(percents(check.block_gap_before, check.block_gap_after))},
+        {"point_percent",
+         if_there(percents(check.point_gap_before, check.point_gap_after))},
+        {"difference_percent", if_there(percent(check.difference))},
+        {"remark", check.remark}};
     }
 
     json to_json(const CandidateResult &candidate);

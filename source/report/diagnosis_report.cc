@@ -18,12 +18,6 @@ namespace SlipStep
 {
   namespace
   {
-    std::string paragraph(const std::string &text, const std::string &kind = "")
-    {
-      return "<p" + (kind.empty() ? "" : " class='" + kind + "'") + ">" +
-             html_text(text) + "</p>\n";
-    }
-
     std::string card(const std::string &title, const std::string &content)
     {
       return "<div class='card'><h2>" + html_text(title) + "</h2>\n" + content +

@@ -401,8 +401,7 @@ namespace SlipStep
     std::string html = heading("The block with finite elements");
     for (const ElementCheck &check : diagnosis.element_checks)
       if (!check.remark.empty())
-        html += "<p>" + html_text(check.test) + ": " + html_text(check.remark) +
-                "</p>\n";
+        html += paragraph(check.test + ": " + check.remark);
     html += draw_element_checks(page, diagnosis.element_checks);
     const std::string table = element_table(diagnosis.element_checks);
     return html + table +

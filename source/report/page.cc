@@ -105,10 +105,17 @@ namespace SlipStep
 
 
 
+  std::string paragraph(const std::string &text, const std::string &kind)
+  {
+    return "<p" + (kind.empty() ? "" : " class='" + kind + "'") + ">" +
+           html_text(text) + "</p>\n";
+  }
+
+
+
   std::string note(const std::string &text)
   {
-    return text.empty() ? "" :
-                          "<p class='origin'>" + html_text(text) + "</p>\n";
+    return text.empty() ? "" : paragraph(text, "origin");
   }
 
 
@@ -163,7 +170,7 @@ namespace SlipStep
 
   std::string problem_box(const std::string &text)
   {
-    return "<p class='problem'>" + html_text(text) + "</p>\n";
+    return paragraph(text, "problem");
   }
 
 

@@ -51,6 +51,9 @@ namespace SlipStep
 
   std::string heading(const std::string &text);
 
+  /// @param kind its style
+  std::string paragraph(const std::string &text, const std::string &kind = "");
+
   /// Small grey text; of none nothing.
   std::string note(const std::string &text);
 
