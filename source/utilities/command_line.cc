@@ -440,7 +440,7 @@ namespace SlipStep
       for (const std::string &name : options_of(find_command("plant")))
         if (values.count(name) && name != "quiet")
           {
-            const bool        takes_value = !values[name].empty();
+            const bool takes_value = name != "list" && name != "no-replicates";
             const std::string text = takes_value ? text_of(values, name) : "";
             if (takes_value && text.empty())
               throw InputError("--" + name + ": a value is needed");
