@@ -16,7 +16,7 @@ namespace SlipStep
       {"Displacement",
        "displ position distance weg stroke travel slip verschiebung strecke",
        "x u s d pos path hub",
-       "wear verschlei radius thick dicke width height normal vertical"},
+       "wear verschlei radius thick dicke width height normal nor_ vertical"},
       {"Speed", "speed veloc geschw vitesse", "v", "set soll target wind fan"},
       {"Friction",
        "coefficient friction reibwert reibungszahl beiwert reibungskoeff",
@@ -27,13 +27,13 @@ namespace SlipStep
        "ft fx f_t f_x ff fr f_r t f force kraft",
        "coefficient stress normal torque"},
       {"Normal load",
-       "normal load anpress last vertical clamp clamp_force clamping",
+       "normal nor_ load anpress last vertical clamp clamp_force clamping",
        "fn fz f_n f_z n p",
-       "stress friction tangential shear"},
+       "stress friction tangential shear shr_"},
       {"Pressure",
-       "pressure stress druck pressung spannung",
+       "pressure stress druck pressung spannung normal nor_",
        "p sigma sigma_n sn",
-       "shear tau schub oil friction atmos"},
+       "shear shr_ tau schub oil friction atmos disp force load last"},
       {"Temperature", "temp", "t theta", ""}};
     return all;
   }

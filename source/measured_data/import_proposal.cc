@@ -18,7 +18,22 @@ namespace SlipStep
 {
   namespace
   {
-    const std::vector<std::string> shear_words = {"shear", "tau", "schub"};
+    const std::vector<std::string> shear_words = {"shear",
+                                                  "shr_",
+                                                  "tau",
+                                                  "schub"};
+
+    // A load or a stress that is called so is it, whatever others are called.
+    bool is_called_normal(const std::string &name)
+    {
+      static const std::vector<std::string> words  = {"normal",
+                                                      "nor_",
+                                                      "anpress",
+                                                      "clamp"};
+      static const std::vector<std::string> labels = {
+        "fn", "fz", "f_n", "f_z", "n", "p", "sigma_n", "sn"};
+      return has_word(name, words) || holds(labels, without_qualifier(name));
+    }
 
     // What was ordered is not what was.
     const std::vector<std::string> ordered_words = {" set",
@@ -201,8 +216,8 @@ namespace SlipStep
         const auto known    = seen.unit.empty() ? std::optional<Dimension>() :
                                                   dimension_of_unit(seen.unit);
         const bool has_unit = !seen.unit.empty() && seen.unit != "-" &&
-                              seen.unit != "1" && seen.unit != "/" &&
-                              seen.unit != "%";
+                              seen.unit != "." && seen.unit != "1" &&
+                              seen.unit != "/" && seen.unit != "%";
         if (known.has_value() ? *known != dimension :
                                 has_unit && dimension == Dimension::number)
           return 0;
@@ -218,6 +233,9 @@ namespace SlipStep
           return 0;
         if (known.has_value())
           points += 2;
+        if ((words.key == "Normal load" || words.key == "Pressure") &&
+            is_called_normal(seen.name))
+          points += 4;
         if (varies)
           points += 2;
         if (words.key == "Time")
@@ -262,7 +280,9 @@ namespace SlipStep
             std::size_t best = best_column(words.key);
             if (best == values.size() ||
                 (words.key == "Tangential load" && taken_as("Friction")) ||
-                (words.key == "Speed" && taken_as("Displacement")))
+                (words.key == "Speed" && taken_as("Displacement")) ||
+                (words.key == "Pressure" && taken_as("Normal load") &&
+                 !taken_as("Tangential load")))
               continue;
             if (words.key == "Displacement")
               best = motion_of_friction(words, best);
@@ -278,9 +298,15 @@ namespace SlipStep
         for (const ColumnKey &known : column_keys())
           if (known.name == key)
             dimension = known.dimension;
-        const std::string name  = reference(column);
-        const std::string range = "from " + rounded_text(seen.least, 5) +
-                                  " to " + rounded_text(seen.most, 5);
+        const std::string name = reference(column);
+        // With the digits that tell them apart.
+        int n_digits = 5;
+        while (n_digits < 12 && seen.least < seen.most &&
+               rounded_text(seen.least, n_digits) ==
+                 rounded_text(seen.most, n_digits))
+          ++n_digits;
+        const std::string range = "from " + rounded_text(seen.least, n_digits) +
+                                  " to " + rounded_text(seen.most, n_digits);
         if (dimension == Dimension::number)
           {
             const bool may_be_force = seen.name == "f" && seen.unit.empty();
@@ -444,6 +470,48 @@ namespace SlipStep
               true);
       }
 
+      // What no column is called like: of two loads or stresses it is the one
+      // that is not normal; and a load that is only called so may be it.
+      void guess_other_load()
+      {
+        const std::string why =
+          "no column is called like a coefficient or a tangential load";
+        for (ImportGuess &load : proposal.guesses)
+          for (const std::string &key :
+               {std::string("Normal load"), std::string("Pressure")})
+            if (const SeenColumn *seen = taken_as(key);
+                seen != nullptr && load.path == "Columns/" + key &&
+                !is_called_normal(seen->name))
+              {
+                load.is_open = true;
+                load.reason += "; or is it the friction? " + why;
+              }
+        const bool        is_stress = taken_as("Pressure") != nullptr;
+        const SeenColumn *other     = nullptr;
+        for (const SeenColumn &seen : proposal.columns)
+          if (seen.has_numbers && seen.taken_as.empty() &&
+              dimension_of_unit(seen.unit) ==
+                (is_stress ? Dimension::stress : Dimension::force))
+            other = &seen;
+        if (other == nullptr)
+          guess("Columns/Friction",
+                "column " + std::to_string(first_column_left() + 1),
+                why,
+                true);
+        else if (!is_stress)
+          guess("Columns/Tangential load",
+                reference(other->number - 1) + " in " + other->unit,
+                why + "; is it the other one?",
+                true);
+        else
+          guess("Columns/Friction",
+                "{" + reference(other->number - 1) + " in " + other->unit +
+                  "}/{" + reference(taken_as("Pressure")->number - 1) + " in " +
+                  taken_as("Pressure")->unit + "}",
+                why + "; is it the other stress?",
+                true);
+      }
+
       // What only a notebook knows.
       void guess_loads()
       {
@@ -458,10 +526,7 @@ namespace SlipStep
             "slide?",
             true);
         if (!taken_as("Friction") && !taken_as("Tangential load"))
-          guess("Columns/Friction",
-                "column " + std::to_string(first_column_left() + 1),
-                "no column is called like a coefficient or a tangential load",
-                true);
+          guess_other_load();
         const bool has_load = taken_as("Normal load");
         if (!has_load && !taken_as("Pressure"))
           {

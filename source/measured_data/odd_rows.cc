@@ -204,7 +204,7 @@ namespace SlipStep
       {
         constexpr double largest_pressure =
           3e3;                           // MPa, as the hardest metals bear
-        constexpr double fastest = 1e6;  // mm/s
+        constexpr double fastest = 2e5;  // mm/s
         constexpr double slowest = 1e-8; // mm/s, a third of a mm a year
 
         std::vector<double> friction;

@@ -3,6 +3,7 @@
 #include <slipstep/measured_data/record_layout.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cctype>
@@ -131,7 +132,33 @@ namespace SlipStep
     {
       std::vector<std::size_t> rows;
       std::size_t              n_numbers = 0, n_filled = 0, last_filled = 0;
+
+      void add(const std::size_t line, const Cells &cells)
+      {
+        rows.push_back(line);
+        n_numbers +=
+          count_if(cells, [](const auto &c) { return marks_of(c).is_number; });
+        n_filled += n_filled_in(cells);
+        std::size_t last = cells.size();
+        while (last > 0 && cells[last - 1].empty())
+          --last;
+        last_filled = std::max(last_filled, last);
+      }
     };
+
+    // "Samples 200 200 200": lines of a header that begin with a word are no
+    // rows of a table that is much longer and begins with a number.
+    AlikeRows without_headers(const AlikeRows                &alike,
+                              const std::vector<std::string> &lines,
+                              const char                      delimiter)
+    {
+      AlikeRows result;
+      for (const std::size_t row : alike.rows)
+        if (const auto cells = cells_of(lines[row], delimiter);
+            marks_of(cells[0]).is_number)
+          result.add(row, cells);
+      return result.rows.size() >= 0.9 * alike.rows.size() ? result : alike;
+    }
 
     TableFound table_of(const std::vector<std::string> &lines,
                         const char                      delimiter)
@@ -143,18 +170,12 @@ namespace SlipStep
           std::size_t n_numbers = 0;
           if (lines[i][0] == '#' || !is_row_of(cells, n_numbers))
             continue;
-          AlikeRows &alike = found[cells.size()];
-          alike.rows.push_back(i);
-          alike.n_numbers += n_numbers;
-          alike.n_filled += n_filled_in(cells);
-          std::size_t last = cells.size();
-          while (last > 0 && cells[last - 1].empty())
-            --last;
-          alike.last_filled = std::max(alike.last_filled, last);
+          found[cells.size()].add(i, cells);
         }
       TableFound table;
-      for (const auto &[n_cells, alike] : found)
+      for (const auto &[n_cells, all] : found)
         {
+          const AlikeRows alike = without_headers(all, lines, delimiter);
           // What cuts numbers in two has few of them whole.
           const double share   = double(alike.n_numbers) / alike.n_filled;
           const double quality = share * share * alike.n_numbers;
@@ -235,8 +256,11 @@ namespace SlipStep
         }
       if (!has_names(cells()))
         return;
-      layout.has_unclear_header =
-        cells().size() > layout.n_cells || cells().size() < table.n_filled;
+      const Cells       header = cells();
+      const std::size_t n_comments =
+        lower_case(header.back()) == "comment" ? 1 : 0;
+      layout.has_unclear_header = header.size() > layout.n_cells + n_comments ||
+                                  header.size() < table.n_filled;
       layout.header_line = line;
     }
 

@@ -401,14 +401,19 @@ namespace SlipStep
 
   void CsvTable::read_row(const std::vector<std::string_view> &cells)
   {
-    // Spreadsheets like to end a row with delimiters.
+    // Spreadsheets like to end a row with delimiters, and LabVIEW has a cell
+    // for a comment at the end of the header.
+    const auto lacks_a_comment = [&]() {
+      return cells.size() + 1 == n_cells && !names.empty() &&
+             lower_case(names.back()) == "comment";
+    };
     bool is_too_long = false;
     for (std::size_t n = n_cells; n < cells.size(); ++n)
       is_too_long = is_too_long || !cells[n].empty();
     for (std::size_t i = 0; i < columns.size(); ++i)
       if (columns[i].position < cells.size())
         columns[i].values.push_back(read_cell(cells[columns[i].position], i));
-    if (cells.size() >= n_cells && !is_too_long)
+    if ((cells.size() >= n_cells || lacks_a_comment()) && !is_too_long)
       return;
     fail(cells[std::min(cells.size() - 1, n_cells)].data(),
          "this row has " + std::to_string(cells.size()) +
@@ -477,7 +482,9 @@ namespace SlipStep
               first_point = cell.data();
           }
       }
-    else if (format.delimiter != ',' && format.decimal_mark != '.' &&
+    // With commas between the cells, those within stand between quotes.
+    else if ((format.delimiter != ',' || format.decimal_mark == ',') &&
+             format.decimal_mark != '.' &&
              number.find(',') != std::string_view::npos &&
              read_number_with_comma(number, value))
       {

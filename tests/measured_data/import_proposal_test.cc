@@ -52,6 +52,76 @@ namespace
   }
 
   const std::vector<Example> examples = {
+    // What is called normal is, before what is only a load or a stress.
+    {"biaxial.txt",
+     "  row     lp_disp   shr_stress  nor_disp  nor_stress   time   mu\n"
+     "  rec    micron   MPa   micron   MPa  sec  .\n"
+     "  1  0  0.0064  3.2  5.007  0    0.0013\n"
+     "  2  5  1.2800  3.3  5.002  0.1  0.2562\n"
+     "  3  9  1.4350  3.1  4.998  0.2  0.2875\n",
+     {"Columns/Displacement = lp_disp in micron",
+      "Columns/Pressure = nor_stress in MPa",
+      "Columns/Friction = mu"},
+     {"Columns/Normal load"}},
+    {"lbf.csv",
+     "Time (sec),Crosshead (in),Load (lbf),Normal (lbf),COF\n"
+     "0,0,0.1,112.5,0.001\n0.1,0.0039,28.7,112.3,0.256\n"
+     "0.2,0.0078,30.1,112.4,0.268\n",
+     {"Columns/Normal load = Normal (lbf) in lbf", "Columns/Friction = COF"},
+     {}},
+    {"two_loads.csv",
+     "Time (s),Position (mm),Load (N),Normal (N)\n"
+     "0,0,0.01,4.99\n0.1,0.1,0.25,4.98\n0.2,0.2,1.4,5.01\n",
+     {"Columns/Normal load = Normal (N) in N",
+      "? Columns/Tangential load = Load (N) in N"},
+     {"Columns/Friction"}},
+    {"two_stresses.csv",
+     "time (s),LP disp (mm),Stress (MPa),Normal (MPa)\n"
+     "0,0,0.01,4.99\n0.1,0.1,0.25,4.98\n0.2,0.2,1.4,5.01\n",
+     {"Columns/Pressure = Normal (MPa) in MPa",
+      "? Columns/Friction = {Stress (MPa) in MPa}/{Normal (MPa) in MPa}"},
+     {}},
+    {"shear_stress_short.csv",
+     "time (s),disp (mm),shr_stress (MPa),nor_stress (MPa)\n"
+     "0,0,0.01,4.99\n0.1,0.1,0.25,4.98\n0.2,0.2,1.4,5.01\n",
+     {"Columns/Pressure = nor_stress (MPa) in MPa",
+      "Columns/Friction = {shr_stress (MPa) in MPa}/{nor_stress (MPa) in MPa}"},
+     {}},
+    // Neither is called so: either may be what is pulled.
+    {"axial.csv",
+     "time (s),disp (mm),axial load (N),confining pressure (MPa)\n"
+     "0,0,0.01,4.99\n0.1,0.1,0.25,4.98\n0.2,0.2,1.4,5.01\n",
+     {"? Columns/Normal load = axial load (N) in N"},
+     {"Columns/Pressure"}},
+    {"quoted_commas.csv",
+     "\"Zeit (s)\",\"Weg (mm)\",\"Reibkraft (N)\",\"Normalkraft (N)\"\n"
+     "\"0,0000\",\"0,0000\",\"0,6441\",\"500,7247\"\n"
+     "\"0,1000\",\"0,1000\",\"128,0461\",\"499,6177\"\n"
+     "\"0,2000\",\"0,2000\",\"141,5241\",\"500,1120\"\n",
+     {"Raw file/Delimiter = comma",
+      "Raw file/Decimal mark = comma",
+      "Columns/Tangential load = Reibkraft (N) in N"},
+     {}},
+    {"labview.lvm",
+     "LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\n"
+     "Date\t2023/01/01\nTime\t10:00:00.1\n***End_of_Header***\t\n\t\n"
+     "Channels\t3\t\t\t\nSamples\t30\t30\t30\t\n"
+     "Date\t2023/01/01\t2023/01/01\t2023/01/01\t\n"
+     "X0\t0.0E+0\t0.0E+0\t0.0E+0\t\nDelta_X\t0.1\t0.1\t0.1\t\n"
+     "***End_of_Header***\t\t\t\t\n"
+     "X_Value\tNormal force\tFriction force\tPosition\tComment\n" +
+       []() {
+         std::string rows;
+         for (int i = 0; i < 30; ++i)
+           rows += std::to_string(0.1 * i) + "\t100.1\t" +
+                   std::to_string(0.5 * i) + "\t" + std::to_string(0.01 * i) +
+                   "\n";
+         return rows;
+       }(),
+     {"Raw file/Header line = 14",
+      "? Columns/Normal load = Normal force in N",
+      "? Columns/Tangential load = Friction force in N"},
+     {}},
     {"english.csv",
      "Time (s),Displacement (mm),Normal Force (N),Friction Force (N),COF\n"
      "0,0,100,0,0\n0.1,0.01,100.2,5,0.05\n0.2,0.02,99.9,10,0.1\n",
