@@ -7,7 +7,6 @@
 #include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/write_file.h>
 
-
 #include <boost/crc.hpp>
 
 #include <nlohmann/json.hpp>

@@ -317,7 +317,6 @@ namespace SlipStep
           case Kind::force:
             return "N" + per;
           case Kind::moment:
-            return "N mm" + per;
           case Kind::dissipated_energy:
             return "N mm" + per;
           case Kind::pressure:

@@ -33,20 +33,16 @@ namespace SlipStep
       {"equal steps", time_section + "Equal steps per statement", true},
       {"tolerance", time_section + "Tolerance", false}};
 
-    std::string folder_name(std::string label)
-    {
-      for (char &c : label)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' &&
-            c != '-')
-          c = '_';
-      return label;
-    }
-
     StudyRun
     make_run(const std::string                                      &label,
              const std::vector<std::pair<std::string, std::string>> &settings)
     {
-      return {label, folder_name(label), settings};
+      std::string folder = label;
+      for (char &c : folder)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' &&
+            c != '-')
+          c = '_';
+      return {label, folder, settings};
     }
 
     /// The block's own mesh with the cells halved so many times.
@@ -134,11 +130,6 @@ namespace SlipStep
                         "write the kind of steps and a list, e.g. 'equal steps "
                         "50, 100, 200' or 'tolerance 1e-3, 1e-4, 1e-5'");
     }
-
-    bool is_richardson(const std::string &text)
-    {
-      return text == "Richardson";
-    }
   } // namespace
 
 
@@ -206,7 +197,9 @@ namespace SlipStep
                 parameters.text(section + "Adaptive goal"));
     add_uniform(parameters);
     add_adaptive(parameters);
-    add_time_steps(parameters);
+    const std::string steps_key = section + "Time steps";
+    if (!parameters.text(steps_key).empty())
+      sequence_list.push_back(read_time_steps(parameters, steps_key));
     if (sequence_list.empty())
       parameters.reject(section + "Uniform meshes",
                         "there is nothing to study: no meshes and no time "
@@ -245,15 +238,6 @@ namespace SlipStep
 
 
 
-  void RefinementStudy::add_time_steps(const Parameters &parameters)
-  {
-    const std::string key = section + "Time steps";
-    if (!parameters.text(key).empty())
-      sequence_list.push_back(read_time_steps(parameters, key));
-  }
-
-
-
   const StudySequence *
   RefinementStudy::sequence_of(const StudySequence::Kind kind) const
   {
@@ -275,7 +259,7 @@ namespace SlipStep
     const std::string  text = parameters.text(key);
     const unsigned int n_uniform =
       uniform == nullptr ? 0 : uniform->runs.size();
-    if (is_richardson(text))
+    if (text == "Richardson")
       {
         if (n_uniform < 3)
           parameters.reject(section + "Uniform meshes",
@@ -324,7 +308,7 @@ namespace SlipStep
     if (steps == nullptr)
       return;
     const std::string key = section + "Time reference";
-    if (is_richardson(parameters.text(key)))
+    if (parameters.text(key) == "Richardson")
       {
         if (steps->runs.size() < 3)
           parameters.reject(section + "Time steps",

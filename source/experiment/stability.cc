@@ -7,6 +7,8 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/lac/full_matrix.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -107,13 +109,6 @@ namespace SlipStep
 
 
 
-  double SteadySliding::time_of_quickest() const
-  {
-    return relative_step / quickest();
-  }
-
-
-
   // Strength that falls with speed faster than the overstress rises has no
   // short steps that go on as before: the contact stops or jumps.
   bool SteadySliding::is_kept(const double time_step) const
@@ -210,7 +205,7 @@ namespace SlipStep
   // length.
   bool SteadySliding::grows_at_once() const
   {
-    if (!is_kept(time_of_quickest()))
+    if (!is_kept(relative_step / quickest()))
       return true;
     const double quick = slip_stiffness(quickest()).imag();
     return quick < -resolution() &&
@@ -363,14 +358,14 @@ namespace SlipStep
         std::ostringstream text;
         text << std::setprecision(3) << "sliding at " << slide.velocity.norm()
              << " mm/s under " << slide.pressure << " MPa has no stable branch";
-        std::string effects;
-        for (const std::string &name : law.weakening_effects(sliding.state()))
-          effects += (effects.empty() ? "" : ", ") + name;
+        const std::string effects =
+          boost::algorithm::join(law.weakening_effects(sliding.state()), ", ");
+        const std::string by_which =
+          effects.empty() ? "" : " (" + effects + ")";
         if (at_once)
           {
             const auto speeds = unstable_speeds(law, slide);
-            text << ": friction falls with speed"
-                 << (effects.empty() ? "" : " (" + effects + ")") << " between "
+            text << ": friction falls with speed" << by_which << " between "
                  << speeds[0] << " and " << speeds[1]
                  << " mm/s, more than the contact's own stiffness holds, so "
                     "that it sticks and jumps and the time steps get very "
@@ -383,13 +378,11 @@ namespace SlipStep
                << ", so that it jumps. A stiffer machine or a machine mass "
                   "helps";
         else if (machine.mass() > 0.)
-          text << " on a machine with a mass: friction falls"
-               << (effects.empty() ? "" : " (" + effects + ")")
+          text << " on a machine with a mass: friction falls" << by_which
                << " and nothing damps, so that every swing grows. A viscosity "
                   "(viscous, overstress) or no machine mass helps";
         else
-          text << ": friction falls"
-               << (effects.empty() ? "" : " (" + effects + ")")
+          text << ": friction falls" << by_which
                << " faster than the contact's own tangential stiffness holds. "
                   "A larger tangential stiffness or a softer fall helps";
         return {text.str()};

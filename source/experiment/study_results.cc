@@ -133,10 +133,7 @@ namespace SlipStep
     {
       const double value = value_in(summary, curve.quantity);
       if (!std::isfinite(value))
-        return {{QuantityOfInterest::undefined,
-                 QuantityOfInterest::undefined,
-                 false},
-                label};
+        return {NamedReference().found, label};
       StudyCurve complete = curve;
       complete.kind       = curve.kind == StudySequence::Kind::time_step ?
                               curve.kind :

@@ -68,7 +68,6 @@ namespace SlipStep
   private:
     void add_uniform(const Parameters &parameters);
     void add_adaptive(const Parameters &parameters);
-    void add_time_steps(const Parameters &parameters);
     void read_mesh_reference(const Parameters &parameters);
     void read_time_reference(const Parameters &parameters);
 

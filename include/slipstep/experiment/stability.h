@@ -95,8 +95,6 @@ namespace SlipStep
     /// The largest angular frequency that matters [1/s].
     double quickest() const;
 
-    double time_of_quickest() const;
-
     /// Whether a step of this length [s] goes on as before.
     bool is_kept(const double time_step) const;
 
