@@ -9,6 +9,7 @@
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/pattern_words.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
 #include <deal.II/base/utilities.h>
@@ -335,15 +336,10 @@ namespace SlipStep
         fail(where + "how far a push moves the drive is known after the run "
                      "only, so that no path of it can be named");
       if (displacement > whole_path * (1. + 1e-9))
-        {
-          std::ostringstream message;
-          if (whole_path > 0.)
-            message << where << "the drive moves by " << whole_path
-                    << " mm in the whole programme";
-          else
-            message << where << "the programme does not slide";
-          fail(message.str());
-        }
+        fail(where + (whole_path > 0. ?
+                        "the drive moves by " + short_text(whole_path, 6) +
+                          " mm in the whole programme" :
+                        "the programme does not slide"));
       return std::min(displacement, whole_path);
     }
 

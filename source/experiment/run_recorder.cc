@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <sstream>
 
@@ -155,17 +154,15 @@ namespace SlipStep
   void RunRecorder::write(const HistoryRow &row)
   {
     writer.write(row);
-    std::ostringstream text;
-    text << "step " << history.size() << ", " << std::setprecision(3);
-    if (std::abs(row.displacement) > 0. && std::abs(row.displacement) < 0.01)
-      text << 1e3 * row.displacement << " µm";
-    else
-      text << std::round(1e3 * row.displacement) / 1e3 << " mm";
-    if (!note.empty())
-      text << ", " << note;
+    const double      moved = 1e3 * row.displacement; // [µm]
+    const std::string where =
+      std::abs(row.displacement) > 0. && std::abs(row.displacement) < 0.01 ?
+        short_text(moved, 3) + " µm" :
+        short_text(std::round(moved) / 1e3, 3) + " mm";
     const double share_done = work.share_done(row.time);
     progress.update(share_done,
-                    text.str(),
+                    "step " + std::to_string(history.size()) + ", " + where +
+                      (note.empty() ? "" : ", ") + note,
                     work.time_left(row.time, progress.time_spent()));
   }
 

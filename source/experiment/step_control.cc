@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -220,15 +218,13 @@ namespace SlipStep
     const Segment &now = programme.segments()[segment];
     if (++steps_of_statement <= most_steps + rows_of_statement)
       return;
-    std::ostringstream message;
-    message << "Statement " << now.statement + 1
-            << " of the programme takes more than " << most_steps
-            << " time steps (" << most_steps_key
-            << "): at t = " << std::setprecision(6) << end << " s they are "
-            << std::setprecision(2) << step_size()
-            << " s long; stick-slip, and a mass that rings on its spring, want "
-               "many: allow more, slide for less, or damp it (effect viscous)";
-    throw RunError(message.str());
+    throw RunError(
+      "Statement " + std::to_string(now.statement + 1) +
+      " of the programme takes more than " + std::to_string(most_steps) +
+      " time steps (" + most_steps_key + "): at t = " + short_text(end, 6) +
+      " s they are " + short_text(step_size(), 2) +
+      " s long; stick-slip, and a mass that rings on its spring, want many: "
+      "allow more, slide for less, or damp it (effect viscous)");
   }
 
 
@@ -244,12 +240,8 @@ namespace SlipStep
                8. * std::numeric_limits<double>::epsilon() *
                  programme.segments()[segment].end_time);
     if (!(wanted_step > resolution))
-      {
-        std::ostringstream message;
-        message << "At t = " << std::setprecision(6) << begin
-                << " s no time step is small enough: " << reason;
-        throw RunError(message.str());
-      }
+      throw RunError("At t = " + short_text(begin, 6) +
+                     " s no time step is small enough: " + reason);
     plan(wanted_step);
   }
 

@@ -3,6 +3,7 @@
 
 #include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 #include <slipstep/utilities/version.h>
 
@@ -511,9 +512,7 @@ namespace SlipStep
   {
     if (!(balance_error > 0.01))
       return "";
-    char share[32];
-    std::snprintf(share, sizeof(share), "%.2g", 100. * balance_error);
-    return std::string(share) +
+    return short_text(100. * balance_error, 2) +
            " % of the work is neither stored nor dissipated (balance_error in "
            "summary.json)";
   }
