@@ -12,6 +12,7 @@
 #include <boost/crc.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace SlipStep
 {
@@ -111,24 +112,20 @@ namespace SlipStep
                         owner + " has '" + value + "'" + anew_or_elsewhere);
     };
 
-    // These are compared as a whole, by what they say.
-    std::string programme_text, speed;
-    for (const auto &value : values)
-      if (value.first == "Loading/Programme")
-        programme_text = value.second;
-      else if (value.first == "Loading/Speed")
-        speed = value.second;
-      else if (!is_same_value(*parameters.entry(value.first).pattern,
-                              parameters.text(value.first),
-                              value.second))
-        refuse(value.first, value.second);
+    std::map<std::string, std::string> in_programme;
+    for (const auto &[path, value] : values)
+      if (is_in_programme(path))
+        in_programme[path] = value;
+      else if (!is_same_value(*parameters.entry(path).pattern,
+                              parameters.text(path),
+                              value))
+        refuse(path, value);
 
     if (checksum_of(parse_programme(parameters)) == programme)
       return;
-    if (parameters.text("Loading/Speed") != speed)
-      refuse("Loading/Speed", speed);
-    if (parameters.text("Loading/Programme") != programme_text)
-      refuse("Loading/Programme", programme_text);
+    for (const char *const path : {"Loading/Speed", "Loading/Programme"})
+      if (parameters.text(path) != in_programme[path])
+        refuse(path, in_programme[path]);
     parameters.reject("Loading/Programme",
                       "a test that it follows has changed since " + owner +
                         " was made" + anew_or_elsewhere);

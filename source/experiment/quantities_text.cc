@@ -104,7 +104,7 @@ namespace SlipStep
 
       double path(const std::string &text) const;
 
-      double length(const std::string &text) const;
+      double number(const std::string &text, const Dimension dimension) const;
 
       void add(const QuantityOfInterest &quantity);
 
@@ -285,7 +285,7 @@ namespace SlipStep
           coordinates.size() > most_coordinates)
         show_example();
       for (const std::string &coordinate : coordinates)
-        quantity.position.push_back(length(coordinate));
+        quantity.position.push_back(number(coordinate, Dimension::length));
     }
 
 
@@ -298,25 +298,21 @@ namespace SlipStep
       const auto sides = dealii::Utilities::split_string_list(text, '=');
       if (sides.size() != 2 || sides[0] != "r")
         show_example();
-      try
-        {
-          quantity.loading_ratio = parse_quantity(sides[1], Dimension::number);
-        }
-      catch (const InputError &error)
-        {
-          fail("'" + present_item + "': " + error.what());
-        }
+      quantity.loading_ratio = number(sides[1], Dimension::number);
       if (!(quantity.loading_ratio > 0.))
         fail("'" + present_item + "': the loading ratio r must be above 0");
     }
 
 
 
-    double Reader::length(const std::string &text) const
+    double Reader::number(const std::string &text,
+                          const Dimension    dimension) const
     {
       try
         {
-          return parse_quantity(text, Dimension::length, true);
+          return parse_quantity(text,
+                                dimension,
+                                dimension != Dimension::number);
         }
       catch (const InputError &error)
         {
@@ -328,7 +324,7 @@ namespace SlipStep
 
     double Reader::path(const std::string &text) const
     {
-      const double      displacement = length(text);
+      const double      displacement = number(text, Dimension::length);
       const std::string where        = "'" + present_item + "': ";
       if (!(displacement > 0.))
         fail(where + "the displacement must be above 0 mm");

@@ -247,19 +247,16 @@ namespace SlipStep
         "per statement may have one each");
     summary.quantities =
       evaluate_quantities(quantities, programme, history, summary.dimension);
-    if (reason.empty() && summary.dimension > 0)
-      for (std::size_t i = 0; i < quantities.size(); ++i)
-        if (quantities[i].kind == QuantityOfInterest::Kind::slip_front &&
-            std::isnan(summary.quantities[i].value))
-          summary.warnings.push_back(
-            "'" + quantities[i].name +
-            "' has no value: at that moment no place on the face divides points "
-            "above its loading ratio from points below");
-    if (reason.empty() && summary.dimension == 0)
-      for (std::size_t i = 0; i < quantities.size(); ++i)
-        if (std::isnan(summary.quantities[i].value))
-          summary.warnings.push_back("'" + quantities[i].name +
-                                     "' has no value of a contact point");
+    const bool is_point = summary.dimension == 0;
+    for (std::size_t i = 0; reason.empty() && i < quantities.size(); ++i)
+      if (std::isnan(summary.quantities[i].value) &&
+          (is_point ||
+           quantities[i].kind == QuantityOfInterest::Kind::slip_front))
+        summary.warnings.push_back(
+          "'" + quantities[i].name + "' has no value" +
+          (is_point ? " of a contact point" :
+                      ": at that moment no place on the face divides points "
+                      "above its loading ratio from points below"));
     if (!is_writer)
       return;
     if (reason.empty())
