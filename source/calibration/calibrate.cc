@@ -259,7 +259,7 @@ namespace SlipStep
         (parameter.is_logarithmic ?
            1. :
            (parameter.upper - parameter.lower) / optimum.size[i]);
-      fitted.is_at_bound = best[i] < 1e-6 || best[i] > 1. - 1e-6;
+      fitted.is_at_bound = is_on_bound(best[i]);
     }
 
 

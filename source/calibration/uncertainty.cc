@@ -38,19 +38,6 @@ namespace SlipStep
 
 
 
-    // Of friction times pressure over the displacement.
-    double work(MeasuredTest test, const Replay::Curve *curve)
-    {
-      if (curve != nullptr)
-        {
-          test.friction   = curve->friction;
-          test.friction_y = curve->friction_y;
-        }
-      return frictional_work(test);
-    }
-
-
-
     double root_mean_square(const double *values, const std::size_t n)
     {
       return std::sqrt(std::inner_product(values, values + n, values, 0.) / n);
@@ -73,12 +60,15 @@ namespace SlipStep
       result.rms = test.noise * root_mean_square(residuals, test.n_residuals());
       result.mean =
         -test.noise * std::accumulate(residuals, residuals + n, 0.) / n;
-      result.measured_work  = work(test.rows, nullptr);
-      result.simulated_work = work(test.rows, &curve);
-      result.time           = test.rows.time;
-      result.displacement   = test.rows.displacement;
-      result.measured       = test.rows.friction;
-      result.simulated      = curve.friction;
+      MeasuredTest simulated = test.rows;
+      simulated.friction     = curve.friction;
+      simulated.friction_y   = curve.friction_y;
+      result.measured_work   = frictional_work(test.rows);
+      result.simulated_work  = frictional_work(simulated);
+      result.time            = test.rows.time;
+      result.displacement    = test.rows.displacement;
+      result.measured        = test.rows.friction;
+      result.simulated       = curve.friction;
       return result;
     }
 

@@ -44,6 +44,12 @@ namespace SlipStep
     std::string name;
   };
 
+  /// Whether a scaled value is one of the bounds, but for round-off.
+  inline bool is_on_bound(const double scaled)
+  {
+    return scaled < 1e-6 || scaled > 1. - 1e-6;
+  }
+
   /// Declares section "Calibration".
   void declare_calibration_parameters(Parameters &parameters);
 
