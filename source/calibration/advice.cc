@@ -6,10 +6,10 @@
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <optional>
 #include <sstream>
 
@@ -26,18 +26,12 @@ namespace SlipStep
     // Few digits, but no exponents where people write none.
     std::string rounded(const double value, const int n_digits = 2)
     {
-      std::ostringstream out;
-      const double       size = std::abs(value);
-      if (size >= 100. && size < 1e6)
-        {
-          const double unit =
-            std::pow(10., std::floor(std::log10(size)) + 1. - n_digits);
-          out << std::fixed << std::setprecision(0)
-              << unit * std::round(value / unit);
-        }
-      else
-        out << std::setprecision(n_digits) << value;
-      return out.str();
+      const double size = std::abs(value);
+      if (!(size >= 100. && size < 1e6))
+        return short_text(value, n_digits);
+      const double unit =
+        std::pow(10., std::floor(std::log10(size)) + 1. - n_digits);
+      return fixed_text(unit * std::round(value / unit), 0);
     }
 
 
@@ -450,19 +444,6 @@ namespace SlipStep
 
 
 
-    std::string listing(const std::vector<std::string> &words)
-    {
-      std::string result;
-      for (std::size_t i = 0; i < words.size(); ++i)
-        result += (i == 0                ? "" :
-                   i + 1 == words.size() ? " and " :
-                                           ", ") +
-                  words[i];
-      return result;
-    }
-
-
-
     std::string words_of(const WeakDirection &weak, const Campaign &campaign)
     {
       std::vector<std::string> names, changes;
@@ -479,10 +460,10 @@ namespace SlipStep
         return names[0] + " is hardly determined by these tests" +
                (has_values ? ": " + changes[0] + " fits nearly as well" : "") +
                ". Fix it";
-      return listing(names) + " cannot " +
+      return list_text(names) + " cannot " +
              (names.size() == 2 ? "both" : "all") +
              " be found from these tests" +
-             (has_values ? ": " + listing(changes) + " fit nearly as well" :
+             (has_values ? ": " + list_text(changes) + " fit nearly as well" :
                            "") +
              ". Fix one of them";
     }

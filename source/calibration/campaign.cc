@@ -12,11 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <map>
 #include <numeric>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 namespace SlipStep
@@ -195,14 +193,13 @@ namespace SlipStep
           if (test.noise_is_stated || test.noise >= least)
             continue;
           test.noise = least;
-          std::ostringstream warning;
-          warning << test.rows.file.string()
-                  << (test.rows.time.size() < fewest_rows ?
-                        ": its rows are too few to see noise in; " :
-                        ": hardly any noise is visible; ")
-                  << std::setprecision(2) << least
-                  << " is taken, unless a line '# noise: ...' says more.";
-          test.rows.warnings.push_back(warning.str());
+          test.rows.warnings.push_back(
+            test.rows.file.string() +
+            (test.rows.time.size() < fewest_rows ?
+               ": its rows are too few to see noise in; " :
+               ": hardly any noise is visible; ") +
+            short_text(least, 2) +
+            " is taken, unless a line '# noise: ...' says more.");
         }
     }
 

@@ -4,12 +4,10 @@
 #include <slipstep/calibration/derived.h>
 #include <slipstep/calibration/fit_parameter.h>
 #include <slipstep/utilities/formula.h>
+#include <slipstep/utilities/text.h>
 
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <locale>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -45,13 +43,11 @@ namespace SlipStep
     std::string with_numbers(const Derived    &derived,
                              const Parameters &parameters)
     {
-      std::ostringstream text;
-      text.imbue(std::locale::classic());
-      text << std::setprecision(17);
+      std::string text;
       for (std::size_t at = 0; at < derived.formula.size();)
         {
           const std::size_t open = derived.formula.find('{', at);
-          text << derived.formula.substr(at, open - at);
+          text += derived.formula.substr(at, open - at);
           if (open == std::string::npos)
             break;
           const std::size_t close = derived.formula.find('}', open);
@@ -60,10 +56,10 @@ namespace SlipStep
           const std::string path = dealii::Utilities::trim(
             derived.formula.substr(open + 1, close - open - 1));
           quantity_of(path, derived, parameters);
-          text << '(' << parameters.number(path) << ')';
+          text += '(' + short_text(parameters.number(path), 17) + ')';
           at = close + 1;
         }
-      return text.str();
+      return text;
     }
   } // namespace
 

@@ -10,9 +10,6 @@
 #include <boost/algorithm/string/trim.hpp>
 
 #include <cmath>
-#include <iomanip>
-#include <locale>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -20,12 +17,6 @@ namespace SlipStep
   {
     const char *const list_key      = "Calibration/Parameters";
     const char *const stiffness_key = "Loading/Machine stiffness";
-
-    /// How many base units make one of the unit shown.
-    double unit_size(const Dimension dimension)
-    {
-      return parse_quantity("1", dimension);
-    }
 
     std::string last_part(const std::string &path, const unsigned int n_parts)
     {
@@ -130,14 +121,12 @@ namespace SlipStep
         }
       catch (const InputError &)
         {
-          const std::string  hint = decimal_comma_hint(value);
-          std::ostringstream what;
-          what << (role + " = " + value + ": ") << hint
-               << (hint.empty() ? "" : "; ") << "allowed is "
-               << parameters.entry(result.path)
-                    .pattern->description(
-                      dealii::Patterns::PatternBase::Machine);
-          reject(what.str());
+          const std::string hint = decimal_comma_hint(value);
+          reject(
+            role + " = " + value + ": " + hint + (hint.empty() ? "" : "; ") +
+            "allowed is " +
+            parameters.entry(result.path)
+              .pattern->description(dealii::Patterns::PatternBase::Machine));
         }
     }
 
@@ -255,20 +244,16 @@ namespace SlipStep
 
   double FitParameter::in_unit(const double value) const
   {
-    return value / unit_size(dimension);
+    return value / parse_quantity("1", dimension);
   }
 
 
 
   std::string FitParameter::text(const double value, const int n_digits) const
   {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out << std::setprecision(n_digits) << in_unit(value);
     const std::string name_of_unit = unit();
-    if (!name_of_unit.empty())
-      out << ' ' << name_of_unit;
-    return out.str();
+    return short_text(in_unit(value), n_digits) +
+           (name_of_unit.empty() ? "" : " ") + name_of_unit;
   }
 
 
