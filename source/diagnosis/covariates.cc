@@ -267,14 +267,6 @@ namespace SlipStep
 
   namespace
   {
-    // Of a number compared.
-    std::size_t middle_row(const ComparedTest &test, const std::size_t bin)
-    {
-      return (test.borders[bin] + test.borders[bin + 1]) / 2;
-    }
-
-
-
     // Pressure over the largest so far, and its rate.
     void follow_pressure(const Comparison                &comparison,
                          const std::vector<CampaignTest> &tests,
@@ -287,7 +279,7 @@ namespace SlipStep
           const std::vector<double> &time    = tests[t].rows.time;
           const Eigen::Index         n_bins  = test.n_bins();
           const auto                 time_at = [&](const Eigen::Index bin) {
-            return time[middle_row(test, bin)];
+            return time[test.middle_row(bin)];
           };
           double largest = 0.;
           for (Eigen::Index i = 0; i < test.size; ++i)
@@ -343,7 +335,7 @@ namespace SlipStep
           for (std::size_t i = 0; i < test.n_bins(); ++i)
             {
               const Eigen::Index k   = test.begin + s * test.n_bins() + i;
-              const std::size_t  row = middle_row(test, i);
+              const std::size_t  row = test.middle_row(i);
               for (const Covariate &covariate : all_covariates())
                 (result.*covariate.values)(k) = (rows.*covariate.values)(row);
               result.since_rest(k) = rows.since_rest(row);

@@ -31,6 +31,12 @@ namespace SlipStep
     {
       return borders.size() - 1;
     }
+
+    /// Of the rows of a number.
+    std::size_t middle_row(const std::size_t bin) const
+    {
+      return (borders[bin] + borders[bin + 1]) / 2;
+    }
   };
 
   /// Root mean square of the friction of a test, of both axes.
