@@ -2,6 +2,7 @@
 #include <slipstep/calibration/fit_parameter.h>
 #include <slipstep/diagnosis/candidates.h>
 #include <slipstep/friction/effect.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -14,11 +15,9 @@ namespace SlipStep
   {
     bool lists(const std::vector<FitParameter> &fitted, const std::string &path)
     {
-      return std::any_of(fitted.begin(),
-                         fitted.end(),
-                         [&](const FitParameter &parameter) {
-                           return parameter.path == path;
-                         });
+      return any_of(fitted, [&](const FitParameter &parameter) {
+        return parameter.path == path;
+      });
     }
 
 
@@ -194,6 +193,29 @@ namespace SlipStep
 
 
 
+    // To a candidate those of an effect that can be tried; why the others
+    // cannot goes to the reasons, each once.
+    void add_formulas(const std::vector<TrialFormula::Form> &forms,
+                      const EffectInfo                      &info,
+                      const Circumstances                   &now,
+                      Candidate                             &candidate,
+                      std::vector<std::string>              &reasons)
+    {
+      for (const TrialFormula::Form &form : forms)
+        {
+          TrialFormula formula = form(now);
+          if (!now.has(info.name))
+            formula.effect = info.name;
+          formula.along = info.search.along;
+          if (formula.why_not.empty())
+            candidate.formulas.push_back(formula);
+          else if (!holds(reasons, formula.why_not))
+            reasons.push_back(formula.why_not);
+        }
+    }
+
+
+
     // By its own formula and by others of the same.
     Candidate candidate_of(const EffectInfo                &own,
                            const Circumstances             &now,
@@ -215,23 +237,11 @@ namespace SlipStep
               candidate.leave_to_model(which + " is in the model already");
               return candidate;
             }
-          std::vector<std::function<TrialFormula(const Circumstances &)>>
-            forms = info->search.other_forms;
           if (info->search.formula)
-            forms.insert(forms.begin(), info->search.formula);
-          for (const auto &form : forms)
-            {
-              TrialFormula formula = form(now);
-              if (!now.has(info->name))
-                formula.effect = info->name;
-              formula.along = info->search.along;
-              if (formula.why_not.empty())
-                candidate.formulas.push_back(formula);
-              else if (std::find(reasons.begin(),
-                                 reasons.end(),
-                                 formula.why_not) == reasons.end())
-                reasons.push_back(formula.why_not);
-            }
+            add_formulas(
+              {info->search.formula}, *info, now, candidate, reasons);
+          add_formulas(
+            info->search.other_forms, *info, now, candidate, reasons);
         }
       if (candidate.formulas.empty())
         candidate.why_not = list_text(reasons);
@@ -271,18 +281,14 @@ namespace SlipStep
             "it is tried as a formula of " + own.search.candidate;
           return candidate;
         }
-      for (const auto &form : own.search.beside_formulas)
-        {
-          TrialFormula formula = form({with_partner, now.range});
-          formula.effect       = own.name;
-          formula.along        = own.search.along;
-          if (formula.why_not.empty())
-            candidate.formulas.push_back(formula);
-          else if (candidate.why_not.empty())
-            candidate.why_not = formula.why_not;
-        }
-      if (!candidate.formulas.empty())
-        candidate.why_not = "";
+      std::vector<std::string> reasons;
+      add_formulas(own.search.beside_formulas,
+                   own,
+                   {with_partner, now.range},
+                   candidate,
+                   reasons);
+      if (candidate.formulas.empty() && !reasons.empty())
+        candidate.why_not = reasons.front();
       if (!has_partner)
         candidate.only_beside = partner;
       return candidate;
@@ -347,7 +353,7 @@ namespace SlipStep
       wanted = candidate_names();
     std::vector<Candidate> result;
     for (const std::string &name : candidate_names())
-      if (std::find(wanted.begin(), wanted.end(), name) != wanted.end())
+      if (holds(wanted, name))
         {
           if (const NumberOfModel *number = number_of_model(name))
             {
