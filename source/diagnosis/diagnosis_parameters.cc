@@ -4,6 +4,8 @@
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/pattern_words.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <cmath>
 
 namespace SlipStep
@@ -110,14 +112,13 @@ namespace SlipStep
       if (!holds(known, name) && !(name == "all" && list.size() == 1))
         {
           const std::string near = nearest_name(name, known);
-          std::string       all;
-          for (const std::string &one : known)
-            all += (all.empty() ? "" : ", ") + one;
           parameters.reject(section + "Candidates",
                             "there is no candidate '" + name + "'; " +
                               (name == "all" ? "'all' stands alone" :
-                               near.empty()  ? "known are: " + all :
-                                               "did you mean '" + near + "'?"));
+                               near.empty()  ? "known are: " +
+                                                boost::algorithm::join(known,
+                                                                       ", ") :
+                                              "did you mean '" + near + "'?"));
         }
   }
 

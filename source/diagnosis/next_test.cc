@@ -3,13 +3,13 @@
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/rules.h>
 #include <slipstep/measured_data/test_rows.h>
-#include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace SlipStep
 {
@@ -249,14 +249,12 @@ namespace SlipStep
           std::min(least, separation(workspace, winner, rival.model, motion));
       return least;
     });
+    std::set<std::string> names;
     for (const Part &part : winner.parts)
-      best.separates.push_back(part.name);
+      names.insert(part.name);
     for (const Rival &rival : rivals)
-      best.separates.push_back(rival.name);
-    std::sort(best.separates.begin(), best.separates.end());
-    best.separates.erase(std::unique(best.separates.begin(),
-                                     best.separates.end()),
-                         best.separates.end());
+      names.insert(rival.name);
+    best.separates.assign(names.begin(), names.end());
     return best;
   }
 } // namespace SlipStep

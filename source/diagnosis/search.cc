@@ -5,14 +5,11 @@
 #include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/rules.h>
-#include <slipstep/utilities/exceptions.h>
-
-#include <Eigen/Dense>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace SlipStep
 {
@@ -88,12 +85,6 @@ namespace SlipStep
       bool examine(const std::size_t part);
 
       bool try_rivals(const Model &less, const Part part, const double cost);
-
-      void tell(const std::string &text) const
-      {
-        if (workspace.progress)
-          workspace.progress(text);
-      }
 
       Workspace   &workspace;
       SearchResult result;
@@ -188,13 +179,10 @@ namespace SlipStep
               pair.gain < std::max(single + more, 2. * least_cost) ||
               n_tried == most_tried || workspace.is_late())
             continue;
-          const auto names =
+          const std::pair<std::size_t, std::size_t> names =
             std::minmax(view.set.directions[pair.first].candidate,
                         view.set.directions[pair.second].candidate);
-          if (std::find(seen.begin(),
-                        seen.end(),
-                        std::pair<std::size_t, std::size_t>(names)) !=
-              seen.end())
+          if (holds(seen, names))
             continue;
           seen.push_back(names);
           ++n_tried;
@@ -229,11 +217,9 @@ namespace SlipStep
           found = single_additions(view);
           add_pairs(view, found);
         }
-      std::stable_sort(found.begin(),
-                       found.end(),
-                       [](const Model &a, const Model &b) {
-                         return penalised(a) < penalised(b);
-                       });
+      stable_sort(found, [](const Model &a, const Model &b) {
+        return penalised(a) < penalised(b);
+      });
       if (workspace.is_late())
         return false;
       const std::optional<FreeFactor> completed =
@@ -254,7 +240,7 @@ namespace SlipStep
           result.model        = best;
           settle(workspace, result.model);
           for (std::size_t part = n; part < result.model.parts.size(); ++part)
-            tell("added " + result.model.parts[part].name);
+            workspace.tell("added " + result.model.parts[part].name);
           return true;
         }
       // What leaves nothing of an effect does not complete its formula.
@@ -263,7 +249,7 @@ namespace SlipStep
         return false;
       result.model = completed->model;
       settle(workspace, result.model);
-      tell("completed the " + result.model.parts.back().name);
+      workspace.tell("completed the " + result.model.parts.back().name);
       return true;
     }
 
@@ -399,7 +385,7 @@ namespace SlipStep
 
     void Searcher::prove()
     {
-      tell("proving");
+      workspace.tell("proving");
       for (unsigned int n = 0; n < 6; ++n)
         if (!exchange_and_prune())
           break;

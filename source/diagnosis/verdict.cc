@@ -6,6 +6,7 @@
 #include <slipstep/diagnosis/localisation.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/rules.h>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,11 +74,9 @@ namespace SlipStep
 
       std::vector<std::size_t> order(groups.gap.size());
       std::iota(order.begin(), order.end(), 0);
-      std::sort(order.begin(),
-                order.end(),
-                [&](const std::size_t a, const std::size_t b) {
-                  return groups.remainder[a] > groups.remainder[b];
-                });
+      sort(order, [&](const std::size_t a, const std::size_t b) {
+        return groups.remainder[a] > groups.remainder[b];
+      });
       const double n_all         = sum_of(groups.n_rows);
       const double chance_of_gap = sum_of(groups.gap) - judgement.gap.excess;
       const double chance_of_remainder =
@@ -208,16 +207,13 @@ namespace SlipStep
 
       const Model &model = judgement.found.model;
       const View   view  = score_candidates(workspace, model);
-      if (std::none_of(view.candidates.begin(),
-                       view.candidates.end(),
-                       [](const CandidateView &seen) {
-                         return seen.is_unstable;
-                       }))
+      if (none_of(view.candidates,
+                  [](const CandidateView &seen) { return seen.is_unstable; }))
         return false;
-      const auto places = localise(workspace, model, judgement.remainder);
-      return std::any_of(places.begin(), places.end(), [](const auto &place) {
-        return place.covariate == "speed" && place.share > much;
-      });
+      return any_of(localise(workspace, model, judgement.remainder),
+                    [](const Localisation &place) {
+                      return place.covariate == "speed" && place.share > much;
+                    });
     }
 
 
@@ -257,12 +253,10 @@ namespace SlipStep
     // Nothing is missing, or nothing would have been seen.
     Verdict without_gap(const View &view)
     {
-      return std::any_of(view.candidates.begin(),
-                         view.candidates.end(),
-                         [](const CandidateView &seen) {
-                           return seen.minimum_detectable <=
-                                  largest_hidden_change;
-                         }) ?
+      return any_of(view.candidates,
+                    [](const CandidateView &seen) {
+                      return seen.minimum_detectable <= largest_hidden_change;
+                    }) ?
                Verdict::no_gap :
                Verdict::not_testable;
     }
@@ -349,13 +343,9 @@ namespace SlipStep
 
   Judgement judge(Workspace &workspace, const Model &base)
   {
-    const auto tell = [&](const std::string &text) {
-      if (workspace.progress)
-        workspace.progress(text);
-    };
     Judgement result;
     result.base = base;
-    tell("looking for a gap");
+    workspace.tell("looking for a gap");
     look_for_gap(workspace, result);
     if (result.gap.p > workspace.level)
       {
@@ -363,9 +353,9 @@ namespace SlipStep
         return result;
       }
 
-    tell("looking for its name");
+    workspace.tell("looking for its name");
     look_for_names(workspace, result, result.base);
-    tell("looking for rows that nothing explains");
+    workspace.tell("looking for rows that nothing explains");
     judge_without_outliers(workspace, result);
     if (!result.found.model.parts.empty() && !are_sufficient(workspace, result))
       withdraw(result);

@@ -37,6 +37,12 @@ namespace SlipStep
     /// Told what is being done.
     std::function<void(const std::string &)> progress = {};
 
+    void tell(const std::string &text) const
+    {
+      if (progress)
+        progress(text);
+    }
+
     /// @name Directions that are the same for every model, see
     /// prepare_gap_test(): smooth functions of covariates, waves of conditions,
     /// waves along the track.
