@@ -137,7 +137,7 @@ namespace SlipStep
       out.before = parameter.in_unit(parameter.start);
       Simulator simulator(*model.campaign);
       out.is_at_bound =
-        model.scaled[i] < 1e-6 || model.scaled[i] > 1. - 1e-6 ||
+        is_on_bound(model.scaled[i]) ||
         !simulator.condition_beside(model.scaled, i, -1.).empty() ||
         !simulator.condition_beside(model.scaled, i, 1.).empty();
       const double half = scatter.reach[i] * scatter.deviations(i);
