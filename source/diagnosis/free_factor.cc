@@ -4,12 +4,10 @@
 #include <slipstep/diagnosis/search.h>
 #include <slipstep/diagnosis/rules.h>
 #include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <locale>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -50,16 +48,6 @@ namespace SlipStep
 
 
 
-    std::string factor_number(const double value, const int n_digits)
-    {
-      std::ostringstream out;
-      out.imbue(std::locale::classic());
-      out << std::setprecision(n_digits) << value;
-      return out.str();
-    }
-
-
-
     std::string u_text(const KnotScale &scale)
     {
       switch (scale.kind)
@@ -69,10 +57,10 @@ namespace SlipStep
           case KnotScale::Kind::absolute:
             return "abs(x)";
           case KnotScale::Kind::logarithmic:
-            return "log10(1 + x / " + factor_number(scale.offset, 4) + ")";
+            return "log10(1 + x / " + short_text(scale.offset, 4) + ")";
           case KnotScale::Kind::periodic:
             {
-              const std::string waves = "x / " + factor_number(scale.offset, 8);
+              const std::string waves = "x / " + short_text(scale.offset, 8);
               return waves + " - floor(" + waves + ")";
             }
         }
@@ -89,15 +77,15 @@ namespace SlipStep
           corrections.conservativeResize(n_knots + 1);
           corrections(n_knots) = corrections(0);
         }
-      std::string text  = factor_number(1. + corrections(0), 6);
+      std::string text  = short_text(1. + corrections(0), 6);
       double      slope = 0.;
       for (Eigen::Index k = 0; k + 1 < corrections.size(); ++k)
         {
           const double next = (corrections(k + 1) - corrections(k)) /
                               (scale.knot(k + 1) - scale.knot(k));
           if (next != slope)
-            text += " + (" + factor_number(next - slope, 6) + ") * max(0, " +
-                    u_text(scale) + " - (" + factor_number(scale.knot(k), 6) +
+            text += " + (" + short_text(next - slope, 6) + ") * max(0, " +
+                    u_text(scale) + " - (" + short_text(scale.knot(k), 6) +
                     "))";
           slope = next;
         }
@@ -115,8 +103,8 @@ namespace SlipStep
       formula.n_in_texts = n_knots - 2;
       formula.texts      = {{section + "Covariate", scale.covariate},
                             {section + "Formula", factor_text(scale, corrections)},
-                            {section + "From", factor_number(scale.from, 10)},
-                            {section + "To", factor_number(scale.to, 10)}};
+                            {section + "From", short_text(scale.from, 10)},
+                            {section + "To", short_text(scale.to, 10)}};
       if (!scale.renewal_length.empty())
         formula.texts[section + "Renewal length"] = scale.renewal_length;
       return formula;
