@@ -277,8 +277,6 @@ namespace SlipStep
 
 
 
-    using Changes = std::vector<std::pair<std::string, Eigen::VectorXd>>;
-
     /// Sorts the rows of a campaign into bins along one covariate.
     class PanelMaker
     {
@@ -382,22 +380,21 @@ namespace SlipStep
 
 
 
-  CovariatePanel covariate_panel(
-    const Workspace                                            &workspace,
-    const Eigen::VectorXd                                      &difference,
-    const std::vector<std::pair<std::string, Eigen::VectorXd>> &changes,
-    const Covariate                                            &covariate)
+  CovariatePanel covariate_panel(const Workspace       &workspace,
+                                 const Eigen::VectorXd &difference,
+                                 const Changes         &changes,
+                                 const Covariate       &covariate)
   {
     return PanelMaker(workspace, difference, changes, covariate).make();
   }
 
 
 
-  std::vector<CovariatePanel> covariate_panels(
-    const Workspace                                            &workspace,
-    const Eigen::VectorXd                                      &difference,
-    const std::vector<std::pair<std::string, Eigen::VectorXd>> &changes,
-    const std::vector<Localisation>                            &where)
+  std::vector<CovariatePanel>
+  covariate_panels(const Workspace                 &workspace,
+                   const Eigen::VectorXd           &difference,
+                   const Changes                   &changes,
+                   const std::vector<Localisation> &where)
   {
     std::vector<CovariatePanel> result;
     std::vector<std::string>    names = {

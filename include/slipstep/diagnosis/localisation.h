@@ -16,20 +16,21 @@ namespace SlipStep
   std::vector<Localisation>
   localise(const Workspace &workspace, const Model &model, const GapTest &gap);
 
+  /// Names with changes of the simulated friction.
+  using Changes = std::vector<std::pair<std::string, Eigen::VectorXd>>;
+
   /// What is left over along the covariates, with what models would change.
-  /// @param changes names with changes of the simulated friction
-  std::vector<CovariatePanel> covariate_panels(
-    const Workspace                                            &workspace,
-    const Eigen::VectorXd                                      &difference,
-    const std::vector<std::pair<std::string, Eigen::VectorXd>> &changes,
-    const std::vector<Localisation>                            &where);
+  std::vector<CovariatePanel>
+  covariate_panels(const Workspace                 &workspace,
+                   const Eigen::VectorXd           &difference,
+                   const Changes                   &changes,
+                   const std::vector<Localisation> &where);
 
   /// Along one of them; empty if it hardly varies.
-  CovariatePanel covariate_panel(
-    const Workspace                                            &workspace,
-    const Eigen::VectorXd                                      &difference,
-    const std::vector<std::pair<std::string, Eigen::VectorXd>> &changes,
-    const Covariate                                            &covariate);
+  CovariatePanel covariate_panel(const Workspace       &workspace,
+                                 const Eigen::VectorXd &difference,
+                                 const Changes         &changes,
+                                 const Covariate       &covariate);
 } // namespace SlipStep
 
 #endif
