@@ -3,6 +3,8 @@
 #include <slipstep/diagnosis/hum_of_tests.h>
 #include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/intervals.h>
+#include <slipstep/diagnosis/refits.h>
+#include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
@@ -105,7 +107,7 @@ namespace SlipStep
       {
         const FitParameter &parameter = ingested.base.campaign->fitted[i];
         const double        scaled    = ingested.base.scaled[i];
-        if (scaled < 1e-6 || scaled > 1. - 1e-6)
+        if (is_on_bound(scaled))
           diagnosis.warnings.push_back(
             parameter.path + " of the starting model is at its bound " +
             parameter.text(parameter.from_scaled(scaled), 6) +
@@ -182,8 +184,7 @@ namespace SlipStep
       test.start_time = rows.time.front();
       for (std::size_t i = 0; i < compared.n_bins(); ++i)
         {
-          const std::size_t row =
-            (compared.borders[i] + compared.borders[i + 1]) / 2;
+          const std::size_t row = compared.middle_row(i);
           test.time.push_back(rows.time[row] - rows.time.front());
           test.displacement.push_back(
             rows.displacement_y.empty() ?
@@ -248,17 +249,11 @@ namespace SlipStep
       for (std::size_t part = 0; part + 1 < after.parts.size(); ++part)
         {
           const std::optional<Model> so_far =
-            if_possible([&]() -> std::optional<Model> {
-              Model model = make_model(workspace.start,
-                                       {after.parts.begin(),
-                                        after.parts.begin() + part + 1},
-                                       after.values(),
-                                       workspace.tests,
-                                       after);
-              if (!comparison.fit(model, 0.1))
-                return std::nullopt;
-              return model;
-            });
+            fitted_model(workspace,
+                         {after.parts.begin(), after.parts.begin() + part + 1},
+                         after.values(),
+                         after,
+                         0.1);
           if (so_far.has_value())
             steps.push_back(step("with " + after.parts[part].name, *so_far));
         }
@@ -442,9 +437,7 @@ namespace SlipStep
   {
     std::vector<std::string> &doubts  = diagnosis.would_overturn;
     const auto                percent = [](const double share) {
-      std::ostringstream out;
-      out << std::setprecision(2) << 100. * share << " %";
-      return out.str();
+      return short_text(100. * share, 2) + " %";
     };
     if (diagnosis.n_replicate_pairs == 0)
       doubts.push_back(

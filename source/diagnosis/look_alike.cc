@@ -185,20 +185,17 @@ namespace SlipStep
       part.formula.parameters = {parameter};
       Values values           = base.values();
       values[path]            = workspace.start.number(path);
-      return if_possible([&]() -> std::optional<Model> {
-        Model model =
-          make_model(workspace.start, {part}, values, workspace.tests, base);
-        if (!workspace.comparison.fit(model, 0.01) ||
-            model.scaled.back() < at_bound ||
-            model.scaled.back() > 1. - at_bound)
-          return std::nullopt;
-        look_alike.value = model.values().at(path);
-        look_alike.path  = path;
-        look_alike.text =
-          quantity_text(workspace.start, path, look_alike.value, 3);
-        look_alike.held_text = workspace.start.text(path);
-        return model;
-      });
+      const std::optional<Model> model =
+        fitted_model(workspace, {part}, values, base, 0.01);
+      if (!model.has_value() || model->scaled.back() < at_bound ||
+          model->scaled.back() > 1. - at_bound)
+        return {};
+      look_alike.value = model->values().at(path);
+      look_alike.path  = path;
+      look_alike.text =
+        quantity_text(workspace.start, path, look_alike.value, 3);
+      look_alike.held_text = workspace.start.text(path);
+      return model;
     }
   } // namespace
 

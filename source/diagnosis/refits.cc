@@ -13,12 +13,35 @@ namespace SlipStep
 
 
 
-    std::optional<Model> fitted(const Workspace &workspace, Model model)
+    std::optional<Model>
+    fitted(const Comparison &comparison, Model model, const double precision)
     {
-      return workspace.comparison.fit(model, precision) ?
+      return comparison.fit(model, precision) ?
                std::make_optional(std::move(model)) :
                std::nullopt;
     }
+  } // namespace
+
+
+
+  std::optional<Model> fitted_model(const Workspace         &workspace,
+                                    const std::vector<Part> &parts,
+                                    const Values            &values,
+                                    const Model             &like,
+                                    const double             precision)
+  {
+    return if_possible([&]() {
+      return fitted(
+        workspace.comparison,
+        make_model(workspace.start, parts, values, workspace.tests, like),
+        precision);
+    });
+  }
+
+
+
+  namespace
+  {
 
 
 
@@ -28,23 +51,19 @@ namespace SlipStep
                                   const Candidate &candidate,
                                   const Direction &direction,
                                   const Values    &values,
-                                  double           strength)
+                                  const double     strength)
     {
       const TrialFormula::Shape &shape =
         candidate.formulas[direction.formula].shapes[direction.shape];
-      std::optional<Model> result;
-      for (unsigned int attempt = 0; attempt < 2 && !result.has_value();
-           ++attempt, strength *= 0.1)
-        result = if_possible([&]() {
-          return fitted(
-            workspace,
-            make_model(workspace.start,
-                       with_part(model.parts, candidate, direction.formula),
-                       merged(values, shape(strength)),
-                       workspace.tests,
-                       model));
-        });
-      return result;
+      for (const double share : {1., 0.1})
+        if (std::optional<Model> result =
+              fitted_model(workspace,
+                           with_part(model.parts, candidate, direction.formula),
+                           merged(values, shape(share * strength)),
+                           model,
+                           precision))
+          return result;
+      return {};
     }
 
 
@@ -96,9 +115,6 @@ namespace SlipStep
           return true;
       return false;
     }
-
-
-
   } // namespace
 
 
@@ -166,11 +182,8 @@ namespace SlipStep
         add(pair.first, pair.first_strength);
         add(pair.second, pair.second_strength);
         ++workspace.n_refits;
-        const std::optional<Model> tried = if_possible([&]() {
-          return fitted(
-            workspace,
-            make_model(workspace.start, parts, values, workspace.tests, model));
-        });
+        const std::optional<Model> tried =
+          fitted_model(workspace, parts, values, model, precision);
         if (tried.has_value())
           return tried;
       }
@@ -192,16 +205,13 @@ namespace SlipStep
           if (part.formula.shapes.empty() || workspace.is_late())
             continue;
           ++workspace.n_refits;
-          const std::optional<Model> tried = if_possible([&]() {
-            return fitted(workspace,
-                          make_model(workspace.start,
-                                     model.parts,
-                                     merged(model.values(),
-                                            part.formula.shapes[shape](
-                                              strength)),
-                                     workspace.tests,
-                                     model));
-          });
+          const std::optional<Model> tried =
+            fitted_model(workspace,
+                         model.parts,
+                         merged(model.values(),
+                                part.formula.shapes[shape](strength)),
+                         model,
+                         precision);
           if (tried.has_value() && !is_at_bound(*tried) &&
               tried->objective < best.objective - sure_gain)
             best = *tried;
@@ -257,9 +267,7 @@ namespace SlipStep
           series.row_share = 0.;
         }
     plain.set_noise(Noise(), plain.measured);
-    Model result = model.copy();
-    return plain.fit(result, 1.) ? std::make_optional(std::move(result)) :
-                                   std::nullopt;
+    return fitted(plain, model.copy(), 1.);
   }
 
 
@@ -290,7 +298,7 @@ namespace SlipStep
       // The model that it is compared with is not weak in what is missing
       // here.
       result.simulator->correct(result.scaled);
-      return fitted(workspace, std::move(result));
+      return fitted(workspace.comparison, std::move(result), precision);
     });
   }
 } // namespace SlipStep

@@ -8,6 +8,15 @@
 
 namespace SlipStep
 {
+  /// The starting model with effects added, fitted; none if it cannot be
+  /// simulated.
+  /// @param like, values as of make_model()
+  std::optional<Model> fitted_model(const Workspace         &workspace,
+                                    const std::vector<Part> &parts,
+                                    const Values            &values,
+                                    const Model             &like,
+                                    const double             precision);
+
   /// A model with one more effect, fitted, by the formula that does best; none
   /// if it cannot be simulated.
   std::optional<Model> refit_with(Workspace           &workspace,
