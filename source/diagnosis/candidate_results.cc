@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/diagnosis/candidate_results.h>
+#include <slipstep/diagnosis/findings.h>
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/rules.h>
 #include <slipstep/utilities/lists.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/diagnosis/candidate_results.h>
 #include <slipstep/diagnosis/correction.h>
 #include <slipstep/diagnosis/diagnose.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
@@ -7,7 +6,6 @@
 #include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/outlying_rows.h>
 #include <slipstep/diagnosis/element_tests.h>
-#include <slipstep/diagnosis/improved_case.h>
 #include <slipstep/diagnosis/intervals.h>
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/localisation.h>
@@ -51,6 +49,22 @@ namespace SlipStep
         }
       workspace.start.reject("Diagnosis/Candidates",
                              "none of these can be tried (" + why + ")");
+    }
+
+
+
+    // With a model's effects and fitted values, as `run` and `point` take it.
+    Parameters case_of(const Parameters &start, const Model &model)
+    {
+      Parameters result =
+        assemble(start, model.parts, model.values()).parameters;
+      for (const auto &[path, value] : model.values())
+        result.set(path, quantity_text(result, path, value, 8), "diagnosis");
+      apply_ties(read_derived(result), result);
+      result.set("Calibration/Parameters",
+                 statements(model.campaign->fitted, false),
+                 "diagnosis");
+      return result;
     }
 
 
@@ -304,7 +318,7 @@ namespace SlipStep
       describe_short_lengths(workspace, final_model, result);
       const Eigen::VectorXd base_difference =
         comparison.difference(ingested.base);
-      std::vector<std::pair<std::string, Eigen::VectorXd>> changes;
+      Changes    changes;
       const auto add = [&](const std::string &label, const Model &model) {
         changes.emplace_back(label,
                              comparison.difference(model) - base_difference);

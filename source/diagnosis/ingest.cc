@@ -3,13 +3,13 @@
 #include <slipstep/diagnosis/hum_of_tests.h>
 #include <slipstep/diagnosis/motion_noise.h>
 #include <slipstep/diagnosis/outlier.h>
-#include <slipstep/diagnosis/record_warnings.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
 #include <slipstep/diagnosis/ingest.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
 
 #include <Eigen/Dense>
 
@@ -477,17 +477,15 @@ namespace SlipStep
       const bool is_told = far[0].first > clearly * far[1].first;
       const auto leave   = [&](const std::size_t outlier,
                              const std::size_t twin) {
-        std::ostringstream words;
-        words << std::setprecision(2) << "it and its replicate "
-              << workspace.tests[twin].rows.name
-              << " contradict each other (chance by the noise of the others: "
-              << found->chance << ")"
-              << (is_told ? ", and it is farther from the model: it is" :
-                              ", and the model does not tell which is "
-                              "wrong: both are")
-              << " left out";
         result.outliers.push_back(
-          {workspace.tests[outlier].rows.name, words.str()});
+          {workspace.tests[outlier].rows.name,
+           "it and its replicate " + workspace.tests[twin].rows.name +
+             " contradict each other (chance by the noise of the others: " +
+             short_text(found->chance, 2) + ")" +
+             (is_told ? ", and it is farther from the model: it is" :
+                          ", and the model does not tell which is wrong: both "
+                          "are") +
+             " left out"});
         result.outlier_tests.push_back(workspace.tests[outlier]);
       };
       leave(far[0].second, far[1].second);

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/hum_of_tests.h>
-#include <slipstep/diagnosis/record_warnings.h>
+#include <slipstep/diagnosis/ingest.h>
 
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -30,12 +28,11 @@ namespace SlipStep
           }
       if (n == 0)
         return;
-      std::ostringstream words;
-      words << std::setprecision(2) << "The rows of " << n
-            << " test(s) hang together (correlation of neighbours up to "
-            << decay
-            << "): they tell as much as fewer rows would, and are weighed so.";
-      result.warnings.push_back(words.str());
+      result.warnings.push_back(
+        "The rows of " + std::to_string(n) +
+        " test(s) hang together (correlation of neighbours up to " +
+        short_text(decay, 2) +
+        "): they tell as much as fewer rows would, and are weighed so.");
     }
 
 
@@ -46,23 +43,21 @@ namespace SlipStep
         hum_of(result.workspace->comparison, result.workspace->tests);
       if (hum.n_told == 0)
         return;
-      std::ostringstream words;
-      words << (hum.is_mains ? "The mains hum" : "A wave in time hums")
-            << " in the friction of " << hum.n_told
-            << " test(s): " << rounded_text(hum.frequency, 3) << " Hz, "
-            << rounded_text(100. * hum.share, 2)
-            << " % of friction. It is taken off, and what looks like it counts "
-               "as noise. ";
-      if (hum.is_mains)
-        words << "Rows that are further apart than "
-              << rounded_text(500. / hum.frequency, 2)
-              << " ms see it as a slower wave: a low-pass filter before the "
-                 "recorder helps.";
-      else
-        words << "Replicates differ by it, at several speeds: the mains look "
-                 "so where rows are nearly in step with them, or it is the "
-                 "recorder's.";
-      result.warnings.push_back(words.str());
+      result.warnings.push_back(
+        (hum.is_mains ? "The mains hum" : "A wave in time hums") +
+        std::string(" in the friction of ") + std::to_string(hum.n_told) +
+        " test(s): " + rounded_text(hum.frequency, 3) + " Hz, " +
+        rounded_text(100. * hum.share, 2) +
+        " % of friction. It is taken off, and what looks like it counts as "
+        "noise. " +
+        (hum.is_mains ?
+           "Rows that are further apart than " +
+             rounded_text(500. / hum.frequency, 2) +
+             " ms see it as a slower wave: a low-pass filter before the "
+             "recorder helps." :
+           "Replicates differ by it, at several speeds: the mains look so "
+           "where rows are nearly in step with them, or it is the "
+           "recorder's."));
     }
 
 
@@ -100,12 +95,11 @@ namespace SlipStep
           }
       if (!(highest - lowest > noticed))
         return;
-      std::ostringstream words;
-      words << std::setprecision(3) << "The measured temperature goes from "
-            << lowest << " to " << highest
-            << " degC: no effect reads it, so that what it does to friction "
-               "has no name here.";
-      result.warnings.push_back(words.str());
+      result.warnings.push_back(
+        "The measured temperature goes from " + short_text(lowest, 3) + " to " +
+        short_text(highest, 3) +
+        " degC: no effect reads it, so that what it does to friction has no "
+        "name here.");
     }
   } // namespace
 
@@ -132,14 +126,11 @@ namespace SlipStep
         step = std::max(step, own);
       }
     if (n_rounded > 0)
-      {
-        std::ostringstream words;
-        words << std::setprecision(2) << "The friction of " << n_rounded
-              << " test(s) is rounded to steps of " << step
-              << ", coarser than its scatter: rounding is no noise, and small "
-                 "differences cannot be trusted. Export more digits.";
-        ingested.warnings.push_back(words.str());
-      }
+      ingested.warnings.push_back(
+        "The friction of " + std::to_string(n_rounded) +
+        " test(s) is rounded to steps of " + short_text(step, 2) +
+        ", coarser than its scatter: rounding is no noise, and small "
+        "differences cannot be trusted. Export more digits.");
     warn_of_hum(ingested);
     warn_of_rows(ingested);
     warn_of_temperatures(ingested);

@@ -12,6 +12,14 @@ namespace SlipStep
   ///@{
   void describe_data(const Ingested &ingested, Diagnosis &diagnosis);
 
+  /// The whole catalogue with what became of every effect.
+  /// @param parameters that were fitted in the end
+  std::vector<CandidateResult>
+  candidate_results(const Workspace                       &workspace,
+                    const Judgement                       &judgement,
+                    const std::vector<DiagnosedParameter> &parameters,
+                    const Model                           &base);
+
   void describe_noise(const Workspace &workspace, Diagnosis &diagnosis);
 
   /// @param after the model that the diagnosis came to

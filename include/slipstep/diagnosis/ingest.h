@@ -39,6 +39,9 @@ namespace SlipStep
                   const Stage                    &stage,
                   const std::vector<std::string> &left_out = {});
 
+  /// Add to the warnings what the records and their noise are not fit for.
+  void warn_of_records(Ingested &ingested);
+
   /// Compute the objective of the start by the weights that rows have now.
   void weigh_start(Ingested &ingested);
 
