@@ -495,14 +495,20 @@ namespace SlipStep
 
 
 
-  bool Summary::is_unstable(const SlideSummary &slide) const
+  bool StabilitySummary::is_of(const SlideSummary &slide) const
   {
     const auto are_close = [](const double a, const double b) {
       return std::abs(a - b) <= 1e-6 * b;
     };
+    return are_close(slide.speed, speed) && are_close(slide.pressure, pressure);
+  }
+
+
+
+  bool Summary::is_unstable(const SlideSummary &slide) const
+  {
     return any_of(stability, [&](const StabilitySummary &s) {
-      return !s.is_stable() && are_close(slide.speed, s.speed) &&
-             are_close(slide.pressure, s.pressure);
+      return !s.is_stable() && s.is_of(slide);
     });
   }
 

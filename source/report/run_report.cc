@@ -362,18 +362,6 @@ namespace SlipStep
 
     /// Whether the machine lets the contact slide steadily; a head alone
     /// without a spring.
-    /// As a disturbance that is not small can make it swing, too.
-    bool swings_at(const StabilitySummary &at, const Summary &summary)
-    {
-      const auto are_close = [](const double a, const double b) {
-        return std::abs(a - b) <= 1e-6 * b;
-      };
-      return any_of(summary.slides, [&](const SlideSummary &slide) {
-        return slide.swings() && are_close(slide.speed, at.speed) &&
-               are_close(slide.pressure, at.pressure);
-      });
-    }
-
     std::vector<TableLine> stability_lines(const std::vector<RunResults> &runs)
     {
       std::vector<TableLine> lines = {
@@ -390,9 +378,14 @@ namespace SlipStep
                "∞" :
                short_text(s.critical_stiffness),
              s.critical_frequency > 0. ? short_text(s.critical_frequency) : "–",
-             !s.is_stable()            ? "unstable: stick-slip" :
-             swings_at(s, run.summary) ? "stable, but the run swings" :
-                                         "stable"});
+             !s.is_stable() ? "unstable: stick-slip" :
+                              // As a disturbance that is not small can make it.
+               any_of(run.summary.slides,
+                      [&](const SlideSummary &slide) {
+                        return slide.swings() && s.is_of(slide);
+                      }) ?
+                              "stable, but the run swings" :
+                              "stable"});
       return lines;
     }
 

@@ -65,6 +65,9 @@ namespace SlipStep
     {
       return stiffness > critical_stiffness;
     }
+
+    /// Whether a slide is at this speed and pressure.
+    bool is_of(const SlideSummary &slide) const;
   };
 
   /// Estimated error of an adaptive mesh, of the steps that were accepted on it
