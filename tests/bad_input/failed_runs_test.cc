@@ -105,12 +105,17 @@ TEST(FailedRun, ABlockThatComesOffHasNoFrictionThere)
   const SlipstepProcess process;
   process.write("case.prm",
                 "set Loading/Programme = press 5 MPa in 1 s; slide 1 mm/s for "
-                "0.1 mm; press 0 MPa in 1 s\n"
+                "0.1 mm; press 0 MPa in 1 s; slide 1 mm/s for 0.1 mm\n"
                 "set Friction/Effects =\n"
                 "set Friction/Static coefficient = 0.3\n"
+                "set Friction/Normal stiffness = 1e5\n"
+                "set Friction/Tangential stiffness = 1e4\n"
                 "set Block/Dimension = 2\n"
                 "set Block/Size = 10 mm, 10 mm\n"
-                "set Block/Subdivisions = 4, 4\n"
+                "set Block/Subdivisions = 8, 4\n"
+                "set Block/Degree = 2\n"
+                "set Block/Young modulus = 2 GPa\n"
+                "set Block/Poisson ratio = 0.3\n"
                 "set Output/Fields = none\n");
   EXPECT_EQ(process.run({"run", "case.prm"}).exit_code, 1);
   expect_kept(process, "output/case", "come off the plane");
