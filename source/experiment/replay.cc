@@ -83,9 +83,15 @@ namespace SlipStep
     Motion result;
     result.start_time   = test.time.front();
     result.row_distance = row_distance;
-    // Put on the plane, the contact takes the first pressure at once.
-    const double pressure = test.pressure.front();
-    result.intervals.push_back({Tensor<1, 2>(), 0., pressure, 1.});
+    // Put on the plane, the contact takes the first pressure at once: a rest
+    // would strengthen it.
+    constexpr double at_once  = 1e-9; // of the test
+    const double     pressure = test.pressure.front();
+    result.intervals.push_back(
+      {Tensor<1, 2>(),
+       0.,
+       pressure,
+       at_once * (test.time.back() - test.time.front())});
     if (lead_in > 0.)
       {
         const auto [length, duration] = first_motion(test, lead_in);

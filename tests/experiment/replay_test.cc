@@ -80,6 +80,26 @@ TEST(Replay, AgreesWithTheProgrammeOfTheSameMotion)
 
 
 
+// Contacts that nothing renews are as old as the test.
+TEST(Replay, ContactsAreYoungWhereATestBegins)
+{
+  const auto friction =
+    friction_at(point_parameters(
+                  {{"Friction/Effects", "ageing"},
+                   {"Friction/Static coefficient", "0.1"},
+                   {"Friction/ageing/Growth", "0.02"},
+                   {"Friction/ageing/Time", "1 ms"},
+                   {"Friction/ageing/Renewal length", "1e9 mm"}}),
+                1e-6,
+                {0.5, 5.},
+                0.,
+                0.01);
+  EXPECT_NEAR(friction[0], 0.1 * (1. + 0.02 * std::log1p(0.5 / 1e-3)), 1e-6);
+  EXPECT_NEAR(friction[1], 0.1 * (1. + 0.02 * std::log1p(5. / 1e-3)), 1e-6);
+}
+
+
+
 TEST(Replay, ErrorFallsWithTheTolerance)
 {
   const Parameters          parameters = point_parameters({});
