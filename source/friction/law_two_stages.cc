@@ -231,7 +231,10 @@ namespace SlipStep
     const Contributions all = contributions(step);
     const double        strength =
       end.normal_traction * end.coefficient * all.factor.value + all.sum.value;
-    return 0.5 * std::abs(strength - end.strength) / end.strength;
+    double error = 0.5 * std::abs(strength - end.strength) / end.strength;
+    for (const StrengthEffect *effect : strength_effects)
+      error = std::max(error, effect->unseen_error(start, end));
+    return error;
   }
 
 

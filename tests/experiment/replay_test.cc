@@ -4,6 +4,7 @@
 
 #include <slipstep/experiment/replay.h>
 
+#include <boost/math/special_functions/expint.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,11 +32,12 @@ namespace
                                   const double               tolerance,
                                   const std::vector<double> &times,
                                   const double               lead_in = 0.,
-                                  const double row_distance          = 1e30)
+                                  const double        row_distance   = 1e30,
+                                  const MeasuredTest &test           = zigzag())
   {
     const FrictionLaw law(parameters);
     const Machine     machine(parameters);
-    Replay            replay(zigzag(), lead_in, row_distance);
+    Replay            replay(test, lead_in, row_distance);
     replay.plan(law, machine, tolerance);
     Replay::Curve curve;
     replay.simulate(law, machine, curve);
@@ -96,6 +98,38 @@ TEST(Replay, ContactsAreYoungWhereATestBegins)
                 0.01);
   EXPECT_NEAR(friction[0], 0.1 * (1. + 0.02 * std::log1p(0.5 / 1e-3)), 1e-6);
   EXPECT_NEAR(friction[1], 0.1 * (1. + 0.02 * std::log1p(5. / 1e-3)), 1e-6);
+}
+
+
+
+// Slip over the length is long between the rows, and the contact lags behind a
+// pressure that falls evenly: ln(p_m/p) = exp(u) E_1(u), u = p/(L
+// |dp/dlambda|).
+TEST(Replay, AContactLagsBehindThePressure)
+{
+  MeasuredTest test;
+  test.time         = {0., 0.1, 2.};
+  test.displacement = {0., 0.1, 2.};
+  test.pressure     = {15., 15., 0.1};
+  test.friction.assign(3, 0.);
+  const double u = 0.1 / (0.002 * 14.9 / 1.9);
+  const double exact =
+    0.2 * std::exp(-0.5 * std::exp(u) * boost::math::expint(-u));
+  for (const double tolerance : {5e-3, 5e-4, 5e-5})
+    EXPECT_NEAR(friction_at(point_parameters(
+                              {{"Friction/Effects", "pressure_memory"},
+                               {"Friction/Static coefficient", "0.2"},
+                               {"Friction/Tangential stiffness", "1e4"},
+                               {"Friction/pressure_memory/Change", "0.5"},
+                               {"Friction/pressure_memory/Slip length",
+                                "0.002 mm"}}),
+                            tolerance,
+                            {2.},
+                            0.,
+                            1e30,
+                            test)[0],
+                exact,
+                tolerance * exact);
 }
 
 

@@ -302,6 +302,14 @@ namespace SlipStep
       return 0.;
     }
 
+    /// By how much the strength at the end of a step is off, as a share, beyond
+    /// what the slip rates of its stages tell.
+    virtual double unseen_error(const ContactState & /*start*/,
+                                const ContactState & /*end*/) const
+    {
+      return 0.;
+    }
+
     /// Write what the effect remembers of a point that was never loaded, if
     /// that is a parameter.
     virtual void begin(ContactState & /*state*/) const

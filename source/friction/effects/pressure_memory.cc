@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/effect.h>
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include <cmath>
 
 namespace SlipStep
@@ -93,6 +95,37 @@ namespace SlipStep
           has_slipped ? step.normal_traction *
                           std::exp(share_kept(step) * log_ratio(step)) :
                         0.;
+      }
+
+      // Over a stage the pressure is taken as constant: of a long one it would
+      // not be seen that the contact lags behind.
+      virtual double unseen_error(const ContactState &start,
+                                  const ContactState &end) const override
+      {
+        const double slip = end.slip_path - start.slip_path,
+                     p_0 = start.normal_traction, p_1 = end.normal_traction;
+        if (!(p_0 > 0.) || !(p_1 > 0.) || !(slip > 0.) ||
+            !(end[adapted_pressure] > 0.))
+          return 0.;
+        // With z = w ln(p_m/p_1), L dz/dlambda = ln(p/p_1) - z; of a pressure
+        // that changes evenly with slip, in t = exp(-(slip to come)/L).
+        const double kept = std::exp(-slip / L);
+        const double z =
+          (start[adapted_pressure] > 0. ?
+             kept * start[adapted_share] *
+               std::log(start[adapted_pressure] / p_1) :
+             0.) +
+          boost::math::quadrature::gauss<double, 15>::integrate(
+            [&](const double t) {
+              return std::log1p((p_0 / p_1 - 1.) *
+                                std::min(1., -L * std::log(t) / slip));
+            },
+            kept,
+            1.);
+        const double v = 1. - std::pow(1. - end[adapted_share], beginning);
+        return std::abs(
+          alpha * v *
+          (z / end[adapted_share] - std::log(end[adapted_pressure] / p_1)));
       }
 
     private:
