@@ -15,10 +15,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 struct slipstep_law
@@ -116,6 +118,28 @@ namespace SlipStep
 
 
 
+    // As a share of the strength.
+    double distance(const ContactState &one, const ContactState &other)
+    {
+      return one.strength > 0. ?
+               std::max((one.traction - other.traction).norm() / one.strength,
+                        std::abs(one.normal_ratio - other.normal_ratio)) :
+               0.;
+    }
+
+
+
+    // Slip turns where the strength falls below the traction, which three
+    // stages in one part and in its halves may pass alike.
+    bool unloads_too_much(const ContactState &begin, const ContactState &end)
+    {
+      constexpr double least = 0.5;
+      return end.normal_traction > 0. &&
+             end.normal_traction < least * begin.normal_traction;
+    }
+
+
+
     // By halves: where a host's iteration varies an increment a little, most
     // parts stay, and the tangent is that of what is computed.
     ContactState PartedStep::find_parts(const ContactState         &from,
@@ -130,8 +154,24 @@ namespace SlipStep
       constexpr std::size_t  most_parts = 10000;
       constexpr unsigned int most_jumps = 5;
 
-      const ContactPoint tried = part(from, begin, end, slip, pressure);
-      if (tried.error(law).at_end <= allowed || end - begin < shortest)
+      const ContactPoint tried  = part(from, begin, end, slip, pressure);
+      const double       middle = 0.5 * (begin + end);
+      // Two estimates: the one of two halves does not see what both halves
+      // miss, the one of a part how far its stages are from each other.
+      const auto is_good = [&]() {
+        if (tried.error(law).at_end > allowed ||
+            unloads_too_much(from, tried.trial()))
+          return false;
+        const ContactState halves =
+          part(part(from, begin, middle, slip, pressure).trial(),
+               middle,
+               end,
+               slip,
+               pressure)
+            .trial();
+        return distance(halves, tried.trial()) <= allowed;
+      };
+      if (end - begin < shortest || is_good())
         {
           if (end - begin < shortest && ++n_jumps > most_jumps)
             throw RunError("friction jumps again and again, however short the "
@@ -143,7 +183,6 @@ namespace SlipStep
           ends.push_back(end);
           return tried.trial();
         }
-      const double middle = 0.5 * (begin + end);
       return find_parts(find_parts(from, begin, middle, slip, pressure),
                         middle,
                         end,
@@ -220,14 +259,31 @@ namespace SlipStep
 
 
     // What no step leaves behind.
-    void check_state(const ContactState &state)
+    void check_state(const FrictionLaw &law, const ContactState &state)
     {
-      if (!(state.coefficient > 0.))
-        throw InputError("the state has a coefficient of friction of " +
-                         rounded_text(state.coefficient, 4) +
-                         ": the first one is slipstep_initial_state()'s");
-      if (state.normal_traction < 0. || state.strength < 0.)
-        throw InputError("the state has a negative pressure or strength");
+      const auto check = [](const char  *name,
+                            const double value,
+                            const double least,
+                            const double greatest) {
+        constexpr double round_off = 1e-6;
+        if (value < least - round_off || value > greatest + round_off)
+          throw InputError(
+            "the state has " + std::string(name) + " = " +
+            rounded_text(value, 4) +
+            ", which no step leaves "
+            "behind: the first one is slipstep_initial_state()'s");
+      };
+      const auto [smallest, largest] = law.coefficient_range();
+      check("mu", state.coefficient, smallest, largest);
+      check("r_s", state.normal_ratio, 0., 1.);
+      for (const auto &[name, value] :
+           {std::pair("normal_traction_MPa", state.normal_traction),
+            {"strength_MPa", state.strength},
+            {"slip_path_mm", state.slip_path},
+            {"slip_rate_mm_per_s", state.slip_rate}})
+        check(name, value, 0., std::numeric_limits<double>::infinity());
+      for (const ContactMemory &memory : law.memories())
+        check(memory.name, state[memory], memory.least, memory.greatest);
       if (state.normal_traction == 0. && state.traction.norm() > 0.)
         throw InputError("the state has a traction without pressure");
     }
@@ -378,7 +434,7 @@ int slipstep_step(const slipstep_law *const law,
       if (!(time_step > 0.) || !std::isfinite(time_step))
         throw InputError("the time step has to be positive");
       const dealii::Tensor<1, 2> increment({slip[0], slip[1]});
-      check_state(first);
+      check_state(law->law, first);
       PartedStep         step(law->law, first, time_step);
       const ContactState last      = step.find_parts(increment, pressure);
       double             slopes[6] = {0., 0., 0., 0., 0., 0.};

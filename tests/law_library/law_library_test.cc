@@ -429,6 +429,75 @@ TEST_F(SlidingPoint, AStepMayBeOfAnyLength)
 
 
 
+// Slip turns while pressure falls, and a contact lags behind the pressure: of
+// one long step neither is seen at its end. Random steps of laws that were far
+// off, against a thousand parts.
+TEST(LawLibraryStep, TurnsAndLagsAreSeen)
+{
+  std::mt19937                     engine(3);
+  std::uniform_real_distribution<> share(0., 1.);
+  for (
+    const std::string law_text :
+    {"set Effects =\n",
+     "set Effects = pressure\nsubsection pressure\nset Exponent = 0.26\nend\n",
+     "set Effects = subloading, overstress, pressure_memory\n"
+     "subsection pressure_memory\nset Change = 0.5\n"
+     "set Slip length = 0.002 mm\nend\n"})
+    {
+      char          message[300] = "";
+      slipstep_law *law          = slipstep_law_parse(
+        ("subsection Friction\nset Static coefficient = 0.2\n"
+                  "set Tangential stiffness = 1e4\n" +
+         law_text + "end\n")
+          .c_str(),
+        message,
+        300);
+      ASSERT_NE(law, nullptr) << message;
+      std::vector<double> state(slipstep_state_size(law));
+      slipstep_initial_state(law, state.data());
+      const auto in_parts = [&](const unsigned int   n,
+                                std::vector<double> &from,
+                                const double         angle,
+                                const double         length,
+                                const double         pressure) {
+        const double          first   = from[2];
+        const double          slip[2] = {length / n * std::cos(angle),
+                                         length / n * std::sin(angle)};
+        std::array<double, 2> traction;
+        for (unsigned int i = 1; i <= n; ++i)
+          EXPECT_EQ(slipstep_step(law,
+                                  from.data(),
+                                  slip,
+                                  first + (pressure - first) * i / n,
+                                  1. / n,
+                                  from.data(),
+                                  traction.data(),
+                                  nullptr,
+                                  nullptr,
+                                  message,
+                                  300),
+                    0)
+            << message;
+        return traction;
+      };
+      for (unsigned int i = 0; i < 300; ++i)
+        {
+          const double angle        = 6.3 * share(engine),
+                       length       = std::pow(10., -4. + 3.5 * share(engine)),
+                       pressure     = std::pow(10., -1. + 2.5 * share(engine));
+          std::vector<double> whole = state;
+          const auto          one = in_parts(1, whole, angle, length, pressure);
+          const auto exact = in_parts(1000, state, angle, length, pressure);
+          ASSERT_LT(std::hypot(one[0] - exact[0], one[1] - exact[1]),
+                    0.02 * std::hypot(exact[0], exact[1]))
+            << law_text << i << ": " << length << " mm, " << pressure << " MPa";
+        }
+      slipstep_law_free(law);
+    }
+}
+
+
+
 // Friction that falls with speed and that nothing lets rise at once: told, and
 // in time, instead of a number. With a direct effect it slides.
 TEST(LawLibraryStep, JumpsAreNoSolution)
@@ -498,10 +567,16 @@ TEST_F(SlidingPoint, WhatNoStepLeavesBehindIsRefused)
     {
       const std::string name = slipstep_state_name(law, i);
       auto              bad  = state;
-      if (name == "mu" || name == "normal_traction_MPa" ||
-          name == "strength_MPa")
+      if (name != "traction_1_MPa" && name != "traction_2_MPa" && name != "r" &&
+          name != "dissipation_MPa_mm")
         {
           bad[i] = -1.;
+          EXPECT_EQ(step(bad, 0.1, 5.8, 1.), -1.) << name;
+          EXPECT_TRUE(contains(message, name)) << message;
+        }
+      if (name == "mu" || name == "r_s")
+        {
+          bad[i] = 1e30;
           EXPECT_EQ(step(bad, 0.1, 5.8, 1.), -1.) << name;
         }
       if (name == "normal_traction_MPa")
