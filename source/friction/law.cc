@@ -521,13 +521,17 @@ namespace SlipStep
                                 const double        time_step,
                                 ContactState       &end) const
   {
-    const ContactState &start = stage.state;
-    LocalSystem         local(stage, time_step, std::max(normal_traction, 0.));
+    // Squares and quotients of less underflow [MPa].
+    constexpr double least = 1e-100;
+
+    const ContactState &start   = stage.state;
+    const bool          is_open = normal_traction < least;
+    LocalSystem         local(stage, time_step, is_open ? 0. : normal_traction);
     if (has_core())
       local.core = core->core(start);
-    if (normal_traction <= 0.)
+    if (is_open)
       {
-        open(slip_increment, normal_traction, local, end);
+        open(slip_increment, std::min(normal_traction, 0.), local, end);
         return {};
       }
 

@@ -134,12 +134,16 @@ namespace SlipStep
             point.distance =
               point.gap + worn_at_start(point) - sign * values[q][normal];
             if (!is_second_stage)
-              point.distance_at_start =
-                point.point.committed().normal_traction > 0. ?
-                  0. :
-                  std::max(0.,
-                           point.gap + worn_at_start(point) -
-                             sign * old_values[q][normal]);
+              {
+                // Before a wave arrives they are less, and squares underflow
+                // [mm].
+                constexpr double least = 1e-100;
+                const double     gap   = point.gap + worn_at_start(point) -
+                                   sign * old_values[q][normal];
+                const bool is_off =
+                  point.point.committed().normal_traction == 0. && gap > least;
+                point.distance_at_start = is_off ? gap : 0.;
+              }
             Tensor<1, 2> slip;
             for (unsigned int i = 0; i < dim - 1; ++i)
               slip[i] =

@@ -194,6 +194,45 @@ TEST(BlockInertia, is_resolved_by_adaptive_steps)
 // A column whose top begins to move at V sends a wave of the stress rho c V
 // down before its foot touches anything: of the work half is motion. Steps are
 // so short that forces of inertia are differences of much larger numbers.
+// Until the wave from the top is there, the foot of a bar feels 1e-200 of it,
+// the squares of which are nothing. Then it is reflected with twice the
+// pressure.
+TEST(BlockInertia, lets_a_wave_arrive_at_the_foot_of_a_long_bar)
+{
+  const double wave_speed = std::sqrt(206e9 / 7850.) * 1e3; // [mm/s]
+  const auto   result     = run_block_case<2>(make_parameters(
+    {{"Block/Dimension", "2"},
+           {"Block/Size", "2 mm, 100 mm"},
+           {"Block/Subdivisions", "1, 100"},
+           {"Block/Young modulus", "206 GPa"},
+           {"Block/Poisson ratio", "0"},
+           {"Block/Density", "7850 kg/m^3"},
+           {"Block/Faces/top", "pressure programme"},
+           {"Friction/Effects", ""},
+           {"Friction/Normal stiffness", "1e9"},
+           {"Loading/Programme", "press 1 MPa in 1 us; hold 25 us"}}));
+  EXPECT_EQ(result.failure, "");
+  const std::vector<HistoryRow> &history = result.history;
+  double                         impulse = 0., duration = 0.;
+  for (std::size_t i = 1; i < history.size(); ++i)
+    {
+      const HistoryRow &row     = history[i];
+      const double      arrival = 100. / wave_speed;
+      if (row.time < arrival - 2e-6)
+        EXPECT_LT(row.pressure, 1e-2) << row.time;
+      if (row.time > arrival + 2e-6)
+        {
+          const double step = row.time - history[i - 1].time;
+          impulse += row.pressure * step;
+          duration += step;
+        }
+    }
+  EXPECT_GT(duration, 4e-6);
+  EXPECT_NEAR(impulse / duration, 2., 0.02);
+}
+
+
+
 TEST(BlockInertia, moves_a_block_that_has_not_touched_yet)
 {
   const double speed = 300., time = 3e-6, density = 1e-9, wave = 1e6;
