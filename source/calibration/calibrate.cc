@@ -486,7 +486,7 @@ namespace SlipStep
 
       std::vector<std::string> wider;
       for (std::size_t i = 0; i < best.size(); ++i)
-        if (optimum.between_tests(i) > 1.)
+        if (optimum.n_told[i] > 0)
           wider.push_back(campaign.fitted[i].path + " " +
                           rounded_text(optimum.between_tests(i), 2));
       if (!wider.empty())

@@ -211,6 +211,69 @@ namespace SlipStep
 
 
 
+    /// How rows hang together.
+    struct RowScatter
+    {
+      double              inflation   = 1.; ///< see Linearisation
+      double              n_effective = 0.;
+      std::vector<double> lengths; ///< of every test, the axis with more of it
+    };
+
+    RowScatter scatter_of_rows(const Campaign            &campaign,
+                               const std::vector<double> &residuals,
+                               const std::size_t          n_parameters)
+    {
+      RowScatter                result;
+      const std::vector<double> by_scatter =
+        lengths_by_scatter(campaign, residuals.data());
+      auto          least = by_scatter.begin();
+      const double *part  = residuals.data();
+      double        sum = 0., together = 0.;
+      for (const CampaignTest &test : campaign.tests)
+        {
+          // The noise of each axis is its own.
+          const std::size_t n_rows = test.rows.time.size();
+          result.lengths.push_back(0.);
+          for (const double *end = part + test.n_residuals(); part != end;
+               part += n_rows)
+            {
+              const double length =
+                std::max(correlation_length(part, n_rows), *least++);
+              const double squares =
+                std::inner_product(part, part + n_rows, part, 0.);
+              sum += squares;
+              together += length * squares;
+              result.n_effective += n_rows / length;
+              result.lengths.back() = std::max(result.lengths.back(), length);
+            }
+        }
+      result.inflation = std::max(1., sum / (residuals.size() - n_parameters)) *
+                         (sum > 0. ? together / sum : 1.);
+      return result;
+    }
+
+
+
+    // What tests differ by is in all their rows: without it these tell how far
+    // tests may differ by chance.
+    std::vector<double> without_gains(const Campaign     &campaign,
+                                      std::vector<double> residuals)
+    {
+      double *begin = residuals.data();
+      for (const CampaignTest &test : campaign.tests)
+        {
+          Eigen::Map<Eigen::VectorXd> part(begin, test.n_residuals());
+          const Eigen::VectorXd       friction = friction_over_noise(test);
+          const double                squares  = friction.squaredNorm();
+          if (squares > 0.)
+            part -= friction.dot(part) / squares * friction;
+          begin += part.size();
+        }
+      return residuals;
+    }
+
+
+
     // A jackknife over tests, in units of what the scatter of rows would make
     // of it: without a test with the share H of the information, x moves by
     // (1 - H)^-1 s, of variance (1 - H)^-1 - 1. What one test alone tells is
@@ -218,33 +281,45 @@ namespace SlipStep
     void compare_tests(const Campaign            &campaign,
                        const RowMatrix           &derivatives,
                        const std::vector<double> &residuals,
+                       const double               inflation_within,
                        Linearisation             &result)
     {
       constexpr double least_left = 1e-3, least_share = 1e-4, by_chance = 2.;
 
-      const Eigen::Index p = result.R.cols();
-      result.between_tests = Eigen::VectorXd::Ones(p);
-      result.n_told.assign(p, 0);
-      result.by_gains                = Eigen::VectorXd::Zero(p);
-      const Eigen::VectorXd diagonal = result.R.diagonal().cwiseAbs();
-      if (diagonal.minCoeff() <= least_singular_value * diagonal.maxCoeff())
+      const Eigen::Index n = result.R.cols();
+      result.between_tests = Eigen::VectorXd::Ones(n);
+      result.n_told.assign(n, 0);
+      result.by_gains = Eigen::VectorXd::Zero(n);
+      // Those of which the tests say nothing, beside the ones before, stay.
+      std::vector<Eigen::Index> known;
+      const Eigen::VectorXd     diagonal = result.R.diagonal().cwiseAbs();
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (diagonal(i) > least_singular_value * diagonal.maxCoeff())
+          known.push_back(i);
+      const Eigen::Index p = known.size();
+      if (p == 0)
         return;
+      const Eigen::MatrixXd columns = result.R(Eigen::all, known);
       const Eigen::MatrixXd inverse =
-        result.R.triangularView<Eigen::Upper>().solve(
-          Eigen::MatrixXd::Identity(p, p));
+        Eigen::HouseholderQR<Eigen::MatrixXd>(columns)
+          .matrixQR()
+          .topRows(p)
+          .triangularView<Eigen::Upper>()
+          .solve(Eigen::MatrixXd::Identity(p, p));
       Eigen::VectorXd sums  = Eigen::VectorXd::Zero(p);
       Eigen::Index    begin = 0;
       for (const CampaignTest &test : campaign.tests)
         {
-          const Eigen::Index    n = test.n_residuals();
-          const Eigen::MatrixXd J = derivatives.middleRows(begin, n) * inverse;
+          const Eigen::Index    n_rows = test.n_residuals();
+          const Eigen::MatrixXd own    = derivatives.middleRows(begin, n_rows);
+          const Eigen::MatrixXd J      = own(Eigen::all, known) * inverse;
           const Eigen::VectorXd s =
             J.transpose() *
-            Eigen::Map<const Eigen::VectorXd>(residuals.data() + begin, n);
+            Eigen::Map<const Eigen::VectorXd>(residuals.data() + begin, n_rows);
           const Eigen::VectorXd by_gain =
             inverse * (J.transpose() * friction_over_noise(test));
-          result.by_gains += by_gain.cwiseAbs2();
-          begin += n;
+          result.by_gains(known) += by_gain.cwiseAbs2();
+          begin += n_rows;
           const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> left(
             Eigen::MatrixXd::Identity(p, p) - J.transpose() * J);
           Eigen::VectorXd move = left.eigenvectors().transpose() * s,
@@ -264,17 +339,22 @@ namespace SlipStep
               if (expected < least_share * inverse.row(i).squaredNorm())
                 continue;
               sums(i) += std::pow(to_x.row(i).dot(move.transpose()), 2) /
-                         (result.inflation * expected);
-              ++result.n_told[i];
+                         (inflation_within * expected);
+              ++result.n_told[known[i]];
             }
         }
       result.by_gains = result.by_gains.cwiseSqrt();
       for (Eigen::Index i = 0; i < p; ++i)
         {
+          std::size_t &n_told = result.n_told[known[i]];
           const double factor =
-            std::sqrt(sums(i) / std::max<std::size_t>(1, result.n_told[i]));
-          if (result.n_told[i] > 1 && factor > by_chance)
-            result.between_tests(i) = factor;
+            std::sqrt(sums(i) / std::max<std::size_t>(1, n_told));
+          if (n_told > 1 && factor > by_chance)
+            result.between_tests(known[i]) =
+              std::max(1.,
+                       factor * std::sqrt(inflation_within / result.inflation));
+          else
+            n_told = 0;
         }
     }
   } // namespace
@@ -285,7 +365,7 @@ namespace SlipStep
                                   const std::size_t i) const
   {
     const double factor  = between_tests(i);
-    const double freedom = factor > 1. ?
+    const double freedom = n_told[i] > 0 ?
                              n_told[i] - 1. :
                              n_effective - static_cast<double>(scaled.size());
     return inflation * factor * factor *
@@ -326,33 +406,27 @@ namespace SlipStep
                  .topRows(n_parameters)
                  .triangularView<Eigen::Upper>();
 
-    double                    together = 0.;
-    const double             *part     = residuals.data();
-    const std::vector<double> by_scatter =
-      lengths_by_scatter(campaign, residuals.data());
-    auto least = by_scatter.begin();
+    const RowScatter rows  = scatter_of_rows(campaign, residuals, n_parameters);
+    result.inflation       = rows.inflation;
+    result.n_effective     = rows.n_effective;
+    const double *residual = residuals.data();
     tests.clear();
     for (std::size_t i = 0; i < campaign.tests.size(); ++i)
       {
         const CampaignTest &test = campaign.tests[i];
-        tests.push_back(misfit_of(test, simulator.simulate(scaled, i), part));
-        // The noise of each axis is its own.
-        const std::size_t n_rows = test.rows.time.size();
-        for (const double *end = part + test.n_residuals(); part != end;
-             part += n_rows)
-          {
-            const double length =
-              std::max(correlation_length(part, n_rows), *least++);
-            together +=
-              length * std::inner_product(part, part + n_rows, part, 0.);
-            result.n_effective += n_rows / length;
-            tests.back().correlation_length =
-              std::max(tests.back().correlation_length, length);
-          }
+        tests.push_back(
+          misfit_of(test, simulator.simulate(scaled, i), residual));
+        tests.back().correlation_length = rows.lengths[i];
+        residual += test.n_residuals();
       }
-    result.inflation = std::max(1., result.misfit / (n - n_parameters)) *
-                       (result.misfit > 0. ? together / result.misfit : 1.);
-    compare_tests(campaign, derivatives, residuals, result);
+    compare_tests(campaign,
+                  derivatives,
+                  residuals,
+                  scatter_of_rows(campaign,
+                                  without_gains(campaign, residuals),
+                                  n_parameters)
+                    .inflation,
+                  result);
     analyse(result);
     return result;
   }

@@ -57,14 +57,15 @@ namespace SlipStep
     }
 
     /// How many times further the tests, left out one at a time, move every x
-    /// than the scatter of their rows lets them; 1 where chance may do that.
-    /// Gains and zeros that differ from test to test do it. The deviations have
-    /// it already.
+    /// than all that their rows are off lets them; 1 where the scatter of rows
+    /// within tests may do that, or if it is less. Gains and zeros that differ
+    /// from test to test do it. The deviations have it already.
     Eigen::VectorXd between_tests;
     /// Standard deviations of x that a unit of gain would make, another one in
     /// every test: 0 where a direction is unknown.
     Eigen::VectorXd by_gains;
-    /// How many tests told of between_tests, for every x.
+    /// How many tests told of between_tests, for every x; 0 where chance may do
+    /// it.
     std::vector<std::size_t> n_told;
 
     /// The increase of the misfit at which an interval of x_i ends.
