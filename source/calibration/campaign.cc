@@ -235,23 +235,23 @@ namespace SlipStep
                          const double        rounding,
                          const Replay       *of_same_motion)
     {
-      // Stairs or noise of more make the contact stick and slip in each row;
-      // what is less is not felt.
-      constexpr double stick_share = 0.1;
+      // Of the elastic slip. Stairs of more make the contact stick and slip in
+      // each row; noise of more is felt where it has not slipped yet.
+      constexpr double stick_share = 0.1, noise_share = 0.05;
 
       MeasuredTest      test = measured;
       double            step = rounding_of_motion(test, rounding);
       const FrictionLaw law(parameters);
-      const double felt = stick_share * elastic_slip(law.static_coefficient() *
-                                                       median(test.pressure),
-                                                     law,
-                                                     Machine(parameters));
-      if (step > 0. && step > felt)
+      const double      slip =
+        elastic_slip(law.static_coefficient() * median(test.pressure),
+                     law,
+                     Machine(parameters));
+      if (step > 0. && step > stick_share * slip)
         undo_rounding_of_motion(test, rounding);
       else
         {
           step = 0.;
-          take_off_noise_of_motion(test, felt);
+          take_off_noise_of_motion(test, noise_share * slip);
         }
       const double             skip  = parameters.number(skip_key);
       const double             begin = test.time.front() + skip;

@@ -341,6 +341,32 @@ TEST_F(Planted, NoiseThatHangsTogetherCountsOnBothAxes)
 
 
 
+// Positions that tremble by a small part of the elastic slip: before it slips a
+// contact makes as large a part of its friction of that.
+TEST_F(Planted, TremblingPositionsAreNotFeltInTheFlank)
+{
+  const Parameters                 truth = calibration_case(paper);
+  std::mt19937                     random(3);
+  std::normal_distribution<double> normal(0., 1.);
+  const double elastic_slip = truth.number("Friction/Static coefficient") *
+                              5.8 /
+                              truth.number("Friction/Tangential stiffness");
+  MeasuredTest test =
+    planted_test(truth, 1. / 60., 20. * elastic_slip, 200, 2e-4, random);
+  for (double &displacement : test.displacement)
+    displacement += 0.08 * elastic_slip * normal(random);
+  write_measured_test(folder.path() / "test.csv", test);
+  const Campaign campaign(
+    fitting({{"Calibration/Parameters",
+              "Friction/Static coefficient from 0.05 to 0.2 start 0.0899"}}));
+  Simulator simulator(campaign);
+  simulator.plan(campaign.scaled_start());
+  EXPECT_LT(simulator.misfit(campaign.scaled_start()),
+            5. * campaign.n_residuals());
+}
+
+
+
 TEST_F(Planted, TestsThatAreLeftOutAreNotSimulated)
 {
   plant(folder.path(), calibration_case(paper), {1., 20., 200.}, 200, 1e-3, 7);
