@@ -6,6 +6,8 @@
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/lists.h>
 
+#include <cctype>
+
 namespace SlipStep
 {
   const std::vector<KeyWords> &key_words()
@@ -15,7 +17,7 @@ namespace SlipStep
       {"Time", "time zeit elapsed", "t", "step date temp"},
       {"Displacement",
        "displ position distance weg stroke travel slip verschiebung strecke",
-       "x u s d pos path hub",
+       "x y u s d pos path hub",
        "wear verschlei radius thick dicke width height normal nor_ vertical"},
       {"Speed", "speed veloc geschw vitesse", "v", "set soll target wind fan"},
       {"Friction",
@@ -24,7 +26,7 @@ namespace SlipStep
        "force kraft load stress torque moment"},
       {"Tangential load",
        "friction tangential reibkraft reibungskraft shear lateral pull zugkraft",
-       "ft fx f_t f_x ff fr f_r t f force kraft",
+       "ft fx fy f_t f_x f_y ff fr f_r t f force kraft",
        "coefficient stress normal torque"},
       {"Normal load",
        "normal nor_ load anpress last vertical clamp clamp_force clamping",
@@ -48,6 +50,8 @@ namespace SlipStep
     , words(dealii::Utilities::split_string_list(words, ' '))
     , labels(dealii::Utilities::split_string_list(labels, ' '))
     , against(dealii::Utilities::split_string_list(against, ' '))
+    , is_along_axis(key == "Displacement" || key == "Friction" ||
+                    key == "Tangential load")
   {}
 
 
@@ -61,17 +65,78 @@ namespace SlipStep
 
 
 
+  const std::vector<std::string> &shear_words()
+  {
+    static const std::vector<std::string> words = {"shear",
+                                                   "shr_",
+                                                   "tau",
+                                                   "schub"};
+    return words;
+  }
+
+
+
+  const std::vector<std::string> &ordered_words()
+  {
+    static const std::vector<std::string> words = {
+      " set", "_set", "soll", "target", "nominal"};
+    return words;
+  }
+
+
+
+  bool is_called_normal(const std::string &name)
+  {
+    static const std::vector<std::string> words  = {"normal",
+                                                    "nor_",
+                                                    "anpress",
+                                                    "clamp"};
+    static const std::vector<std::string> labels = {
+      "fn", "fz", "f_n", "f_z", "n", "p", "sigma_n", "sn"};
+    return has_word(name, words) || holds(labels, label_of(name));
+  }
+
+
+
   // "fz act" is "fz".
-  std::string without_qualifier(const std::string &name)
+  std::string label_of(const std::string &name)
   {
     static const auto qualifiers = dealii::Utilities::split_string_list(
       "set soll target nominal act actual ist meas measured gemessen avg mean",
       ' ');
+    static const std::vector<std::string> forces = {"force ",
+                                                    "force_",
+                                                    "kraft ",
+                                                    "kraft_"};
+
     const std::size_t at = name.find_last_of(" _.");
-    return at != std::string::npos && at > 0 &&
-               holds(qualifiers, name.substr(at + 1)) ?
-             name.substr(0, at) :
+    if (at == std::string::npos || at == 0)
+      return name;
+    const std::string last = name.substr(at + 1);
+    if (holds(qualifiers, last))
+      return label_of(name.substr(0, at));
+    return holds(forces, name.substr(0, at + 1)) && axis_of(last) != '\0' ?
+             "f" + last :
              name;
+  }
+
+
+
+  char axis_of(const std::string &name)
+  {
+    std::string word;
+    for (const char c : name + ' ')
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+        word += c;
+      else
+        {
+          if (word.size() == 2 && word[0] == 'f')
+            word.erase(0, 1);
+          if (word == "x" || word == "y" || word == "z")
+            return word[0];
+          word.clear();
+        }
+    return '\0';
   }
 
 

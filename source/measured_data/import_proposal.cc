@@ -12,36 +12,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
+#include <set>
 
 namespace SlipStep
 {
   namespace
   {
-    const std::vector<std::string> shear_words = {"shear",
-                                                  "shr_",
-                                                  "tau",
-                                                  "schub"};
-
-    // A load or a stress that is called so is it, whatever others are called.
-    bool is_called_normal(const std::string &name)
-    {
-      static const std::vector<std::string> words  = {"normal",
-                                                      "nor_",
-                                                      "anpress",
-                                                      "clamp"};
-      static const std::vector<std::string> labels = {
-        "fn", "fz", "f_n", "f_z", "n", "p", "sigma_n", "sn"};
-      return has_word(name, words) || holds(labels, without_qualifier(name));
-    }
-
-    // What was ordered is not what was.
-    const std::vector<std::string> ordered_words = {" set",
-                                                    "_set",
-                                                    "soll",
-                                                    "target",
-                                                    "nominal"};
-
     // A map takes the rest of a line behind # for a remark, and * for any
     // letters; ? stands for one letter.
     std::string name_in_map(const std::filesystem::path &file)
@@ -81,6 +57,7 @@ namespace SlipStep
       {
         guess_layout();
         read_columns();
+        choose_axis();
         choose_columns();
         guess_shear_stress();
         guess_loads();
@@ -207,7 +184,8 @@ namespace SlipStep
       {
         const SeenColumn &seen = proposal.columns[column];
         if (!seen.has_numbers || !seen.taken_as.empty() ||
-            has_word(seen.name, words.against))
+            has_word(seen.name, words.against) ||
+            (words.is_along_axis && is_across(seen.name)))
           return 0;
         Dimension dimension = Dimension::number;
         for (const ColumnKey &key : column_keys())
@@ -225,7 +203,7 @@ namespace SlipStep
         for (const std::string &word : words.words)
           points += seen.name.find(word) != std::string::npos ? 4 : 0;
         for (const std::string &label : words.labels)
-          points += without_qualifier(seen.name) == label ? 4 : 0;
+          points += label_of(seen.name) == label ? 4 : 0;
         const bool varies = seen.most > seen.least;
         if (known.has_value() && dimension != Dimension::force)
           points += 3;
@@ -248,13 +226,58 @@ namespace SlipStep
           }
         if (words.key == "Displacement" && !varies)
           return 0;
-        if (has_word(seen.name, ordered_words))
+        if (has_word(seen.name, ordered_words()))
           --points;
         if (words.key == "Friction" && seen.unit != "%" &&
             !finite[column].empty() &&
             median(finite[column]) > 3.) // a percentage, or a force
           return 0;
         return points;
+      }
+
+      // Along a vertical axis, or along that which does not move.
+      bool is_across(const std::string &name) const
+      {
+        const char own = axis_of(name);
+        return own == 'z' || (own != '\0' && axis != '\0' && own != axis);
+      }
+
+      // Of two axes that which moves by far more.
+      void choose_axis()
+      {
+        constexpr double clearly = 5.;
+
+        std::map<char, double> motions;
+        std::set<char>         frictions;
+        for (const KeyWords &words : key_words())
+          for (std::size_t i = 0; words.is_along_axis && i < values.size(); ++i)
+            {
+              const SeenColumn &seen = proposal.columns[i];
+              const char        own  = axis_of(seen.name);
+              if (own == '\0' || score(words, i) == 0)
+                continue;
+              if (words.key == "Displacement")
+                motions[own] =
+                  std::max(motions[own],
+                           (dimension_of_unit(seen.unit) == Dimension::length ?
+                              unit_conversion(seen.unit, Dimension::length) :
+                              UnitConversion())(seen.most - seen.least));
+              else
+                frictions.insert(own);
+            }
+        for (const char one : {'x', 'y'})
+          if (motions[one] > clearly * motions[one == 'x' ? 'y' : 'x'])
+            axis = one;
+        const bool moves = motions['x'] > 0. || motions['y'] > 0.;
+        if (moves ? axis == '\0' : frictions.size() > 1)
+          axis_doubt =
+            "; it has a second axis (Displacement y, Tangential load y, "
+            "Friction y): or is that the one that counts?";
+        else if (moves && !frictions.empty() && frictions.count(axis) == 0)
+          {
+            axis_doubt = "; no friction is recorded along the axis that moves";
+            axis       = '\0';
+          }
       }
 
       // How a map names a column.
@@ -286,15 +309,16 @@ namespace SlipStep
               continue;
             if (words.key == "Displacement")
               best = motion_of_friction(words, best);
-            guess_column(words.key, best);
+            guess_column(words, best);
           }
       }
 
-      void guess_column(const std::string &key, const std::size_t column)
+      void guess_column(const KeyWords &words, const std::size_t column)
       {
-        SeenColumn &seen    = proposal.columns[column];
-        seen.taken_as       = key;
-        Dimension dimension = Dimension::number;
+        const std::string &key  = words.key;
+        SeenColumn        &seen = proposal.columns[column];
+        seen.taken_as           = key;
+        Dimension dimension     = Dimension::number;
         for (const ColumnKey &known : column_keys())
           if (known.name == key)
             dimension = known.dimension;
@@ -307,13 +331,15 @@ namespace SlipStep
           ++n_digits;
         const std::string range = "from " + rounded_text(seen.least, n_digits) +
                                   " to " + rounded_text(seen.most, n_digits);
+        const std::string doubt =
+          words.is_along_axis && axis_of(seen.name) != '\0' ? axis_doubt : "";
         if (dimension == Dimension::number)
           {
             const bool may_be_force = seen.name == "f" && seen.unit.empty();
             guess("Columns/" + key,
                   name,
-                  range + (may_be_force ? "; or is it a force?" : ""),
-                  may_be_force);
+                  range + (may_be_force ? "; or is it a force?" : "") + doubt,
+                  may_be_force || !doubt.empty());
             return;
           }
         const bool is_known =
@@ -345,8 +371,9 @@ namespace SlipStep
                                          " as recorded}, for a track of 25 mm "
                                          "radius)" :
                                        "")) +
-                (is_negative ? "; compression counts positive here" : ""),
-              !is_known);
+                (is_negative ? "; compression counts positive here" : "") +
+                doubt,
+              !is_known || !doubt.empty());
       }
 
       // With the most points for a key; none: one beyond the last.
@@ -406,7 +433,7 @@ namespace SlipStep
         for (std::size_t i = 0; i < proposal.columns.size(); ++i)
           {
             SeenColumn &seen = proposal.columns[i];
-            if (!seen.has_numbers || !has_word(seen.name, shear_words) ||
+            if (!seen.has_numbers || !has_word(seen.name, shear_words()) ||
                 dimension_of_unit(seen.unit) != Dimension::stress)
               continue;
             seen.taken_as = "Friction";
@@ -607,79 +634,14 @@ namespace SlipStep
         return "dry, 5 N";
       }
 
-      ImportProposal                   proposal;
+      ImportProposal proposal;
+      char           axis = '\0'; ///< that moves, of two
+      std::string    axis_doubt;  ///< why it may be another; or ""
+
       std::vector<std::vector<double>> values; ///< of each column
       std::vector<std::vector<double>> finite; ///< the same without gaps
     };
-
-
-
-    // Wrapped, each line begun with the mark.
-    std::string comment(const std::string &text, const std::string &mark)
-    {
-      constexpr std::size_t width = 78;
-      std::istringstream    words(text);
-      std::string           lines, line = mark, word;
-      while (words >> word)
-        {
-          if (line.size() + 1 + word.size() > width && line != mark)
-            {
-              lines += line + '\n';
-              line = mark;
-            }
-          line += ' ' + word;
-        }
-      return lines + line + '\n';
-    }
   } // namespace
-
-
-
-  bool ImportProposal::is_complete() const
-  {
-    return none_of(guesses, [](const auto &guess) {
-      return guess.is_open && guess.path != "Test/Condition";
-    });
-  }
-
-
-
-  Parameters ImportProposal::map() const
-  {
-    Parameters result;
-    declare_import_parameters(result);
-    for (const ImportGuess &guess : guesses)
-      if (!guess.is_open)
-        result.set(guess.path, guess.value, "proposal");
-    return result;
-  }
-
-
-
-  std::string ImportProposal::text() const
-  {
-    std::string text = comment(
-      "A proposal for " + file.filename().string() +
-        ": every line was guessed, with the reason above it. Look "
-        "through it" +
-        (is_complete() ? "" : ", complete the lines that begin with '# set'") +
-        ", then: slipstep import THIS_FILE",
-      "#");
-    for (const std::string name :
-         {"Raw file", "Columns", "Constants", "Convention", "Test"})
-      {
-        std::string lines;
-        for (const ImportGuess &guess : guesses)
-          if (guess.path.rfind(name + "/", 0) == 0)
-            lines += comment(guess.reason, "  #") +
-                     (guess.is_open ? "  # set " : "  set ") +
-                     guess.path.substr(name.size() + 1) + " = " + guess.value +
-                     '\n';
-        if (!lines.empty())
-          text += "subsection " + name + '\n' + lines + "end\n";
-      }
-    return text;
-  }
 
 
 

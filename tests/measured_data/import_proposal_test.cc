@@ -396,6 +396,28 @@ namespace
      "1.0D-01,2.0D-02,1.0D+01,1.0D+02\n2.0D-01,4.0D-02,1.0D+01,1.0D+02\n",
      {"Columns/Time = t [s] in s", "Columns/Displacement = x [mm] in mm"},
      {}},
+    // Of two axes that which moves, with its friction.
+    {"second_axis.txt",
+     "T [s]\tFx [N]\tFy [N]\tFz [N]\tX [mm]\tY [um]\n"
+     "0\t0.01\t2\t9\t0\t0\n1\t0.02\t2\t9\t0.01\t5000\n"
+     "2\t-0.01\t2\t9\t0.02\t9000\n",
+     {"Columns/Displacement = Y [um] in um",
+      "Columns/Tangential load = Fy [N] in N",
+      "Columns/Normal load = Fz [N] in N"},
+     {}},
+    {"no_friction_along_it.txt",
+     "T [s]\tFy [N]\tFz [N]\tX [mm]\n0\t1\t9\t0\n1\t2\t9\t1\n2\t2\t9\t2\n",
+     {"? Columns/Displacement = X [mm] in mm",
+      "? Columns/Tangential load = Fy [N] in N"},
+     {}},
+    {"both_axes.txt",
+     "T [s]\tForce x [N]\tForce y [N]\tForce z [N]\tPosition X [mm]\t"
+     "Position Y [mm]\tPosition Z [mm]\n"
+     "0\t1\t2\t9\t0\t0\t0\n1\t1\t2\t9\t1\t1\t5\n2\t1\t2\t9\t2\t2\t9\n",
+     {"? Columns/Displacement = Position X [mm] in mm",
+      "? Columns/Tangential load = Force x [N] in N",
+      "Columns/Normal load = Force z [N] in N"},
+     {}},
     {"nameless.csv",
      "t [s],d [mm],p [MPa],signal\n0,0,10,0\n1,1,10,20\n2,2,10,20\n",
      {"? Columns/Friction = column 4"},

@@ -20,6 +20,7 @@ namespace SlipStep
     std::vector<std::string> words;  ///< parts of a name
     std::vector<std::string> labels; ///< whole names
     std::vector<std::string> against;
+    bool                     is_along_axis; ///< of several, there is one each
   };
 
   /// Those of all keys that a map needs, in English and German.
@@ -28,8 +29,21 @@ namespace SlipStep
   /// Whether a name has one of these words in it.
   bool has_word(const std::string &name, const std::vector<std::string> &words);
 
-  /// A name without what only tells which of several it is.
-  std::string without_qualifier(const std::string &name);
+  /// Of a shear stress.
+  const std::vector<std::string> &shear_words();
+
+  /// Of what was ordered, which is not what was.
+  const std::vector<std::string> &ordered_words();
+
+  /// Whether a load or a stress is called so: it is it, whatever others are
+  /// called.
+  bool is_called_normal(const std::string &name);
+
+  /// A name without what only tells which of several it is; of "force x", "fx".
+  std::string label_of(const std::string &name);
+
+  /// 'x', 'y' or 'z', if a name says so: "f_z", "position y"; else 0.
+  char axis_of(const std::string &name);
 
   /// Name and unit of a heading, in small letters with _ for blanks.
   void
