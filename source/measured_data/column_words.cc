@@ -16,9 +16,11 @@ namespace SlipStep
     static const std::vector<KeyWords> all = {
       {"Time", "time zeit elapsed", "t", "step date temp"},
       {"Displacement",
-       "displ position distance weg stroke travel slip verschiebung strecke",
+       "disp position distance weg stroke travel slip verschiebung strecke "
+       "crosshead traverse extension encoder",
        "x y u s d pos path hub",
-       "wear verschlei radius thick dicke width height normal nor_ vertical"},
+       "wear verschlei radius thick dicke width height normal nor_ vertical "
+       "penetr eindring depth tiefe gap spalt"},
       {"Speed", "speed veloc geschw vitesse", "v", "set soll target wind fan"},
       {"Friction",
        "coefficient friction reibwert reibungszahl beiwert reibungskoeff",

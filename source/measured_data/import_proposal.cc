@@ -144,15 +144,16 @@ namespace SlipStep
       void read_columns()
       {
         CsvTable table(proposal.file, raw_format(proposal.map()));
+        header = table.header();
         std::map<std::string, std::size_t> positions;
         const bool is_named = proposal.layout.header_line > 0 &&
                               !proposal.layout.has_unclear_header;
-        for (std::size_t i = 0; i < table.header().size(); ++i)
+        for (std::size_t i = 0; i < header.size(); ++i)
           {
             SeenColumn column;
             column.number = i + 1;
             if (is_named)
-              split_name(table.header()[i], column.name, column.unit);
+              split_name(header[i], column.name, column.unit);
             if (!table.units()[i].empty())
               column.unit = table.units()[i];
             const auto &numbers = proposal.layout.numbers;
@@ -205,7 +206,9 @@ namespace SlipStep
         for (const std::string &label : words.labels)
           points += label_of(seen.name) == label ? 4 : 0;
         const bool varies = seen.most > seen.least;
-        if (known.has_value() && dimension != Dimension::force)
+        // Of many lengths and forces only the name tells which they are.
+        if (known.has_value() && dimension != Dimension::force &&
+            dimension != Dimension::length)
           points += 3;
         if (points == 0)
           return 0;
@@ -283,10 +286,9 @@ namespace SlipStep
       // How a map names a column.
       std::string reference(const std::size_t column) const
       {
-        const CsvTable     table(proposal.file, raw_format(proposal.map()));
-        const std::string &name = table.header()[column];
+        const std::string &name = header[column];
         const bool         is_unique =
-          std::count(table.header().begin(), table.header().end(), name) == 1;
+          std::count(header.begin(), header.end(), name) == 1;
         const bool is_plain = !name.empty() && all_of(name, [](char c) {
           const auto byte = static_cast<unsigned char>(c);
           return byte >= 0x20 && byte < 0x7f && c != '#' && c != '\\' &&
@@ -294,6 +296,22 @@ namespace SlipStep
         });
         return is_unique && is_plain ? name :
                                        "column " + std::to_string(column + 1);
+      }
+
+      // What a number stands for, without letters of another encoding.
+      std::string heading_behind(const std::string &reference,
+                                 const std::size_t  column) const
+      {
+        if (reference == header[column] ||
+            proposal.columns[column].name.empty())
+          return "";
+        std::string heading;
+        for (const char c : header[column])
+          if (c >= 0x20 && c < 0x7f)
+            heading += c;
+          else if (heading.empty() || heading.back() != '?')
+            heading += '?';
+        return "'" + heading + "' ";
       }
 
       void choose_columns()
@@ -329,8 +347,9 @@ namespace SlipStep
                rounded_text(seen.least, n_digits) ==
                  rounded_text(seen.most, n_digits))
           ++n_digits;
-        const std::string range = "from " + rounded_text(seen.least, n_digits) +
-                                  " to " + rounded_text(seen.most, n_digits);
+        const std::string range = heading_behind(name, column) + "from " +
+                                  rounded_text(seen.least, n_digits) + " to " +
+                                  rounded_text(seen.most, n_digits);
         const std::string doubt =
           words.is_along_axis && axis_of(seen.name) != '\0' ? axis_doubt : "";
         if (dimension == Dimension::number)
@@ -634,9 +653,10 @@ namespace SlipStep
         return "dry, 5 N";
       }
 
-      ImportProposal proposal;
-      char           axis = '\0'; ///< that moves, of two
-      std::string    axis_doubt;  ///< why it may be another; or ""
+      ImportProposal           proposal;
+      std::vector<std::string> header;
+      char                     axis = '\0'; ///< that moves, of two
+      std::string              axis_doubt;  ///< why it may be another; or ""
 
       std::vector<std::vector<double>> values; ///< of each column
       std::vector<std::vector<double>> finite; ///< the same without gaps

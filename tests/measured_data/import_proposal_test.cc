@@ -418,6 +418,23 @@ namespace
       "? Columns/Tangential load = Force x [N] in N",
       "Columns/Normal load = Force z [N] in N"},
      {}},
+    // A length is not yet a way that was slid.
+    {"depth.txt",
+     "Time [s],COF,Penetration depth [um],Eindringweg [um],Gap [mm],"
+     "LVDT [mm],Position Z [mm],p [MPa]\n"
+     "0,0,3,3,1,2,0,5\n1,0.1,4,4,2,3,1,5\n2,0.1,5,5,3,4,2,5\n",
+     {"? Constants/Speed = 1 mm/s"},
+     {"Columns/Displacement"}},
+    {"lengths.txt",
+     "Time [s],COF,Gap [mm],Crosshead [mm],p [MPa]\n"
+     "0,0,3,3,5\n1,0.1,4,4,5\n2,0.1,5,5,5\n",
+     {"Columns/Displacement = Crosshead [mm] in mm"},
+     {}},
+    {"extension.txt",
+     "Time [s],COF,Extension [mm],p [MPa]\n"
+     "0,0,3,5\n1,0.1,4,5\n2,0.1,5,5\n",
+     {"Columns/Displacement = Extension [mm] in mm"},
+     {}},
     {"nameless.csv",
      "t [s],d [mm],p [MPa],signal\n0,0,10,0\n1,1,10,20\n2,2,10,20\n",
      {"? Columns/Friction = column 4"},
@@ -440,6 +457,22 @@ TEST(ImportProposal, RealLookingFilesAreUnderstood)
         for (const ImportGuess &guess : proposal.guesses)
           EXPECT_NE(guess.path, path) << example.name << all_lines_of(proposal);
     }
+}
+
+
+
+// A number says nothing to whom reads it.
+TEST(ImportProposal, NamesStandBesideNumbers)
+{
+  for (const ImportGuess &guess :
+       proposal_for("a.csv",
+                    "Time [s],x [\xC2\xB5m],p [MPa],mu\n"
+                    "0,0,5,0\n1,1,5,0.1\n2,2,5,0.1\n")
+         .guesses)
+    if (guess.value == "column 2 in um")
+      EXPECT_EQ(guess.reason, "'x [?m]' from 0 to 2");
+    else
+      EXPECT_EQ(guess.reason.find("'"), std::string::npos) << guess.reason;
 }
 
 
