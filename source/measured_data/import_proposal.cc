@@ -18,20 +18,9 @@ namespace SlipStep
 {
   namespace
   {
-    // A map takes the rest of a line behind # for a remark, and * for any
-    // letters; ? stands for one letter.
-    std::string name_in_map(const std::filesystem::path &file)
-    {
-      std::string name = file.filename().string();
-      std::replace_if(
-        name.begin(),
-        name.end(),
-        [](const char c) { return c == '#' || c == '*'; },
-        '?');
-      return name;
-    }
-
-
+    const std::string days_of_spreadsheets =
+      "; the file does not say the unit, but it looks like a date of "
+      "spreadsheets, in days";
 
     // Without letters that a map in another encoding would not show.
     bool is_plain(const std::string &text)
@@ -49,13 +38,13 @@ namespace SlipStep
     public:
       explicit Observer(const std::filesystem::path &file)
       {
-        proposal.file   = file;
-        proposal.layout = record_layout(file);
+        proposal.file    = file;
+        proposal.layout  = record_layout(file);
+        proposal.guesses = guesses_of_layout(file, proposal.layout);
       }
 
       ImportProposal propose()
       {
-        guess_layout();
         read_columns();
         choose_axis();
         choose_columns();
@@ -77,68 +66,6 @@ namespace SlipStep
                  const bool         is_open = false)
       {
         proposal.guesses.push_back({path, value, reason, is_open});
-      }
-
-      void guess_layout()
-      {
-        const RecordLayout &layout = proposal.layout;
-        guess("Raw file/Name",
-              name_in_map(proposal.file),
-              counted(layout.n_rows, "row") + " of " +
-                counted(layout.n_cells, "cell") + ", the first is line " +
-                std::to_string(layout.first_row));
-        guess("Raw file/Delimiter",
-              layout.delimiter == '\t' ? "tab" :
-              layout.delimiter == ';'  ? "semicolon" :
-              layout.delimiter == ','  ? "comma" :
-                                         "blanks",
-              "makes the most numbers of the rows");
-        if (layout.decimal_mark != '\0')
-          guess("Raw file/Decimal mark",
-                layout.decimal_mark == ',' ? "comma" : "point",
-                layout.has_doubtful_marks ?
-                  std::string("all numbers with a ") +
-                    (layout.decimal_mark == ',' ? "comma" : "point") +
-                    " have three digits behind it: does it part thousands?" :
-                  "as the numbers have it");
-        if (layout.thousands_mark != '\0')
-          guess("Raw file/Thousands mark",
-                layout.thousands_mark == '.' ? "point" :
-                layout.thousands_mark == ',' ? "comma" :
-                                               "apostrophe",
-                layout.has_doubtful_marks ?
-                  "three digits stand behind each, where there is one" :
-                  "numbers have a second mark",
-                layout.has_doubtful_marks);
-        if (layout.header_line == 0 || layout.has_unclear_header)
-          {
-            guess("Raw file/Has header",
-                  "false",
-                  layout.header_line == 0 ?
-                    "no line of names before the rows" :
-                    "line " + std::to_string(layout.header_line) +
-                      " has not as many names as rows have cells");
-            guess("Raw file/Header line",
-                  std::to_string(layout.first_row),
-                  "where the rows begin");
-          }
-        else
-          guess("Raw file/Header line",
-                std::to_string(layout.header_line),
-                "the last line of words before the rows");
-        if (layout.units_line > 0 && !layout.has_unclear_header)
-          guess("Raw file/Units line",
-                std::to_string(layout.units_line),
-                "it has units, mostly");
-        if (!layout.comment_marks.empty())
-          {
-            std::string marks;
-            for (const std::string &mark : layout.comment_marks)
-              marks += (marks.empty() ? "" : ", ") + mark;
-            guess("Raw file/Comment marks",
-                  marks,
-                  "lines between or behind the rows begin like this");
-          }
       }
 
       void read_columns()
@@ -219,15 +146,8 @@ namespace SlipStep
           points += 4;
         if (varies)
           points += 2;
-        if (words.key == "Time")
-          {
-            const std::vector<double> &time = finite[column];
-            // The newest row may stand first.
-            if (!varies || !(std::is_sorted(time.begin(), time.end()) ||
-                             std::is_sorted(time.rbegin(), time.rend())))
-              return 0;
-          }
-        if (words.key == "Displacement" && !varies)
+        if ((words.key == "Time" && !is_in_order(column)) ||
+            ((words.key == "Time" || words.key == "Displacement") && !varies))
           return 0;
         if (has_word(seen.name, ordered_words()))
           --points;
@@ -373,23 +293,27 @@ namespace SlipStep
         const bool is_negative = (key == "Normal load" || key == "Pressure") &&
                                  !finite[column].empty() &&
                                  median(finite[column]) < 0.;
+        const bool is_day = key == "Time" && seen.unit.empty() &&
+                            has_days_of_spreadsheets(column);
         // Nothing that would be taken where nobody looks.
         const std::string in = name + " in " +
                                (is_known          ? unit :
+                                is_day            ? "d" :
                                 seen.unit.empty() ? base_unit(dimension) :
                                                     "?");
         guess("Columns/" + key,
               is_negative ? "-1*{" + in + "}" : in,
               range +
-                (is_known ?
-                   "" :
+                (is_known ? "" :
+                 is_day   ? days_of_spreadsheets :
                  seen.unit.empty() ?
-                   "; the file does not say the unit" :
-                   "; no unit is known as '" + seen.unit + "'" +
-                     (key == "Speed" ? " (of a rotation: 2*pi*25/60*{" + name +
-                                         " as recorded}, for a track of 25 mm "
-                                         "radius)" :
-                                       "")) +
+                          "; the file does not say the unit" :
+                          "; no unit is known as '" + seen.unit + "'" +
+                            (key == "Speed" ?
+                               " (of a rotation: 2*pi*25/60*{" + name +
+                                 " as recorded}, for a track of 25 mm "
+                                 "radius)" :
+                               "")) +
                 (is_negative ? "; compression counts positive here" : "") +
                 doubt,
               !is_known || !doubt.empty());
@@ -488,6 +412,26 @@ namespace SlipStep
         return proposal.columns.size() - 1;
       }
 
+      // The newest row may stand first.
+      bool is_in_order(const std::size_t column) const
+      {
+        const std::vector<double> &time = finite[column];
+        return std::is_sorted(time.begin(), time.end()) ||
+               std::is_sorted(time.rbegin(), time.rend());
+      }
+
+      // They count from 1900; rows of a test are not hours apart.
+      bool has_days_of_spreadsheets(const std::size_t column) const
+      {
+        constexpr double first = 20000., last = 80000., largest_step = 1e-3;
+
+        const SeenColumn &seen = proposal.columns[column];
+        return seen.least >= first && seen.most <= last &&
+               seen.most > seen.least &&
+               seen.most - seen.least <= largest_step * values[column].size() &&
+               is_in_order(column);
+      }
+
       // Where nothing that is called so grows from row to row.
       void guess_time()
       {
@@ -509,11 +453,20 @@ namespace SlipStep
               true);
             return;
           }
-        guess("Columns/Time",
-              "column 1 in s",
-              "no column of increasing numbers is called like a time (clock "
-              "times have to be made seconds before)",
-              true);
+        std::size_t day = 0;
+        while (day < values.size() && !has_days_of_spreadsheets(day))
+          ++day;
+        if (day < values.size())
+          guess("Columns/Time",
+                reference(day) + " in d",
+                "no column is called like a time" + days_of_spreadsheets,
+                true);
+        else
+          guess("Columns/Time",
+                "column 1 in s",
+                "no column of increasing numbers is called like a time (clock "
+                "times have to be made seconds before)",
+                true);
       }
 
       // What no column is called like: of two loads or stresses it is the one

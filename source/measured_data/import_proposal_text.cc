@@ -2,13 +2,32 @@
 #include <slipstep/measured_data/import_map.h>
 #include <slipstep/measured_data/import_proposal.h>
 #include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
 
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
 #include <sstream>
 
 namespace SlipStep
 {
   namespace
   {
+    // A map takes the rest of a line behind # for a remark, and * for any
+    // letters; ? stands for one letter.
+    std::string name_in_map(const std::filesystem::path &file)
+    {
+      std::string name = file.filename().string();
+      std::replace_if(
+        name.begin(),
+        name.end(),
+        [](const char c) { return c == '#' || c == '*'; },
+        '?');
+      return name;
+    }
+
+
+
     // Wrapped, each line begun with the mark.
     std::string comment(const std::string &text, const std::string &mark)
     {
@@ -27,6 +46,73 @@ namespace SlipStep
       return lines + line + '\n';
     }
   } // namespace
+
+
+
+  std::vector<ImportGuess> guesses_of_layout(const std::filesystem::path &file,
+                                             const RecordLayout &layout)
+  {
+    std::vector<ImportGuess> guesses;
+    const auto               guess = [&](const std::string &path,
+                           const std::string &value,
+                           const std::string &reason,
+                           const bool         is_open = false) {
+      guesses.push_back({path, value, reason, is_open});
+    };
+    guess("Raw file/Name",
+          name_in_map(file),
+          counted(layout.n_rows, "row") + " of " +
+            counted(layout.n_cells, "cell") + ", the first is line " +
+            std::to_string(layout.first_row));
+    guess("Raw file/Delimiter",
+          layout.delimiter == '\t' ? "tab" :
+          layout.delimiter == ';'  ? "semicolon" :
+          layout.delimiter == ','  ? "comma" :
+                                     "blanks",
+          "makes the most numbers of the rows");
+    const std::string mark = layout.decimal_mark == ',' ? "comma" : "point";
+    if (layout.decimal_mark != '\0')
+      guess("Raw file/Decimal mark",
+            mark,
+            layout.has_doubtful_marks ?
+              "all numbers with a " + mark +
+                " have three digits behind it: does it part thousands?" :
+              "as the numbers have it");
+    if (layout.thousands_mark != '\0')
+      guess("Raw file/Thousands mark",
+            layout.thousands_mark == '.' ? "point" :
+            layout.thousands_mark == ',' ? "comma" :
+                                           "apostrophe",
+            layout.has_doubtful_marks ?
+              "three digits stand behind each, where there is one" :
+              "numbers have a second mark",
+            layout.has_doubtful_marks);
+    if (layout.header_line == 0 || layout.has_unclear_header)
+      {
+        guess("Raw file/Has header",
+              "false",
+              layout.header_line == 0 ?
+                "no line of names before the rows" :
+                "line " + std::to_string(layout.header_line) +
+                  " has not as many names as rows have cells");
+        guess("Raw file/Header line",
+              std::to_string(layout.first_row),
+              "where the rows begin");
+      }
+    else
+      guess("Raw file/Header line",
+            std::to_string(layout.header_line),
+            "the last line of words before the rows");
+    if (layout.units_line > 0 && !layout.has_unclear_header)
+      guess("Raw file/Units line",
+            std::to_string(layout.units_line),
+            "it has units, mostly");
+    if (!layout.comment_marks.empty())
+      guess("Raw file/Comment marks",
+            boost::algorithm::join(layout.comment_marks, ", "),
+            "lines between or behind the rows begin like this");
+    return guesses;
+  }
 
 
 

@@ -435,6 +435,28 @@ namespace
      "0,0,3,5\n1,0.1,4,5\n2,0.1,5,5\n",
      {"Columns/Displacement = Extension [mm] in mm"},
      {}},
+    // A spreadsheet's dates; but not where a unit says otherwise, and not a
+    // clock that began long ago.
+    {"serial_day.csv",
+     "Zeit,x [mm],mu,p [MPa]\n45000.00000,0,0,5\n45000.00001,1,0.1,5\n"
+     "45000.00002,2,0.1,5\n",
+     {"? Columns/Time = Zeit in d"},
+     {}},
+    {"serial_date.csv",
+     "Datum,x [mm],mu,p [MPa]\n45000.5,0,0,5\n45000.5000116,1,0.1,5\n"
+     "45000.5000231,2,0.1,5\n",
+     {"? Columns/Time = Datum in d"},
+     {}},
+    {"long_since.csv",
+     "Time,x [mm],mu,p [MPa]\n45000.00,0,0,5\n45000.01,1,0.1,5\n"
+     "45000.02,2,0.1,5\n",
+     {"? Columns/Time = Time in s"},
+     {}},
+    {"fast_clock.csv",
+     "Time [s],x [mm],mu,p [MPa]\n45000.00000,0,0,5\n45000.00001,1,0.1,5\n"
+     "45000.00002,2,0.1,5\n",
+     {"Columns/Time = Time [s] in s"},
+     {}},
     {"nameless.csv",
      "t [s],d [mm],p [MPa],signal\n0,0,10,0\n1,1,10,20\n2,2,10,20\n",
      {"? Columns/Friction = column 4"},

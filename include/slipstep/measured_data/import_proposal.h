@@ -50,6 +50,10 @@ namespace SlipStep
     std::string text() const;
   };
 
+  /// Section Raw file of the map of a file.
+  std::vector<ImportGuess> guesses_of_layout(const std::filesystem::path &file,
+                                             const RecordLayout &layout);
+
   /// Look at a record: how it is laid out, which column is what, in which unit
   /// and with which sign.
   /// @throws InputError if there is no table of numbers, or a cell cannot be
