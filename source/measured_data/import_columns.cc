@@ -7,6 +7,7 @@
 
 #include <boost/algorithm/string/predicate.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -399,6 +400,36 @@ namespace SlipStep
       for (const Source &source : recipe.second.sources)
         positions[source.label] = source.position;
     table.read(positions);
+    find_clock();
+  }
+
+
+
+  // A formula has the stamps as they are.
+  void ImportColumns::find_clock()
+  {
+    constexpr double longest_test = 1e8; // [s]
+
+    const auto time = recipes.find("Time");
+    if (time == recipes.end() || time->second.formula.has_value())
+      return;
+    const std::vector<double> &stamps = table[time->second.sources[0].label];
+    const auto                 first =
+      std::find_if(stamps.begin(), stamps.end(), [](const double stamp) {
+        return std::isfinite(stamp);
+      });
+    if (first != stamps.end() &&
+        time->second.sources[0].conversion(*first) > longest_test)
+      first_stamp = *first;
+  }
+
+
+
+  double ImportColumns::clock() const
+  {
+    return first_stamp == 0. ?
+             0. :
+             recipes.at("Time").sources[0].conversion(first_stamp);
   }
 
 
@@ -413,6 +444,7 @@ namespace SlipStep
   std::vector<double> ImportColumns::values(const std::string &key) const
   {
     const Recipe       &recipe = recipes.at(key);
+    const double        less   = key == "Time" ? first_stamp : 0.;
     std::vector<double> result(table.size());
     std::vector<double> arguments(recipe.sources.size());
 
@@ -424,8 +456,9 @@ namespace SlipStep
         bool has_gap = false;
         for (std::size_t i = 0; i < columns.size(); ++i)
           {
-            arguments[i] = recipe.sources[i].conversion((*columns[i])[row]);
-            has_gap      = has_gap || std::isnan(arguments[i]);
+            arguments[i] =
+              recipe.sources[i].conversion((*columns[i])[row] - less);
+            has_gap = has_gap || std::isnan(arguments[i]);
           }
         result[row] = has_gap ?
                         std::numeric_limits<double>::quiet_NaN() :

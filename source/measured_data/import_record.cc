@@ -193,7 +193,8 @@ namespace SlipStep
           constant("Selection/End", Dimension::time, false).value_or(infinity);
         const std::vector<double> time = columns.values("Time");
         for (std::size_t i = 0; i < time.size(); ++i)
-          if (!(time[i] < begin) && !(time[i] > end))
+          if (!(time[i] < begin - columns.clock()) &&
+              !(time[i] > end - columns.clock()))
             selected.push_back(i);
         if (selected.size() < 2)
           throw InputError(table.name() + ": " +
@@ -404,7 +405,7 @@ namespace SlipStep
       {
         const std::string         cut    = map.text("Selection/Cut");
         const auto                parts  = map.attempt("Selection/Cut", [&] {
-          auto found = cut_record(record, cut);
+          auto found = cut_record(record, cut, columns.clock());
           if (found.empty())
             throw InputError("no part has the two rows that a test needs");
           return found;
@@ -472,7 +473,11 @@ namespace SlipStep
       void start_from_zero(MeasuredTest &test) const
       {
         if (!map.boolean("Convention/Start from zero"))
-          return;
+          {
+            for (double &time : test.time)
+              time += columns.clock();
+            return;
+          }
         for (auto *series :
              {&test.time, &test.displacement, &test.displacement_y})
           if (!series->empty())

@@ -133,23 +133,27 @@ namespace SlipStep
     }
 
     std::vector<std::size_t> rows_at_times(const MeasuredTest &record,
-                                           const std::string  &text)
+                                           const std::string  &text,
+                                           const double        clock)
     {
+      const unsigned int       n_digits = clock > 0. ? 13 : 6;
       std::vector<std::size_t> rows;
       double                   last = -1e300;
       for (const std::string &item :
            dealii::Utilities::split_string_list(text, ","))
         {
-          const double time = parse_quantity(item, Dimension::time, true);
+          const double time =
+            parse_quantity(item, Dimension::time, true) - clock;
           if (time <= last)
             throw InputError("the times must increase");
           last = time;
           if (time < record.time.front() || time > record.time.back())
-            throw InputError(item +
-                             " is outside of the record, which goes "
-                             "from " +
-                             rounded_text(record.time.front(), 6) + " s to " +
-                             rounded_text(record.time.back(), 6) + " s");
+            throw InputError(
+              item +
+              " is outside of the record, which goes "
+              "from " +
+              rounded_text(record.time.front() + clock, n_digits) + " s to " +
+              rounded_text(record.time.back() + clock, n_digits) + " s");
           rows.push_back(
             std::lower_bound(record.time.begin(), record.time.end(), time) -
             record.time.begin());
@@ -187,7 +191,8 @@ namespace SlipStep
 
 
   std::vector<RecordPart> cut_record(const MeasuredTest &record,
-                                     const std::string  &cut)
+                                     const std::string  &cut,
+                                     const double        clock)
   {
     const std::size_t n = record.time.size();
 
@@ -231,7 +236,7 @@ namespace SlipStep
 
     if (begins_with(text, "at ", rest))
       {
-        std::vector<std::size_t> rows = rows_at_times(record, rest);
+        std::vector<std::size_t> rows = rows_at_times(record, rest, clock);
         rows.insert(rows.begin(), 0);
         return parts_from(rows, n);
       }

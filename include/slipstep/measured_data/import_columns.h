@@ -44,8 +44,13 @@ namespace SlipStep
     /// Whether the map says where the values of this key are.
     bool has(const std::string &key) const;
 
-    /// The values of a key in base units; NaN where a cell is empty.
+    /// The values of a key in base units; NaN where a cell is empty. Time
+    /// counts from clock().
     std::vector<double> values(const std::string &key) const;
+
+    /// The first stamp [s] of a clock that shows the date, whose small steps
+    /// would be lost with its units; else 0.
+    double clock() const;
 
     /// Columns whose unit in the map is not that in the file, in words.
     const std::vector<std::string> &contradictions() const
@@ -111,9 +116,12 @@ namespace SlipStep
                      const std::string &text,
                      const ColumnKey   &key) const;
 
+    void find_clock();
+
     const Parameters             &map;
     CsvTable                     &table;
     std::map<std::string, Recipe> recipes;
+    double                        first_stamp = 0.; ///< in the file's unit
     std::vector<std::string>      contradicting_units;
   };
 } // namespace SlipStep

@@ -28,9 +28,11 @@ namespace SlipStep
   ///
   /// Motion is what is larger than the tremble of the position: four times its
   /// noise_level(), and at least 1e-4 of the range (0.5 % for reversals).
+  /// @param clock that the record's clock had at its time 0 [s]
   /// @throws InputError that says what is wrong of the text or of the record
   std::vector<RecordPart> cut_record(const MeasuredTest &record,
-                                     const std::string  &cut);
+                                     const std::string  &cut,
+                                     const double        clock = 0.);
 
   /// The parts that "2, 4, 6 to 8" names, counted from 1; "all".
   /// @throws InputError
