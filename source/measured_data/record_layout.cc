@@ -273,12 +273,14 @@ namespace SlipStep
       std::set<std::string> marks;
       for (std::size_t i = table.first; i < lines.size(); ++i)
         {
-          const std::string_view line = without_blanks(lines[i]);
+          std::string_view line = without_blanks(lines[i]);
+          line.remove_prefix(
+            std::min(line.find_first_not_of('"'), line.size()));
           if (table.is_row[i] || line.empty() || line[0] == '#' ||
               std::isalpha(static_cast<unsigned char>(line[0])) == 0)
             continue;
           const std::string_view mark = without_blanks(
-            line.substr(0, line.find_first_of("0123456789,;\t:")));
+            line.substr(0, line.find_first_of("0123456789,;\t:\"")));
           if (!mark.empty() && marks.size() < most_marks)
             marks.emplace(mark);
         }

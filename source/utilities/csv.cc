@@ -109,10 +109,11 @@ namespace SlipStep
         return false;
       // As loggers and spreadsheets have them.
       static const std::set<std::string> gaps = {
-        "nan",      "na",       "n/a",       "null",    "none",    "nil",
-        "#n/a",     "#na",      "#nv",       "#value!", "#num!",   "#div/0!",
-        "overflow", "overload", "overrange", "ovrflw",  "ovld",    "ol",
-        "ovl",      "error",    "err",       "invalid", "missing", "bad"};
+        "nan",    "na",      "n/a",      "null",     "none",
+        "nil",    "#n/a",    "#na",      "#nv",      "#value!",
+        "#num!",  "#div/0!", "overflow", "overload", "overrange",
+        "ovrflw", "ovld",    "ol",       "ovl",      "ovr",
+        "error",  "err",     "invalid",  "missing",  "bad"};
       return gaps.count(lower_case(cell)) > 0;
     }
 
@@ -213,9 +214,12 @@ namespace SlipStep
         const std::string_view content = without_blanks(line);
         if (content.empty())
           continue;
+        // With its cell's quotes or without them; a name may be "#".
         const bool is_comment =
           any_of(format.comment_marks, [&](const std::string &mark) {
-            return boost::algorithm::starts_with(content, mark);
+            return boost::algorithm::starts_with(content, mark) ||
+                   (content.front() == '"' && mark != "#" &&
+                    boost::algorithm::starts_with(content.substr(1), mark));
           });
         if (!is_comment)
           return true;
@@ -449,7 +453,10 @@ namespace SlipStep
     if (begin_of_row.size() == 1 && has_letter && format.units_line == 0)
       return "; if this line has the units, a map of slipstep import says so: "
              "Raw file/Units line";
-    if (has_letter)
+    const std::string_view first =
+      cells_of(line_at(begin_of_row.back()), format.delimiter)[0];
+    if (has_letter && !read_number(first, value) &&
+        !read_number_with_comma(first, value))
       return "; if such lines are no rows, a map of slipstep import says what "
              "they begin with: Raw file/Comment marks";
     return "";

@@ -457,6 +457,20 @@ namespace
      "45000.00002,2,0.1,5\n",
      {"Columns/Time = Time [s] in s"},
      {}},
+    // Footers in quotes, as all cells.
+    {"quoted_footers.csv",
+     "\"t [s]\",\"x [mm]\",\"mu\",\"p [MPa]\"\n" +
+       []() {
+         std::string rows;
+         for (int i = 0; i < 30; ++i)
+           rows += "\"" + std::to_string(i) + "\",\"" + std::to_string(i) +
+                   "\",\"0.1\",\"5\"\n";
+         return rows;
+       }() +
+       "\n\"Maximum\",\"29\",\"0.1\"\n\"Standard deviation\",\"9\",\"0\"\n",
+     {"Raw file/Comment marks = Maximum, Standard deviation",
+      "Columns/Time = t [s] in s"},
+     {}},
     {"nameless.csv",
      "t [s],d [mm],p [MPa],signal\n0,0,10,0\n1,1,10,20\n2,2,10,20\n",
      {"? Columns/Friction = column 4"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// The clock of a raw file.
+// Which lines of a raw file are rows, and by which clock.
 
 #include "imported.h"
 
@@ -35,4 +35,16 @@ TEST(Import, StampsOfADateAreCountedFromTheFirst)
   settings.emplace_back("Convention/Start from zero", "false");
   EXPECT_EQ(import_record(map_of(settings), {raw, {}}, "a")[1].time[0],
             1709640000.00003);
+}
+
+
+
+TEST(Import, WordsAreCommentsOnlyWhereALineBeginsWithThem)
+{
+  const std::string rows = "t,x,mu\n0,0,0\n1,1,0.1\n";
+  expect_refused(simple, write("a.csv", rows + "Mean,1,0\n"), "Comment marks");
+  const fs::path raw = write("b.csv", rows + "2,2,stuck\n");
+  expect_refused(simple, raw, "b.csv:4:5: 'stuck' is not a number (Friction)");
+  EXPECT_EQ(message(map_of(simple), raw).find("Comment marks"),
+            std::string::npos);
 }
