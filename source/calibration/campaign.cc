@@ -239,7 +239,8 @@ namespace SlipStep
       // each row; noise of more is felt where it has not slipped yet.
       constexpr double stick_share = 0.1, noise_share = 0.05;
 
-      MeasuredTest      test = measured;
+      MeasuredTest test = measured;
+      undo_rounding_of_time(test);
       double            step = rounding_of_motion(test, rounding);
       const FrictionLaw law(parameters);
       const double      slip =

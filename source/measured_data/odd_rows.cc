@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/odd_rows.h>
+#include <slipstep/measured_data/rounded_motion.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
@@ -236,6 +237,15 @@ namespace SlipStep
                0);
       }
 
+      void warn_of_rounded_clock() const
+      {
+        if (const double rounding = rounding_of_time(test.time); rounding > 0.)
+          warn("time is rounded to " + rounded_text(rounding, 3) +
+                 " s, which makes speeds differ from row to row: fits take "
+                 "its steps to be even; record times with more digits",
+               0);
+      }
+
       // A step of time far longer than the others, within which it moves on as
       // from row to row: the machine stood, or the clock jumped. Read as it is,
       // it slides slowly there.
@@ -433,6 +443,7 @@ namespace SlipStep
     rows.warn_of_scales();
     rows.warn_of_sensors();
     rows.warn_of_excursions();
+    rows.warn_of_rounded_clock();
     rows.warn_of_pauses();
     rows.warn_of_jumps();
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -388,6 +389,77 @@ namespace SlipStep
     const std::vector<double> motion =
       StairMotion(time, values, step).motion(values);
     return Evener(time, values, step, motion).evened();
+  }
+
+
+
+  namespace
+  {
+    // Between rows so many apart, the steps of an even clock differ by one of
+    // rounding at most.
+    bool is_even_at(const std::vector<double> &time,
+                    const std::size_t          row,
+                    const double               rounding)
+    {
+      for (const std::size_t lag : {1, 2, 4, 8})
+        if (std::abs(time[row + lag] - 2. * time[row] + time[row - lag]) >
+            1.01 * rounding)
+          return false;
+      return true;
+    }
+  } // namespace
+
+
+
+  double rounding_of_time(const std::vector<double> &time)
+  {
+    constexpr std::size_t farthest = 8, fewest_rows = 20;
+    constexpr double      least_share = 0.01, most_share = 0.9, alike = 1e-6,
+                     mostly = 0.9, often = 0.05;
+
+    if (time.size() < fewest_rows)
+      return 0.;
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < time.size(); ++i)
+      steps.push_back(time[i] - time[i - 1]);
+    const double usual    = median(steps);
+    double       rounding = std::numeric_limits<double>::infinity();
+    std::size_t  n_other = 0, n_even = 0;
+    for (std::size_t i = 1; i < steps.size(); ++i)
+      if (const double other = std::abs(steps[i] - steps[i - 1]);
+          other > alike * usual)
+        {
+          rounding = std::min(rounding, other);
+          ++n_other;
+        }
+    // Twice the usual step is a row that is missing.
+    if (n_other < often * steps.size() || rounding < least_share * usual ||
+        rounding > most_share * usual)
+      return 0.;
+    for (const double step : steps)
+      if (step < 1e2 * usual && !is_whole(step / rounding))
+        return 0.;
+    for (std::size_t i = farthest; i + farthest < time.size(); ++i)
+      n_even += is_even_at(time, i, rounding);
+    return n_even >= mostly * (time.size() - 2 * farthest) ? rounding : 0.;
+  }
+
+
+
+  void undo_rounding_of_time(MeasuredTest &test)
+  {
+    const double rounding = rounding_of_time(test.time);
+    if (rounding == 0.)
+      return;
+    std::vector<double> rows(test.time.size());
+    std::iota(rows.begin(), rows.end(), 0.);
+    const std::vector<double> even =
+      Evener(rows, test.time, rounding, test.time).evened();
+    // Where the clock changes, two stamps might meet.
+    if (std::adjacent_find(even.begin(),
+                           even.end(),
+                           std::greater_equal<double>()) == even.end())
+      test.time = even;
   }
 
 

@@ -53,6 +53,49 @@ namespace
 
 
 
+// 300 Hz in whole ms: steps of 3, 3 and 4; the clock changes to 700 Hz.
+TEST(RoundedMotion, StampsOfAnEvenClockAreMadeEven)
+{
+  MeasuredTest        test;
+  std::vector<double> exact;
+  for (unsigned int i = 0; i < 600; ++i)
+    {
+      exact.push_back(i < 300 ? i / 300. : 1. + (i - 300) / 700.);
+      test.time.push_back(1e-3 * std::round(1e3 * exact.back()));
+    }
+  EXPECT_NEAR(rounding_of_time(test.time), 1e-3, 1e-9);
+  EXPECT_EQ(rounding_of_time(exact), 0.);
+  undo_rounding_of_time(test);
+  EXPECT_LT(largest_difference(test.time, exact), 1.5e-4);
+  // But where it changes.
+  for (const auto &[begin, end] : {std::pair{1, 295}, std::pair{306, 600}})
+    for (int i = begin; i < end; ++i)
+      EXPECT_NEAR(test.time[i] - test.time[i - 1],
+                  exact[i] - exact[i - 1],
+                  1e-5)
+        << i;
+}
+
+
+
+TEST(RoundedMotion, OtherStampsStayAsTheyAre)
+{
+  std::vector<double> even, rare, trembling, growing, with_gaps;
+  for (unsigned int i = 0; i < 200; ++i)
+    {
+      even.push_back(3e-3 * i);
+      rare.push_back(1e-3 * std::round(1e3 * i / 3.)); // 333 and 334 ms
+      trembling.push_back(1e-3 * (7. * i + (i * i * 7) % 5));
+      growing.push_back(1e-3 * (i + i * i));
+      if (i % 7 != 3)
+        with_gaps.push_back(i);
+    }
+  for (const auto &time : {even, rare, trembling, growing, with_gaps})
+    EXPECT_EQ(rounding_of_time(time), 0.) << time[1];
+}
+
+
+
 TEST(RoundedMotion, IsSeenInItsStairs)
 {
   for (const double interval : {0.02, 0.1, 0.3})

@@ -22,6 +22,15 @@ namespace SlipStep
                                      const std::vector<double> &values,
                                      const double               step);
 
+  /// The step to which the stamps of an even clock were rounded, as 1 ms that
+  /// makes steps of 3, 3 and 4 ms of 300 Hz; 0 if there is none, or less than a
+  /// hundredth of the steps.
+  double rounding_of_time(const std::vector<double> &time);
+
+  /// Make the clock even again over as many rows as the rounding lets it be: no
+  /// stamp is changed by more than half a step.
+  void undo_rounding_of_time(MeasuredTest &test);
+
   /// The larger step of both axes of a test.
   /// @param of_others to which other records of the same machine were rounded:
   ///   rows far from each other make no stairs, but an axis all of whose values
