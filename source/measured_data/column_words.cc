@@ -5,8 +5,10 @@
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
 
 #include <cctype>
+#include <map>
 
 namespace SlipStep
 {
@@ -14,31 +16,32 @@ namespace SlipStep
   {
     // Words stand between blanks.
     static const std::vector<KeyWords> all = {
-      {"Time", "time zeit elapsed", "t", "step date temp"},
+      {"Time", "time zeit elapsed temps", "t", "step date tempera temp_ temp."},
       {"Displacement",
        "disp position distance weg stroke travel slip verschiebung strecke "
-       "crosshead traverse extension encoder",
-       "x y u s d pos path hub",
-       "wear verschlei radius thick dicke width height normal nor_ vertical "
+       "crosshead traverse extension encoder depl d\xC3\xA9pl d\xE9pl",
+       "x y u s d pos path hub course",
+       "wear verschlei radius thick dicke width height norm nor_ vertical "
        "penetr eindring depth tiefe gap spalt"},
       {"Speed", "speed veloc geschw vitesse", "v", "set soll target wind fan"},
       {"Friction",
-       "coefficient friction reibwert reibungszahl beiwert reibungskoeff",
+       "coefficient fric reibwert reibungszahl beiwert reibungskoeff",
        "mu cof \xC2\xB5 \xCE\xBC \xB5 f",
        "force kraft load stress torque moment"},
       {"Tangential load",
-       "friction tangential reibkraft reibungskraft shear lateral pull zugkraft",
+       "fric tangenti reibkraft reibungskraft shear lateral pull zugkraft "
+       "frottement",
        "ft fx fy f_t f_x f_y ff fr f_r t f force kraft",
-       "coefficient stress normal torque"},
+       "coefficient stress norm torque"},
       {"Normal load",
-       "normal nor_ load anpress last vertical clamp clamp_force clamping",
-       "fn fz f_n f_z n p",
-       "stress friction tangential shear shr_"},
+       "norm nor_ load anpress last vertical clamp clamp_force clamping",
+       "fn fz f_n f_z n p charge",
+       "stress fric frottement tangenti shear shr_"},
       {"Pressure",
-       "pressure stress druck pressung spannung normal nor_",
+       "pressure stress druck pressung pression spannung norm nor_",
        "p sigma sigma_n sn",
-       "shear shr_ tau schub oil friction atmos disp force load last"},
-      {"Temperature", "temp", "t theta", ""}};
+       "shear shr_ tau schub oil fric atmos disp force load last"},
+      {"Temperature", "temp", "t theta", "temps"}};
     return all;
   }
 
@@ -81,7 +84,7 @@ namespace SlipStep
   const std::vector<std::string> &ordered_words()
   {
     static const std::vector<std::string> words = {
-      " set", "_set", "soll", "target", "nominal"};
+      " set", "_set", "soll", "target", "nominal", "_cmd", "command"};
     return words;
   }
 
@@ -89,7 +92,7 @@ namespace SlipStep
 
   bool is_called_normal(const std::string &name)
   {
-    static const std::vector<std::string> words  = {"normal",
+    static const std::vector<std::string> words  = {"norm",
                                                     "nor_",
                                                     "anpress",
                                                     "clamp"};
@@ -104,7 +107,7 @@ namespace SlipStep
   std::string label_of(const std::string &name)
   {
     static const auto qualifiers = dealii::Utilities::split_string_list(
-      "set soll target nominal act actual ist meas measured gemessen avg mean",
+      "set soll target nominal cmd act actual ist meas measured gemessen avg mean",
       ' ');
     static const std::vector<std::string> forces = {"force ",
                                                     "force_",
@@ -115,7 +118,7 @@ namespace SlipStep
     if (at == std::string::npos || at == 0)
       return name;
     const std::string last = name.substr(at + 1);
-    if (holds(qualifiers, last))
+    if (last.empty() || holds(qualifiers, last))
       return label_of(name.substr(0, at));
     return holds(forces, name.substr(0, at + 1)) && axis_of(last) != '\0' ?
              "f" + last :
@@ -143,6 +146,16 @@ namespace SlipStep
 
 
 
+  std::string unit_of_weight(const std::string &unit)
+  {
+    static const std::map<std::string, std::string> weights = {
+      {"kg", "kgf"}, {"g", "gf"}, {"t", "tf"}, {"lb", "lbf"}, {"lbs", "lbf"}};
+    const auto found = weights.find(lower_case(unit));
+    return found == weights.end() ? "" : found->second;
+  }
+
+
+
   // "Displ [mm]", "displacement_mm", "Time, s", "Weg in mm", "F / N".
   void
   split_name(const std::string &heading, std::string &name, std::string &unit)
@@ -160,7 +173,7 @@ namespace SlipStep
         const std::string behind = heading.substr(at + mark.size());
         // "Encoder in" is an input.
         if (!dimension_of_unit(behind).has_value() ||
-            (behind == "in" && mark != " in "))
+            (lower_case(behind) == "in" && mark != " in "))
           continue;
         name = split_heading(heading.substr(0, at)).name;
         unit = behind;

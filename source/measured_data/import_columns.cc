@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/utilities.h>
 
+#include <slipstep/measured_data/column_words.h>
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/lists.h>
@@ -234,7 +235,8 @@ namespace SlipStep
     const std::string in_file = unit_in_file(position);
     const auto        known   = dimension_of_unit(in_file);
     if (!known.has_value() ?
-          in_file.empty() || in_file == unit || in_file.size() > 3 :
+          in_file.empty() || in_file == unit || in_file.size() > 3 ||
+            unit_of_weight(in_file) == unit :
           *known == dimension && unit_conversion(in_file, dimension)(1.) ==
                                    unit_conversion(unit, dimension)(1.))
       return;

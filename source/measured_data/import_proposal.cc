@@ -107,6 +107,14 @@ namespace SlipStep
           }
       }
 
+      static Dimension dimension_of(const std::string &key)
+      {
+        for (const ColumnKey &known : column_keys())
+          if (known.name == key)
+            return known.dimension;
+        return Dimension::number;
+      }
+
       // Above 0: it may be; a name and a unit are worth more than either.
       int score(const KeyWords &words, const std::size_t column) const
       {
@@ -115,13 +123,10 @@ namespace SlipStep
             has_word(seen.name, words.against) ||
             (words.is_along_axis && is_across(seen.name)))
           return 0;
-        Dimension dimension = Dimension::number;
-        for (const ColumnKey &key : column_keys())
-          if (key.name == words.key)
-            dimension = key.dimension;
-        const auto known    = seen.unit.empty() ? std::optional<Dimension>() :
-                                                  dimension_of_unit(seen.unit);
-        const bool has_unit = !seen.unit.empty() && seen.unit != "-" &&
+        const Dimension dimension = dimension_of(words.key);
+        const auto      known = seen.unit.empty() ? std::optional<Dimension>() :
+                                                    dimension_of_unit(seen.unit);
+        const bool      has_unit = !seen.unit.empty() && seen.unit != "-" &&
                               seen.unit != "." && seen.unit != "1" &&
                               seen.unit != "/" && seen.unit != "%";
         if (known.has_value() ? *known != dimension :
@@ -253,14 +258,11 @@ namespace SlipStep
 
       void guess_column(const KeyWords &words, const std::size_t column)
       {
-        const std::string &key  = words.key;
-        SeenColumn        &seen = proposal.columns[column];
-        seen.taken_as           = key;
-        Dimension dimension     = Dimension::number;
-        for (const ColumnKey &known : column_keys())
-          if (known.name == key)
-            dimension = known.dimension;
-        const std::string name = reference(column);
+        const std::string &key      = words.key;
+        SeenColumn        &seen     = proposal.columns[column];
+        seen.taken_as               = key;
+        const Dimension   dimension = dimension_of(key);
+        const std::string name      = reference(column);
         // With the digits that tell them apart.
         int n_digits = 5;
         while (n_digits < 12 && seen.least < seen.most &&
@@ -281,42 +283,51 @@ namespace SlipStep
                   may_be_force || !doubt.empty());
             return;
           }
-        const bool is_known =
-          !seen.unit.empty() && dimension_of_unit(seen.unit) == dimension;
-        const std::string unit = is_plain(seen.unit) ?
-                                   seen.unit :
-                                 dimension == Dimension::temperature ?
-                                   "degC" :
-                                 dimension == Dimension::stress ?
-                                   "N/mm^2" :
-                                   "u" + seen.unit.substr(seen.unit.size() - 1);
+        const auto [unit, unit_doubt] = unit_in_map(words, column, name);
         const bool is_negative = (key == "Normal load" || key == "Pressure") &&
                                  !finite[column].empty() &&
                                  median(finite[column]) < 0.;
-        const bool is_day = key == "Time" && seen.unit.empty() &&
-                            has_days_of_spreadsheets(column);
-        // Nothing that would be taken where nobody looks.
-        const std::string in = name + " in " +
-                               (is_known          ? unit :
-                                is_day            ? "d" :
-                                seen.unit.empty() ? base_unit(dimension) :
-                                                    "?");
+        const std::string in = name + " in " + unit;
         guess("Columns/" + key,
               is_negative ? "-1*{" + in + "}" : in,
-              range +
-                (is_known ? "" :
-                 is_day   ? days_of_spreadsheets :
-                 seen.unit.empty() ?
-                          "; the file does not say the unit" :
-                          "; no unit is known as '" + seen.unit + "'" +
-                            (key == "Speed" ?
-                               " (of a rotation: 2*pi*25/60*{" + name +
-                                 " as recorded}, for a track of 25 mm "
-                                 "radius)" :
-                               "")) +
+              range + unit_doubt +
                 (is_negative ? "; compression counts positive here" : "") +
                 doubt,
-              !is_known || !doubt.empty());
+              !unit_doubt.empty() || !doubt.empty());
+      }
+
+      // With what is doubtful of it: nothing that would be taken where nobody
+      // looks.
+      std::pair<std::string, std::string>
+      unit_in_map(const KeyWords    &words,
+                  const std::size_t  column,
+                  const std::string &name) const
+      {
+        const std::string &unit      = proposal.columns[column].unit;
+        const Dimension    dimension = dimension_of(words.key);
+        if (!unit.empty() && dimension_of_unit(unit) == dimension)
+          return {is_plain(unit) ? unit :
+                  dimension == Dimension::temperature ?
+                                   "degC" :
+                  dimension == Dimension::stress ?
+                                   "N/mm^2" :
+                                   "u" + unit.substr(unit.size() - 1),
+                  ""};
+        if (unit.empty() && words.key == "Time" &&
+            has_days_of_spreadsheets(column))
+          return {"d", days_of_spreadsheets};
+        if (unit.empty())
+          return {base_unit(dimension), "; the file does not say the unit"};
+        const std::string weight = unit_of_weight(unit);
+        if (dimension == Dimension::force && !weight.empty())
+          return {weight,
+                  "; " + unit + " is a mass: does it mean " + weight + "?"};
+        return {"?",
+                "; no unit is known as '" + unit + "'" +
+                  (words.key == "Speed" ?
+                     " (of a rotation: 2*pi*25/60*{" + name +
+                       " as recorded}, for a track of 25 mm radius)" :
+                     "")};
       }
 
       // With the most points for a key; none: one beyond the last.

@@ -191,6 +191,8 @@ namespace SlipStep
                                .value_or(-infinity);
         const double end =
           constant("Selection/End", Dimension::time, false).value_or(infinity);
+        if (end < begin)
+          map.reject("Selection/End", "this is before Selection/Begin");
         const std::vector<double> time = columns.values("Time");
         for (std::size_t i = 0; i < time.size(); ++i)
           if (!(time[i] < begin - columns.clock()) &&

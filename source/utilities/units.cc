@@ -210,24 +210,23 @@ namespace SlipStep
         {"hours", "h"},       {"micron", "um"},
         {"microns", "um"},    {"micrometer", "um"},
         {"in", "inch"},       {"inches", "inch"},
-        {"in2", "in^2"},      {"Newton", "N"},
-        {"newton", "N"},      {"N/mm2", "N/mm^2"},
-        {"mm2", "mm^2"},      {"Celsius", "degC"},
-        {"deg C", "degC"},    {"deg. C", "degC"},
-        {"hr", "h"},          {"hrs", "h"},
-        {"hour", "h"},        {"day", "d"},
-        {"days", "d"},        {"\"", "inch"},
-        {"kips", "kip"},      {"kp", "kgf"},
-        {"KN", "kN"},         {"MM", "mm"},
-        {"UM", "um"},         {"MPA", "MPa"},
-        {"KPA", "kPa"},       {"GPA", "GPa"},
-        {"BAR", "bar"},       {"PSI", "psi"},
-        {"SEC", "s"},         {"MM/S", "mm/s"},
+        {"in2", "in^2"},      {"newton", "N"},
+        {"N/mm2", "N/mm^2"},  {"mm2", "mm^2"},
+        {"celsius", "degC"},  {"deg c", "degC"},
+        {"deg. c", "degC"},   {"hr", "h"},
+        {"hrs", "h"},         {"hour", "h"},
+        {"day", "d"},         {"days", "d"},
+        {"\"", "inch"},       {"kips", "kip"},
+        {"kp", "kgf"},        {"KN", "kN"},
+        {"MM", "mm"},         {"UM", "um"},
+        {"MPA", "MPa"},       {"KPA", "kPa"},
+        {"GPA", "GPa"},       {"BAR", "bar"},
+        {"PSI", "psi"},       {"MM/S", "mm/s"},
         {"MM/MIN", "mm/min"}, {"kgf/cm2", "kgf/cm^2"},
 
-        {"deg F", "degF"}};
+        {"deg f", "degF"}};
       for (const auto &[written, plain] : words)
-        if (unit == written)
+        if (unit == written || lower_case(unit) == written)
           return plain;
       return unit;
     }

@@ -4,6 +4,7 @@
 
 #include <slipstep/measured_data/import_proposal.h>
 #include <slipstep/measured_data/import_record.h>
+#include <slipstep/utilities/lists.h>
 
 #include <gtest/gtest.h>
 
@@ -471,6 +472,34 @@ namespace
      {"Raw file/Comment marks = Maximum, Standard deviation",
       "Columns/Time = t [s] in s"},
      {}},
+    {"command.csv",
+     "Time [Sec],Pos. cmd [mm],Pos. act [mm],Fric [N],Norm [N]\n"
+     "0,0,0,0,9\n1,1,1,2,9\n2,2,2,2,9\n",
+     {"Columns/Time = Time [Sec] in Sec",
+      "Columns/Displacement = Pos. act [mm] in mm",
+      "Columns/Tangential load = Fric [N] in N",
+      "Columns/Normal load = Norm [N] in N"},
+     {}},
+    {"masses.csv",
+     "Time [s],x [mm],mu,Load [kg]\n0,0,0,1\n1,1,0.1,1\n2,2,0.1,1\n",
+     {"? Columns/Normal load = Load [kg] in kgf"},
+     {}},
+    {"french.csv",
+     "Temps;D\xC3\xA9placement [mm];Charge [N];Force de frottement [N]\n"
+     "0;0;9;0\n1;1;9;2\n2;2;9;2\n",
+     {"? Columns/Time = Temps in s",
+      "Columns/Displacement = column 2 in mm",
+      "Columns/Normal load = Charge [N] in N",
+      "Columns/Tangential load = Force de frottement [N] in N"},
+     {"Columns/Temperature"}},
+    {"french_1.csv",
+     "Temps [s];D\xE9placement [mm];Force normale [N];Effort tangentiel [N]\n"
+     "0;0;9;0\n1;1;9;2\n2;2;9;2\n",
+     {"Columns/Time = Temps [s] in s",
+      "Columns/Displacement = column 2 in mm",
+      "Columns/Normal load = Force normale [N] in N",
+      "Columns/Tangential load = Effort tangentiel [N] in N"},
+     {}},
     {"nameless.csv",
      "t [s],d [mm],p [MPa],signal\n0,0,10,0\n1,1,10,20\n2,2,10,20\n",
      {"? Columns/Friction = column 4"},
@@ -509,6 +538,19 @@ TEST(ImportProposal, NamesStandBesideNumbers)
       EXPECT_EQ(guess.reason, "'x [?m]' from 0 to 2");
     else
       EXPECT_EQ(guess.reason.find("'"), std::string::npos) << guess.reason;
+}
+
+
+
+TEST(ImportProposal, WeightsInUnitsOfMassAreAskedFor)
+{
+  const auto guesses =
+    proposal_for("a.csv", "Time [s],x [mm],mu,Load [lb]\n0,0,0,1\n1,1,0,2\n")
+      .guesses;
+  EXPECT_TRUE(any_of(guesses, [](const auto &guess) {
+    return guess.value == "Load [lb] in lbf" && guess.is_open &&
+           guess.reason == "from 1 to 2; lb is a mass: does it mean lbf?";
+  }));
 }
 
 

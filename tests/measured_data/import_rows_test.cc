@@ -48,3 +48,15 @@ TEST(Import, WordsAreCommentsOnlyWhereALineBeginsWithThem)
   EXPECT_EQ(message(map_of(simple), raw).find("Comment marks"),
             std::string::npos);
 }
+
+
+
+TEST(Import, ABeginBehindTheEndIsRefusedWhereItStands)
+{
+  ImportSettings settings = simple;
+  settings.emplace_back("Selection/Begin", "1 s");
+  settings.emplace_back("Selection/End", "0.5 s");
+  expect_refused(settings,
+                 write("a.csv", "t,x,mu\n0,0,0\n1,1,0.1\n"),
+                 "Selection/End = 0.5 s: this is before Selection/Begin");
+}

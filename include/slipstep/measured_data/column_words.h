@@ -45,6 +45,9 @@ namespace SlipStep
   /// 'x', 'y' or 'z', if a name says so: "f_z", "position y"; else 0.
   char axis_of(const std::string &name);
 
+  /// What a mass weighs in, "kgf" of "kg"; of other units "".
+  std::string unit_of_weight(const std::string &unit);
+
   /// Name and unit of a heading, in small letters with _ for blanks.
   void
   split_name(const std::string &heading, std::string &name, std::string &unit);
