@@ -8,6 +8,7 @@
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -15,51 +16,86 @@ namespace SlipStep
 {
   namespace
   {
-    /// Residuals of the campaign as a function of the free parameters.
-    class CampaignCost : public ceres::CostFunction
+    /// Simulates for CampaignCost, and is asked before it: what Ceres is
+    /// refused it puts into words, row by row, and a million take seconds. This
+    /// has one row, which is zero.
+    class SimulatedCampaign : public ceres::CostFunction
     {
     public:
-      CampaignCost(Simulator                       &simulator,
-                   const std::vector<double>       &scaled,
-                   const std::vector<unsigned int> &free)
-        : simulator(simulator)
+      SimulatedCampaign(Simulator                       &simulator,
+                        const std::vector<double>       &scaled,
+                        const std::vector<unsigned int> &free)
+        : residuals(simulator.campaign.n_residuals())
+        , derivatives(residuals.size() * free.size())
+        , simulator(simulator)
         , scaled(scaled)
         , free(free)
       {
-        set_num_residuals(simulator.campaign.n_residuals());
+        set_num_residuals(1);
         mutable_parameter_block_sizes()->push_back(free.size());
       }
 
       // False where the law refuses the values or a test cannot be simulated:
       // the step is then made smaller.
       virtual bool Evaluate(double const *const *values,
-                            double              *residuals,
+                            double              *zero,
                             double             **jacobians) const override
       {
         std::vector<double> point = scaled;
         for (std::size_t i = 0; i < free.size(); ++i)
           point[free[i]] = values[0][i];
-        try
-          {
-            simulator.residuals(point, residuals);
-            if (jacobians != nullptr && jacobians[0] != nullptr)
-              simulator.derivatives(point, free, residuals, jacobians[0]);
-          }
-        catch (const InputError &)
-          {
-            return false;
-          }
-        catch (const RunError &)
-          {
-            return false;
-          }
-        return true;
+        *zero = 0.;
+        return if_possible([&]() {
+          throw_if_stopped();
+          simulator.residuals(point, residuals.data());
+          if (jacobians != nullptr && jacobians[0] != nullptr)
+            {
+              simulator.derivatives(point,
+                                    free,
+                                    residuals.data(),
+                                    derivatives.data());
+              std::fill_n(jacobians[0], free.size(), 0.);
+            }
+          return true;
+        });
       }
+
+      mutable std::vector<double> residuals, derivatives;
 
     private:
       Simulator                      &simulator;
       const std::vector<double>       scaled;
       const std::vector<unsigned int> free;
+    };
+
+
+
+    /// Residuals of the campaign as a function of the free parameters.
+    class CampaignCost : public ceres::CostFunction
+    {
+    public:
+      explicit CampaignCost(const SimulatedCampaign &simulated)
+        : simulated(simulated)
+      {
+        set_num_residuals(simulated.residuals.size());
+        *mutable_parameter_block_sizes() = simulated.parameter_block_sizes();
+      }
+
+      virtual bool Evaluate(double const *const *,
+                            double  *residuals,
+                            double **jacobians) const override
+      {
+        const auto copy = [](const std::vector<double> &from, double *to) {
+          std::copy(from.begin(), from.end(), to);
+        };
+        copy(simulated.residuals, residuals);
+        if (jacobians != nullptr && jacobians[0] != nullptr)
+          copy(simulated.derivatives, jacobians[0]);
+        return true;
+      }
+
+    private:
+      const SimulatedCampaign &simulated;
     };
 
 
@@ -119,7 +155,9 @@ namespace SlipStep
         values.push_back(result.scaled[i]);
 
       ceres::Problem problem;
-      problem.AddResidualBlock(new CampaignCost(simulator, result.scaled, free),
+      auto *simulated = new SimulatedCampaign(simulator, result.scaled, free);
+      problem.AddResidualBlock(simulated, nullptr, values.data());
+      problem.AddResidualBlock(new CampaignCost(*simulated),
                                nullptr,
                                values.data());
       for (std::size_t i = 0; i < free.size(); ++i)

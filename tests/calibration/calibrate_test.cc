@@ -6,11 +6,14 @@
 #include <slipstep/calibration/fit.h>
 #include <slipstep/calibration/profile_side.h>
 #include <slipstep/calibration/uncertainty.h>
+#include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/process.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 
 #include "tests/file_text.h"
 #include "planted.h"
@@ -64,6 +67,26 @@ TEST_F(Planted, WithoutNoiseTheTruth)
   for (const FittedParameter &fitted : found.parameters)
     EXPECT_NEAR(fitted.value / truth_of(fitted.parameter.path), 1., 1e-4)
       << fitted.parameter.path;
+}
+
+
+
+TEST_F(Planted, AFitThatIsStoppedDoesNotGoOn)
+{
+  plant(folder.path(), calibration_case(paper), {1.}, 20, 0., 1);
+  const Campaign campaign(fitting({{"Calibration/Parameters", four}}));
+  Simulator      simulator(campaign);
+  {
+    const SignalGuard guard;
+    std::raise(SIGTERM);
+    EXPECT_THROW(fit(simulator,
+                     campaign.scaled_start(),
+                     all_parameters(campaign),
+                     0,
+                     deadline_after(60.)),
+                 RunError);
+  }
+  const SignalGuard forgets_it;
 }
 
 
