@@ -303,6 +303,7 @@ namespace SlipStep
     /// A row of the history of a slide, or the one before it.
     struct SlideRow
     {
+      double time;   ///< [s]
       double travel; ///< of the drive [mm]
       double slip;   ///< of the contact [mm]
       double friction;
@@ -367,7 +368,7 @@ namespace SlipStep
         --from;
       if (last.travel > from->travel)
         slide.relative_rate =
-          (last.slip - from->slip) / (last.travel - from->travel);
+          (last.slip - from->slip) / (slide.speed * (last.time - from->time));
       from = before(tenth);
       if (from != rows.begin() && last.loading_ratio > 0.)
         {
@@ -448,7 +449,7 @@ namespace SlipStep
       // What pushes have moved is in the history alone.
       Tensor<1, 2> start = motion.start;
       // The row before it, and its own.
-      std::vector<SlideRow> rows = {{0., 0., 0., 0.}};
+      std::vector<SlideRow> rows = {{motion.start_time, 0., 0., 0., 0.}};
       slide.is_complete = history.back().time >= motion.end_time - tolerance;
       // Of many thousands of strokes each has its part of the history only.
       const auto until = [&](const double time) {
@@ -469,7 +470,8 @@ namespace SlipStep
           slide.before = along(direction, row.friction, row.friction_y);
           start[0]     = row.displacement;
           start[1]     = row.displacement_y;
-          rows[0]      = {0., row.slip, slide.before, row.loading_ratio.mean};
+          rows[0]      = {
+                 row.time, 0., row.slip, slide.before, row.loading_ratio.mean};
         }
       for (auto row = begin; row != end; ++row)
         {
@@ -483,8 +485,11 @@ namespace SlipStep
           slide.slip_fraction = row->slip_fraction;
           slide.dip           = std::min(slide.dip, slide.kinetic);
           peak.consider(slide.kinetic, slide.length);
-          rows.push_back(
-            {slide.length, row->slip, slide.kinetic, row->loading_ratio.mean});
+          rows.push_back({row->time,
+                          slide.length,
+                          row->slip,
+                          slide.kinetic,
+                          row->loading_ratio.mean});
         }
       slide.peak              = peak.value;
       slide.peak_displacement = peak.place;

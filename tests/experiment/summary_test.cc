@@ -441,6 +441,27 @@ TEST(Summary, AFollowedTestIsOneSlideAtItsSpeed)
 
 
 
+// What it ends with is no friction at the speed that it mostly has.
+TEST(Summary, AFollowedTestThatEndsSlowlyHasNoKineticLevel)
+{
+  const auto folder = test_folder();
+  std::ofstream(folder / "followed.csv")
+    << "time_s,displacement_mm,pressure_MPa,friction\n"
+       "0,0,1,0\n1,10,1,0\n11,10.1,1,0\n";
+  const Programme programme("follow followed.csv", 0., folder);
+  auto            history = sampled(programme, 100);
+  for (HistoryRow &row : history)
+    row.slip = row.displacement;
+  Summary summary;
+  summarise_history(history, programme, summary);
+  const double speed = (10. * 10. + 0.1 * 0.01) / 10.1;
+  EXPECT_NEAR(summary.slides.at(0).speed, speed, 1e-12);
+  EXPECT_NEAR(summary.slides[0].relative_rate, 0.2 / 10.01 / speed, 1e-9);
+  EXPECT_FALSE(summary.slides[0].is_settled());
+}
+
+
+
 // There and back along a line is two directions, as is a corner; jitter at rest
 // is none.
 TEST(Summary, AFollowedTestThatTurnsRoundIsNoSlide)
