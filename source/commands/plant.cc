@@ -88,8 +88,10 @@ namespace SlipStep
       options.edition =
         std::min<std::uint64_t>(whole_number(line, "edition", options.edition),
                                 1000);
-      options.noise_factor    = number(line, "noise-factor", 1., 30.);
-      options.amplitude       = number(line, "amplitude", 0., 0.5);
+      options.noise_factor = number(line, "noise-factor", 1., 30.);
+      options.amplitude    = number(line, "amplitude", 0., 0.5);
+      if (options.amplitude == 0. && !value_of(line, "amplitude").empty())
+        throw InputError("--amplitude 0 hides nothing: --class none does so");
       options.with_replicates = line.plant_options.count("no-replicates") == 0;
       return options;
     }

@@ -7,6 +7,7 @@
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <boost/algorithm/string/join.hpp>
@@ -169,12 +170,15 @@ namespace SlipStep
                            " adds no effect that could have an amplitude");
         if (!options.effects.empty() &&
             options.effects.size() != n_hidden(options.campaign_class))
-          throw InputError("class " + name + " hides " +
-                           std::to_string(n_hidden(options.campaign_class)) +
-                           (n_hidden(options.campaign_class) == 1 ?
-                              " effect, not " :
-                              " effects, not ") +
-                           std::to_string(options.effects.size()));
+          throw InputError(
+            "class " + name + " hides " +
+            std::to_string(n_hidden(options.campaign_class)) +
+            (n_hidden(options.campaign_class) == 1 ? " effect, not " :
+                                                     " effects, not ") +
+            std::to_string(options.effects.size()) +
+            (options.campaign_class == CampaignClass::joint ?
+               ": one of " + boost::algorithm::join(possible, ", ") :
+               ""));
         for (const std::string &effect : options.effects)
           {
             hidden_effect(effect, formula_of(options.campaign_class));
@@ -213,6 +217,50 @@ namespace SlipStep
 
 
 
+      // That of an effect that can be no larger is the least with its truth.
+      double reached(const HiddenEffectKind &kind,
+                     const TrueContact      &contact,
+                     const double            wished,
+                     const Random           &random)
+      {
+        const auto truth = [&](const double amplitude) {
+          TrueContact         changed = contact;
+          Random              same    = random;
+          std::vector<double> values;
+          for (const TruthParameter &parameter :
+               kind.add(changed, amplitude, same))
+            values.push_back(parameter.value);
+          return values;
+        };
+        const std::vector<double> values = truth(wished);
+        if (truth(0.999 * wished) != values || truth(0.) == values)
+          return wished;
+        double less = 0., enough = wished;
+        for (unsigned int n = 0; n < 50; ++n)
+          {
+            const double middle                       = (less + enough) / 2.;
+            (truth(middle) == values ? enough : less) = middle;
+          }
+        return enough;
+      }
+
+
+
+      // Without a name, which may be what is to be found.
+      void check_reach(const double wished, const double reached)
+      {
+        if (wished <= reached)
+          return;
+        const double digits =
+          std::pow(10., 2. - std::floor(std::log10(reached)));
+        throw InputError(
+          "amplitude " + rounded_text(wished, 6) +
+          ": what this campaign hides reaches at most " +
+          rounded_text(std::floor(digits * reached) / digits, 3));
+      }
+
+
+
       PlantedEffect hide(const std::string     &name,
                          const CampaignOptions &options,
                          TrueContact           &contact,
@@ -232,7 +280,10 @@ namespace SlipStep
                              {}};
         if (options.campaign_class != CampaignClass::ablated)
           {
-            effect.parameters = kind.add(contact, effect.amplitude, random);
+            const double wished = effect.amplitude;
+            effect.amplitude    = reached(kind, contact, wished, random);
+            check_reach(options.amplitude, effect.amplitude);
+            effect.parameters = kind.add(contact, wished, random);
             return effect;
           }
         // The base has it already.
@@ -416,7 +467,17 @@ namespace SlipStep
       PlantedCampaign campaign;
       campaign.options = options;
       plant_truth(campaign);
-      run_tests(campaign);
+      try
+        {
+          run_tests(campaign);
+        }
+      catch (const RunError &error)
+        {
+          if (options.amplitude == 0.)
+            throw;
+          throw InputError("amplitude " + rounded_text(options.amplitude, 6) +
+                           ": take a larger one (" + error.what() + ")");
+        }
       return campaign;
     }
 

@@ -49,6 +49,8 @@ TEST_F(Plant, WrongOptions)
   expect_refusal({"a", "--effect", "heeling"}, "did you mean healing");
   expect_refusal({"a", "--effect", "healing,pressure"},
                  "hides 1 effect, not 2");
+  expect_refusal({"a", "--class", "joint", "--effect", "viscous,heating"},
+                 "not 2: one of overstress+ageing, ");
   expect_refusal({"a", "--class", "none", "--effect", "healing"},
                  "hides 0 effects");
   expect_refusal({"a", "--seed", "-1"}, "--seed -1: must be a whole number");
@@ -99,6 +101,20 @@ TEST_F(Plant, AmplitudesAndEditionsAreChecked)
 {
   expect_refusal({"a", "--amplitude", "2 %"}, "must be a number");
   expect_refusal({"a", "--amplitude", "3"}, "at most 0.5");
+  expect_refusal({"a", "--amplitude", "0"}, "--class none does so");
+  expect_refusal(
+    {"a", "--effect", "stribeck", "--seed", "3", "--amplitude", "0.3"},
+    "amplitude 0.3: what this campaign hides reaches at most 0.069");
+  expect_refusal({"a",
+                  "--effect",
+                  "overstress",
+                  "--seed",
+                  "3",
+                  "--amplitude",
+                  "1e-9",
+                  "--noise-factor",
+                  "0"},
+                 "amplitude 1e-09: take a larger one");
   expect_refusal({"a", "--amplitude", "0.1", "--class", "none"},
                  "adds no effect");
   expect_refusal({"a", "--edition", "99"}, "there are editions 1 to");

@@ -138,6 +138,20 @@ TEST(PlantedCampaign, TakesAnAmplitudeThatIsGiven)
 
 
 
+// Of 0.0756 that were drawn.
+TEST(PlantedCampaign, TellsTheAmplitudeThatAnEffectReaches)
+{
+  CampaignOptions options;
+  options.effects            = {"stribeck"};
+  options.seed               = 57;
+  options.n_tests            = 2;
+  const PlantedEffect hidden = plant_campaign(options).hidden.at(0);
+  EXPECT_NEAR(hidden.amplitude, 0.0638120, 1e-7);
+  EXPECT_NEAR(hidden.amplitude, hidden.parameters[0].value, 1e-12);
+}
+
+
+
 TEST(PlantedCampaign, HidesWhatItsClassSays)
 {
   const std::map<CampaignClass, unsigned int> sizes = {
