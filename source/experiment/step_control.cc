@@ -215,16 +215,22 @@ namespace SlipStep
   // A run has an end.
   void StepControl::count_step()
   {
-    const Segment &now = programme.segments()[segment];
-    if (++steps_of_statement <= most_steps + rows_of_statement)
+    const Segment     &now   = programme.segments()[segment];
+    const unsigned int limit = most_steps + rows_of_statement - 1;
+    if (++steps_of_statement <= limit)
       return;
     throw RunError(
       "Statement " + std::to_string(now.statement + 1) +
-      " of the programme takes more than " + std::to_string(most_steps) +
-      " time steps (" + most_steps_key + "): at t = " + short_text(end, 6) +
-      " s they are " + short_text(step_size(), 2) +
-      " s long; stick-slip, and a mass that rings on its spring, want many: "
-      "allow more, slide for less, or damp it (effect viscous)");
+      " of the programme takes more than " + std::to_string(limit) +
+      " time steps (" + most_steps_key +
+      (rows_of_statement > 1 ? " and one for each row" : "") +
+      "), tried ones among them: at t = " + short_text(end, 6) +
+      " s they are " + short_text(step_size(), 2) + " s long; " +
+      (rows_of_statement > 1 ?
+         "a test that turns round or trembles wants many: allow more, follow "
+         "fewer rows, or a larger Time stepping/Tolerance" :
+         "stick-slip, and a mass that rings on its spring, want many: allow "
+         "more, slide for less, or damp it (effect viscous)"));
   }
 
 

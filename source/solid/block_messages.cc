@@ -116,9 +116,12 @@ namespace SlipStep
              " % of its face is still in contact" + failure;
     if (control.time() == 0. &&
         newton.failure.find("'set Solver = automatic'") == std::string::npos)
-      return "not even the beginning of the loads is in equilibrium: they lift "
-             "the block or tip it over, or, if they do hold it on the plane, "
-             "more Block/Newton iterations than " +
+      return "not even the beginning of the loads is in equilibrium: " +
+             (warning_of_penetration().empty() ?
+                "they lift the block or tip it over" :
+                warning_of_penetration()) +
+             ", or, if they do hold it on the plane, more Block/Newton "
+             "iterations than " +
              std::to_string(parameters.newton_iterations) +
              " or, where round-off is in the way, a larger Block/Newton "
              "tolerance may help" +
@@ -156,6 +159,11 @@ namespace SlipStep
   template <int dim>
   std::string Block<dim>::remedy_of_jumps() const
   {
+    constexpr double least = 1e-6;
+
+    if (contact.friction_law().static_coefficient() < least)
+      return "; a Friction/Static coefficient below " + rounded_text(least, 1) +
+             " is lost in the round-off of the pressure";
     const Segment &now = programme.segment_at(control.end_of_step());
     if (inertia.exists() || now.end.velocity.norm() == 0.)
       return "";

@@ -160,6 +160,46 @@ TEST(FailedRun, LoadsThatNothingHoldsAreTold)
 
 
 
+// By 5 m.
+TEST(FailedRun, ABlockThatSinksIsTold)
+{
+  const SlipstepProcess process;
+  process.write("case.prm",
+                "set Loading/Programme = press 5 MPa in 1 s; slide 1 mm/s for "
+                "3 um\n"
+                "set Friction/Normal stiffness = 1e-3\n"
+                "set Block/Dimension = 2\n"
+                "set Block/Size = 8 mm, 4 mm\n"
+                "set Block/Subdivisions = 4, 2\n"
+                "set Block/Degree = 2\n");
+  const auto result = process.run({"run", "case.prm"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(contains(result.err, "the block sinks 5000 mm into the plane"));
+  EXPECT_FALSE(contains(result.err, "tip it over"));
+}
+
+
+
+TEST(FailedRun, FrictionBelowRoundOffIsTold)
+{
+  const SlipstepProcess process;
+  process.write("case.prm",
+                "set Loading/Programme = press 5 MPa in 1 s; slide 1 mm/min "
+                "for 5 um\n"
+                "set Friction/Effects = subloading, overstress\n"
+                "set Friction/Static coefficient = 1e-12\n"
+                "set Block/Dimension = 2\n"
+                "set Block/Size = 8 mm, 4 mm\n"
+                "set Block/Subdivisions = 4, 2\n"
+                "set Block/Degree = 2\n");
+  const auto result = process.run({"run", "case.prm"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(contains(result.err, "lost in the round-off of the pressure"));
+  EXPECT_FALSE(contains(result.err, "soft may jump"));
+}
+
+
+
 TEST(FailedRun, LossOfPressureIsToldAndKept)
 {
   const SlipstepProcess process;

@@ -53,7 +53,33 @@ TEST(StepControl, EndsARunThatWouldHaveNone)
       EXPECT_TRUE(contains(text,
                            "Statement 2 of the programme takes more than 3000 "
                            "time steps (Time stepping/Most steps per "
-                           "statement)"));
+                           "statement), tried"));
+      EXPECT_TRUE(contains(text, "stick-slip"));
+    }
+}
+
+
+
+// Of two segments.
+TEST(StepControl, AllowsMoreStepsToATestOfManyRows)
+{
+  const auto file = test_folder() / "followed.csv";
+  std::ofstream(file) << "time_s,displacement_mm,pressure_MPa,friction\n"
+                         "0,0,5,0\n1,1,5,0\n2,0,5,0\n";
+  try
+    {
+      point_history(point_parameters(
+        falling + Settings{{"Loading/Programme", "follow " + file.string()}}));
+      FAIL() << "it ended by itself";
+    }
+  catch (const RunError &error)
+    {
+      const std::string text = error.what();
+      EXPECT_TRUE(contains(text,
+                           "Statement 1 of the programme takes more than 3001 "
+                           "time steps (Time stepping/Most steps per statement "
+                           "and one for each row)"));
+      EXPECT_FALSE(contains(text, "stick-slip"));
     }
 }
 
