@@ -362,9 +362,9 @@ namespace SlipStep
       trial.error_after  = error(judgement.found.model);
       if (!trial.truth.empty())
         {
-          Workspace clean  = workspace;
-          clean.tests      = tests;
-          clean.comparison = Comparison(tests);
+          Workspace clean           = workspace;
+          clean.tests               = tests;
+          clean.comparison.measured = truth;
           clean.comparison.set_noise(workspace.noise.noise, truth);
           trial.detectability =
             detectability(clean, ingested.base, trial.truth);
