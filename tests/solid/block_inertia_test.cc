@@ -204,6 +204,7 @@ TEST(BlockInertia, lets_a_wave_arrive_at_the_foot_of_a_long_bar)
     {{"Block/Dimension", "2"},
            {"Block/Size", "2 mm, 100 mm"},
            {"Block/Subdivisions", "1, 100"},
+           {"Block/Degree", "2"},
            {"Block/Young modulus", "206 GPa"},
            {"Block/Poisson ratio", "0"},
            {"Block/Density", "7850 kg/m^3"},
