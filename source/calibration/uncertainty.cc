@@ -306,13 +306,13 @@ namespace SlipStep
           .topRows(p)
           .triangularView<Eigen::Upper>()
           .solve(Eigen::MatrixXd::Identity(p, p));
+      const RowMatrix all   = derivatives(Eigen::all, known) * inverse;
       Eigen::VectorXd sums  = Eigen::VectorXd::Zero(p);
       Eigen::Index    begin = 0;
       for (const CampaignTest &test : campaign.tests)
         {
           const Eigen::Index    n_rows = test.n_residuals();
-          const Eigen::MatrixXd own    = derivatives.middleRows(begin, n_rows);
-          const Eigen::MatrixXd J      = own(Eigen::all, known) * inverse;
+          const Eigen::MatrixXd J      = all.middleRows(begin, n_rows);
           const Eigen::VectorXd s =
             J.transpose() *
             Eigen::Map<const Eigen::VectorXd>(residuals.data() + begin, n_rows);

@@ -270,8 +270,7 @@ namespace SlipStep
           throw InputError(
             "the state has " + std::string(name) + " = " +
             rounded_text(value, 4) +
-            ", which no step leaves "
-            "behind: the first one is slipstep_initial_state()'s");
+            ", which no step leaves behind: the first one is slipstep_initial_state()'s");
       };
       const auto [smallest, largest] = law.coefficient_range();
       check("mu", state.coefficient, smallest, largest);

@@ -116,16 +116,17 @@ namespace SlipStep
              " % of its face is still in contact" + failure;
     if (control.time() == 0. &&
         newton.failure.find("'set Solver = automatic'") == std::string::npos)
-      return "not even the beginning of the loads is in equilibrium: " +
-             (warning_of_penetration().empty() ?
-                "they lift the block or tip it over" :
-                warning_of_penetration()) +
-             ", or, if they do hold it on the plane, more Block/Newton "
-             "iterations than " +
-             std::to_string(parameters.newton_iterations) +
-             " or, where round-off is in the way, a larger Block/Newton "
-             "tolerance may help" +
-             failure + remedy_of_proportional_loads();
+      {
+        const std::string sinks = warning_of_penetration();
+        return "not even the beginning of the loads is in equilibrium: " +
+               (sinks.empty() ? "they lift the block or tip it over" : sinks) +
+               ", or, if they do hold it on the plane, more Block/Newton "
+               "iterations than " +
+               std::to_string(parameters.newton_iterations) +
+               " or, where round-off is in the way, a larger Block/Newton "
+               "tolerance may help" +
+               failure + remedy_of_proportional_loads();
+      }
     if (drive.is_unknown() && drive.mass() == 0. && !inertia.exists())
       return drive.reason_of_failure() + failure;
     if (!inertia.exists() && parameters.only_friction_holds_loads())

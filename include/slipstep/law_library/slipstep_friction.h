@@ -58,10 +58,11 @@ double slipstep_normal_stiffness(const slipstep_law *law);
 
 /** A step in which slip and pressure change evenly, by the two implicit stages
  * that slipstep makes: in parts, if need be, so short that the error estimated
- * of each is at most a thousandth of the strength. So steps may be of any
- * length; where one has a part more than a step nearby, the traction is off
- * from that by as little. A law with which friction jumps again and again,
- * since it falls with speed and nothing in it rises at once, has no solution.
+ * of each, and what two halves of it make otherwise, is at most a thousandth
+ * of the strength. So steps may be of any length; where one has a part more
+ * than a step nearby, the traction is off from that by as little. A law with
+ * which friction jumps again and again, since it falls with speed and nothing
+ * in it rises at once, has no solution.
  * @param law the law
  * @param start state before the step
  * @param slip increment of the relative displacement in the plane [mm]

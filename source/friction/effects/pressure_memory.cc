@@ -72,7 +72,7 @@ namespace SlipStep
       virtual Strength strength_factor(const SlipStepData &step) const override
       {
         const double kept = share_kept(step), away = log_ratio(step);
-        const double forgotten  = std::pow(1. - share(step), beginning);
+        const double forgotten  = share_forgotten(share(step));
         const double remembered = 1. - forgotten;
         Strength     factor;
         factor.value = std::exp(alpha * remembered * kept * away);
@@ -122,7 +122,7 @@ namespace SlipStep
             },
             kept,
             1.);
-        const double v = 1. - std::pow(1. - end[adapted_share], beginning);
+        const double v = 1. - share_forgotten(end[adapted_share]);
         return std::abs(
           alpha * v *
           (z / end[adapted_share] - std::log(end[adapted_pressure] / p_1)));
@@ -149,6 +149,12 @@ namespace SlipStep
       {
         const double start = step.start[adapted_share];
         return start - (1. - start) * std::expm1(-step.slip / L);
+      }
+
+      // 1 - v, of w.
+      static double share_forgotten(const double adapted)
+      {
+        return std::pow(1. - adapted, beginning);
       }
 
       // Of ln(p_m / f_n), for a constant pressure.
