@@ -424,14 +424,25 @@ TEST(Summary, HowASlideEndsIsToldApart)
 
 
 
+namespace
+{
+  Programme following(const std::string &rows)
+  {
+    const auto folder = test_folder();
+    std::ofstream(folder / "followed.csv")
+      << "time_s,displacement_mm,pressure_MPa,friction\n"
+      << rows;
+    return Programme("follow followed.csv", 0., folder);
+  }
+} // namespace
+
+
+
 TEST(Summary, AFollowedTestIsOneSlideAtItsSpeed)
 {
-  const auto folder = test_folder();
-  std::ofstream(folder / "followed.csv")
-    << "time_s,displacement_mm,pressure_MPa,friction\n"
-       "0,0,1,0\n5,0,1,0\n6,-3,1,0\n7,-6,1,0\n20,-6,1,0\n";
-  const Programme programme("follow followed.csv", 0., folder);
-  Summary         summary;
+  const Programme programme =
+    following("0,0,1,0\n5,0,1,0\n6,-3,1,0\n7,-6,1,0\n20,-6,1,0\n");
+  Summary summary;
   summarise_history(sampled(programme, 10), programme, summary);
   ASSERT_EQ(summary.slides.size(), 1u);
   EXPECT_NEAR(summary.slides[0].speed, 3., 1e-12);
@@ -444,12 +455,8 @@ TEST(Summary, AFollowedTestIsOneSlideAtItsSpeed)
 // What it ends with is no friction at the speed that it mostly has.
 TEST(Summary, AFollowedTestThatEndsSlowlyHasNoKineticLevel)
 {
-  const auto folder = test_folder();
-  std::ofstream(folder / "followed.csv")
-    << "time_s,displacement_mm,pressure_MPa,friction\n"
-       "0,0,1,0\n1,10,1,0\n11,10.1,1,0\n";
-  const Programme programme("follow followed.csv", 0., folder);
-  auto            history = sampled(programme, 100);
+  const Programme programme = following("0,0,1,0\n1,10,1,0\n11,10.1,1,0\n");
+  auto            history   = sampled(programme, 100);
   for (HistoryRow &row : history)
     row.slip = row.displacement;
   Summary summary;

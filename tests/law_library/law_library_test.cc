@@ -9,6 +9,7 @@
 #include <fstream>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -429,6 +430,39 @@ TEST_F(SlidingPoint, AStepMayBeOfAnyLength)
 
 
 
+namespace
+{
+  /// A law of a text of its section Friction, and a point of it.
+  struct ParsedLaw
+  {
+    explicit ParsedLaw(const std::string &text)
+      : law(
+          slipstep_law_parse(("subsection Friction\n" + text + "end\n").c_str(),
+                             message,
+                             sizeof(message)))
+    {
+      if (law == nullptr)
+        throw std::runtime_error(message);
+      state.resize(slipstep_state_size(law));
+      slipstep_initial_state(law, state.data());
+    }
+
+    ~ParsedLaw()
+    {
+      slipstep_law_free(law);
+    }
+
+    ParsedLaw(const ParsedLaw &)            = delete;
+    ParsedLaw &operator=(const ParsedLaw &) = delete;
+
+    char                message[300] = "";
+    slipstep_law *const law;
+    std::vector<double> state;
+  };
+} // namespace
+
+
+
 // Slip turns while pressure falls, and a contact lags behind the pressure: of
 // one long step neither is seen at its end. Random steps of laws that were far
 // off, against a thousand parts.
@@ -444,17 +478,9 @@ TEST(LawLibraryStep, TurnsAndLagsAreSeen)
      "subsection pressure_memory\nset Change = 0.5\n"
      "set Slip length = 0.002 mm\nend\n"})
     {
-      char          message[300] = "";
-      slipstep_law *law          = slipstep_law_parse(
-        ("subsection Friction\nset Static coefficient = 0.2\n"
-                  "set Tangential stiffness = 1e4\n" +
-         law_text + "end\n")
-          .c_str(),
-        message,
-        300);
-      ASSERT_NE(law, nullptr) << message;
-      std::vector<double> state(slipstep_state_size(law));
-      slipstep_initial_state(law, state.data());
+      ParsedLaw  point("set Static coefficient = 0.2\n"
+                       "set Tangential stiffness = 1e4\n" +
+                      law_text);
       const auto in_parts = [&](const unsigned int   n,
                                 std::vector<double> &from,
                                 const double         angle,
@@ -465,7 +491,7 @@ TEST(LawLibraryStep, TurnsAndLagsAreSeen)
                                          length / n * std::sin(angle)};
         std::array<double, 2> traction;
         for (unsigned int i = 1; i <= n; ++i)
-          EXPECT_EQ(slipstep_step(law,
+          EXPECT_EQ(slipstep_step(point.law,
                                   from.data(),
                                   slip,
                                   first + (pressure - first) * i / n,
@@ -474,10 +500,10 @@ TEST(LawLibraryStep, TurnsAndLagsAreSeen)
                                   traction.data(),
                                   nullptr,
                                   nullptr,
-                                  message,
+                                  point.message,
                                   300),
                     0)
-            << message;
+            << point.message;
         return traction;
       };
       for (unsigned int i = 0; i < 300; ++i)
@@ -485,14 +511,14 @@ TEST(LawLibraryStep, TurnsAndLagsAreSeen)
           const double angle        = 6.3 * share(engine),
                        length       = std::pow(10., -4. + 3.5 * share(engine)),
                        pressure     = std::pow(10., -1. + 2.5 * share(engine));
-          std::vector<double> whole = state;
+          std::vector<double> whole = point.state;
           const auto          one = in_parts(1, whole, angle, length, pressure);
-          const auto exact = in_parts(1000, state, angle, length, pressure);
+          const auto          exact =
+            in_parts(1000, point.state, angle, length, pressure);
           ASSERT_LT(std::hypot(one[0] - exact[0], one[1] - exact[1]),
                     0.02 * std::hypot(exact[0], exact[1]))
             << law_text << i << ": " << length << " mm, " << pressure << " MPa";
         }
-      slipstep_law_free(law);
     }
 }
 
@@ -504,51 +530,40 @@ TEST(LawLibraryStep, JumpsAreNoSolution)
 {
   for (const bool is_stable : {false, true})
     {
-      const std::string rise         = is_stable ? "0.05" : "1";
-      char              message[300] = "";
-      slipstep_law     *law          = slipstep_law_parse(
-        (std::string("subsection Friction\n  set Effects = subloading, ") +
-         (is_stable ? "overstress, " : "") +
-         "stribeck\n  set Static coefficient = 0.2\n"
-                      "  subsection stribeck\n    set Rise = " +
-         rise +
-         "\n"
-                      "    set Speed = 0.5 mm/s\n  end\nend\n")
-          .c_str(),
-        message,
-        300);
-      ASSERT_NE(law, nullptr) << message;
-      std::vector<double> state(slipstep_state_size(law));
-      slipstep_initial_state(law, state.data());
+      ParsedLaw    point(std::string("set Effects = subloading, ") +
+                      (is_stable ? "overstress, " : "") +
+                      "stribeck\nset Static coefficient = 0.2\n"
+                         "subsection stribeck\nset Rise = " +
+                      (is_stable ? "0.05" : "1") +
+                      "\nset Speed = 0.5 mm/s\nend\n");
       double       traction[2] = {0., 0.};
       unsigned int n_failed    = 0;
       for (unsigned int i = 0; i < 100; ++i)
         {
           const double slip[2] = {5e-3, 0.};
-          n_failed += slipstep_step(law,
-                                    state.data(),
+          n_failed += slipstep_step(point.law,
+                                    point.state.data(),
                                     slip,
                                     5.,
                                     0.01,
-                                    state.data(),
+                                    point.state.data(),
                                     traction,
                                     nullptr,
                                     nullptr,
-                                    message,
+                                    point.message,
                                     300);
         }
       if (is_stable)
         {
-          EXPECT_EQ(n_failed, 0u) << message;
+          EXPECT_EQ(n_failed, 0u) << point.message;
           EXPECT_GT(traction[0], 5. * 0.19);
         }
       else
         {
           EXPECT_GT(n_failed, 50u);
-          EXPECT_TRUE(contains(message, "friction jumps again and again"))
-            << message;
+          EXPECT_TRUE(contains(point.message, "friction jumps again and again"))
+            << point.message;
         }
-      slipstep_law_free(law);
     }
 }
 
