@@ -45,7 +45,7 @@ namespace SlipStep
       const Comparison &comparison   = workspace.comparison;
       const auto        left_out_rms = [&](const Model &model) {
         Eigen::VectorXd differences;
-        left_out_squares(workspace, model, &differences);
+        left_out(workspace, model, &differences);
         return relative_rms(comparison, differences);
       };
       return relative_rms(comparison, corrected) <

@@ -274,8 +274,8 @@ namespace SlipStep
     Differences       differences;
     differences.before = comparison.difference(ingested.base);
     differences.after  = comparison.difference(after);
-    left_out_squares(workspace, ingested.base, &differences.left_out_before);
-    left_out_squares(workspace, after, &differences.left_out_after);
+    left_out(workspace, ingested.base, &differences.left_out_before);
+    left_out(workspace, after, &differences.left_out_after);
     for (std::size_t t = 0; t < workspace.tests.size(); ++t)
       diagnosis.tests.push_back(described_test(workspace, differences, t));
     for (const CampaignTest &outlier : ingested.outlier_tests)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/left_out.h>
+#include <slipstep/diagnosis/rules.h>
+#include <slipstep/utilities/lists.h>
 
 #include <Eigen/Dense>
 
@@ -12,9 +14,9 @@ namespace SlipStep
 {
   namespace
   {
-    // A model as fitted to all conditions but one: by one step of Gauss and
-    // Newton from the optimum of all, by a fit of its own where that goes far.
-    // From then on it simulates that condition only.
+    // A model as fitted to all conditions but one, with its objective of those:
+    // by one step of Gauss and Newton from the optimum of all, by a fit of its
+    // own where that goes far. From then on it simulates that condition only.
     Model fit_without(const Comparison &comparison,
                       const Model      &model,
                       const std::size_t condition)
@@ -33,9 +35,8 @@ namespace SlipStep
         }
       Model                 result    = model.copy();
       const Eigen::MatrixXd curvature = derivatives.transpose() * derivatives;
-      const Eigen::VectorXd step =
-        curvature.completeOrthogonalDecomposition().solve(
-          derivatives.transpose() * residual);
+      Eigen::VectorXd step = curvature.completeOrthogonalDecomposition().solve(
+        derivatives.transpose() * residual);
       bool is_near = true;
       for (std::size_t i = 0; i < result.scaled.size(); ++i)
         {
@@ -43,7 +44,9 @@ namespace SlipStep
             natural_slope(model.campaign->fitted[i], model.scaled[i]);
           is_near          = is_near && std::abs(step(i)) * slope < 0.5;
           result.scaled[i] = std::clamp(result.scaled[i] + step(i), 0., 1.);
+          step(i)          = result.scaled[i] - model.scaled[i];
         }
+      result.objective = (residual - derivatives * step).squaredNorm();
       if (!is_near)
         {
           result.scaled = model.scaled;
@@ -57,9 +60,9 @@ namespace SlipStep
 
 
 
-  std::vector<double> left_out_squares(const Workspace &workspace,
-                                       const Model     &model,
-                                       Eigen::VectorXd *differences)
+  LeftOut left_out(const Workspace &workspace,
+                   const Model     &model,
+                   Eigen::VectorXd *differences)
   {
     const Comparison     &comparison = workspace.comparison;
     constexpr std::size_t most_kept  = 4;
@@ -71,18 +74,21 @@ namespace SlipStep
     const bool is_known = known != workspace.left_out.end();
     if (differences == nullptr && is_known)
       return known->second;
-    std::vector<double> squares(comparison.tests.size(), 0.);
     // Of a single condition nothing is left to fit.
-    constexpr double none   = std::numeric_limits<double>::quiet_NaN();
-    const bool       is_one = comparison.conditions.size() < 2;
+    constexpr double  none   = std::numeric_limits<double>::quiet_NaN();
+    const std::size_t n      = comparison.conditions.size();
+    const bool        is_one = n < 2;
+    LeftOut           result{std::vector<double>(n, is_one ? none : 0.),
+                   std::vector<double>(n, is_one ? none : 0.)};
     if (differences != nullptr)
       *differences =
         Eigen::VectorXd::Constant(comparison.n_rows(), is_one ? none : 0.);
     if (is_one)
-      return std::vector<double>(comparison.tests.size(), none);
-    side_by_side(comparison.conditions.size(), [&](const std::size_t c) {
+      return result;
+    side_by_side(n, [&](const std::size_t c) {
       const Model           other      = fit_without(comparison, model, c);
       const Eigen::VectorXd difference = comparison.difference(other);
+      result.of_others[c]              = other.objective;
       if (difference.size() == 0)
         return;
       RowMatrix whitened = difference;
@@ -92,17 +98,33 @@ namespace SlipStep
           const ComparedTest &test = comparison.tests[t];
           if (test.condition != c)
             continue;
-          squares[t] = whitened.middleRows(test.begin, test.size).squaredNorm();
+          result.squares[c] +=
+            whitened.middleRows(test.begin, test.size).squaredNorm();
           if (differences != nullptr)
             differences->segment(test.begin, test.size) =
               difference.segment(test.begin, test.size);
         }
     });
     if (!is_known)
-      workspace.left_out.emplace_front(key, squares);
+      workspace.left_out.emplace_front(key, result);
     if (workspace.left_out.size() > most_kept)
       workspace.left_out.pop_back();
-    return squares;
+    return result;
+  }
+
+
+
+  std::vector<bool> conditions_that_judge(const Workspace &workspace,
+                                          const Model     &less,
+                                          const Model     &more)
+  {
+    const LeftOut     a = left_out(workspace, less);
+    const LeftOut     b = left_out(workspace, more);
+    std::vector<bool> result;
+    for (std::size_t c = 0; c < a.squares.size(); ++c)
+      result.push_back(!(a.of_others[c] - b.of_others[c] < least_cost &&
+                         a.squares[c] < b.squares[c]));
+    return result;
   }
 
 
@@ -111,10 +133,18 @@ namespace SlipStep
                        const Model     &less,
                        const Model     &more)
   {
-    const auto sum = [&](const Model &model) {
-      const std::vector<double> squares = left_out_squares(workspace, model);
-      return std::accumulate(squares.begin(), squares.end(), 0.);
-    };
-    return sum(less) - sum(more);
+    const LeftOut           a = left_out(workspace, less);
+    const LeftOut           b = left_out(workspace, more);
+    const std::vector<bool> judges =
+      conditions_that_judge(workspace, less, more);
+    double gain = 0.;
+    for (std::size_t c = 0; c < judges.size(); ++c)
+      if (judges[c])
+        gain += a.squares[c] - b.squares[c];
+    // What one condition alone tells of, others can only speak against.
+    return none_of(judges, [](const bool judge) { return !judge; }) ||
+               gain <= -least_cost ?
+             gain :
+             std::numeric_limits<double>::quiet_NaN();
   }
 } // namespace SlipStep

@@ -191,8 +191,14 @@ namespace SlipStep
                      comparison.difference(model)))
         return true;
       Eigen::VectorXd before, after;
-      left_out_squares(workspace, base, &before);
-      left_out_squares(workspace, model, &after);
+      left_out(workspace, base, &before);
+      left_out(workspace, model, &after);
+      const std::vector<bool> judges =
+        conditions_that_judge(workspace, base, model);
+      for (const ComparedTest &test : comparison.tests)
+        if (!judges[test.condition])
+          for (Eigen::VectorXd *differences : {&before, &after})
+            differences->segment(test.begin, test.size).setZero();
       return is_farther(workspace, comparison, before, after);
     }
 

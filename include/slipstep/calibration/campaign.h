@@ -30,7 +30,7 @@ namespace SlipStep
     double motion_step = 0.;
     /// The hum of the mains in the friction of each axis, taken off where it
     /// can be told; empty without any.
-    std::vector<Hum> hum;
+    std::vector<Hum> hum = {};
 
     /// Whether friction_y is compared, too.
     bool has_two_axes() const

@@ -6,17 +6,26 @@
 
 namespace SlipStep
 {
+  /// How well every condition is predicted by a model fitted to all others; NaN
+  /// for tests of a single condition.
+  /// @param differences simulated minus measured friction, if asked for
+  LeftOut left_out(const Workspace &workspace,
+                   const Model     &model,
+                   Eigen::VectorXd *differences = nullptr);
+
+  /// Those without which the others tell of what a model has more. Where one
+  /// alone tells of an effect, that has any size when it is left out.
+  std::vector<bool> conditions_that_judge(const Workspace &workspace,
+                                          const Model     &less,
+                                          const Model     &more);
+
   /// By how much the squares of whitened differences on left-out conditions are
-  /// less with more effects; NaN for tests of a single condition.
+  /// less with more effects. NaN if that does not tell: for tests of a single
+  /// condition, or where one does not judge and the others have little against
+  /// it.
   double left_out_gain(const Workspace &workspace,
                        const Model     &less,
                        const Model     &more);
-
-  /// How well every condition is predicted by a model fitted to all others:
-  /// squares of whitened differences, by test.
-  std::vector<double> left_out_squares(const Workspace &workspace,
-                                       const Model     &model,
-                                       Eigen::VectorXd *differences = nullptr);
 } // namespace SlipStep
 
 #endif

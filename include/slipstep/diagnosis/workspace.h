@@ -18,6 +18,13 @@ namespace SlipStep
 {
   struct ScoredModel;
 
+  /// Of a model fitted without a condition, by condition.
+  struct LeftOut
+  {
+    std::vector<double> squares;   ///< whitened, of the one left out
+    std::vector<double> of_others; ///< the objective of those fitted
+  };
+
   /// What a search looks at: the tests, their noise, and the rules.
   struct Workspace
   {
@@ -52,10 +59,10 @@ namespace SlipStep
     ///@}
 
     /// @name What is asked of the same model again: what score_candidates() saw
-    /// last, and left_out_squares() found lately. Not for several threads.
+    /// last, and left_out() found lately. Not for several threads.
     ///@{
-    mutable std::shared_ptr<const ScoredModel> last_scored                = {};
-    mutable std::deque<std::pair<ModelKey, std::vector<double>>> left_out = {};
+    mutable std::shared_ptr<const ScoredModel>       last_scored = {};
+    mutable std::deque<std::pair<ModelKey, LeftOut>> left_out    = {};
     ///@}
 
     /// Whether something was, or is to be, left undone since time is over.

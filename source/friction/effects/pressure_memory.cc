@@ -138,7 +138,7 @@ namespace SlipStep
         const double path  = range.longest_path;
         const double folds = std::log(range.highest / range.lowest);
         formula.parameters = {{"Change", -0.95, 0.95, false},
-                              {"Slip length", 1e-3 * path, path, true}};
+                              {"Slip length", 1e-5 * path, path, true}};
         for (const double L : ladder(0.01 * path, 0.3 * path, 4))
           formula.add_shape("Change", -0.9, 0.9, {{"Slip length", L}}, folds);
         return formula;

@@ -145,6 +145,24 @@ INSTANTIATE_TEST_SUITE_P(
              Verdict::named,
              {"anisotropy"},
              Planting::NoiseKind::hum},
+    // One condition alone tells of each: the test across the others, pressure
+    // steps (twice; in the second, friction forgets pressures within a few
+    // thousandths of the longest slide).
+    Expected{CampaignClass::other_formula,
+             311,
+             Verdict::named,
+             {"anisotropy"},
+             Planting::NoiseKind::noisy_sensors},
+    Expected{CampaignClass::outside,
+             319,
+             Verdict::named,
+             {"largest_pressure"},
+             Planting::NoiseKind::noisy_sensors},
+    Expected{CampaignClass::outside,
+             301,
+             Verdict::named,
+             {"pressure_memory"},
+             Planting::NoiseKind::drift_in_seconds},
     // The plain differences grow by less than noise may make them.
     Expected{CampaignClass::joint,
              8,
