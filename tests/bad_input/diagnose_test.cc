@@ -468,6 +468,7 @@ TEST_F(Diagnose, AParameterThatEndsAtItsBound)
   const auto json =
     verdict_of(diagnose({"Calibration/Parameters=Friction/Static coefficient "
                          "from 0.02 to 0.06",
+                         "Diagnosis/Most time=5",
                          "Friction/Static coefficient=0.05",
                          "Friction/softening/Kinetic coefficient=0.04"}));
   EXPECT_TRUE(contains(json["warnings"].dump(),
