@@ -4,6 +4,8 @@
 #include <slipstep/experiment/stability.h>
 
 #include <slipstep/experiment/point_driver.h>
+#include <slipstep/friction/largest_coefficient.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
@@ -40,6 +42,52 @@ namespace SlipStep
       return (by_tolerance ? "a smaller " : "more ") + key + " than " +
              parameters.text(key);
     }
+
+
+
+    std::string way_to_longer_steps(const Parameters  &parameters,
+                                    const FrictionLaw &law)
+    {
+      const std::string capped = largest_coefficient().key;
+      const EffectInfo *effect =
+        find_effect(law.effects(), [&](const EffectInfo &info) {
+          return any_of(info.parameters, [&](const EffectParameter &parameter) {
+            return parameter.key == capped;
+          });
+        });
+      return "a larger Time stepping/Tolerance than " +
+             parameters.text("Time stepping/Tolerance") +
+             " passes over quick vibrations" +
+             (effect == nullptr ?
+                "" :
+                "; a Friction/" + effect->name + '/' + capped +
+                  " of 1 or 2 lets friction fall less suddenly where the contact "
+                  "opens");
+    }
+
+
+
+    // Vibrations that nothing damps, or a contact that chatters, go on for a
+    // programme of any length. "" if it ends in some time.
+    std::string pace_in_words(const std::vector<HistoryRow> &history,
+                              const double                   end_time)
+    {
+      constexpr std::size_t n_steps = 2000;
+      constexpr double      many = 1e5, many_times = 20.;
+
+      const std::size_t n = history.size();
+      if (n % n_steps != 1 || n == 1)
+        return "";
+      const double now  = history.back().time;
+      const double step = (now - history[n - 1 - n_steps].time) / n_steps;
+      const double left = (end_time - now) / step;
+      if (!(left > std::max(many, many_times * n)))
+        return "";
+      return "the last " + std::to_string(n_steps) + " steps took " +
+             rounded_text(step, 2) +
+             " s each; at that pace the programme takes " +
+             rounded_text(left, 2) + " more";
+    }
   } // namespace
 
 
@@ -55,6 +103,7 @@ namespace SlipStep
     , programme(programme)
     , is_writer(is_writer)
     , shorter_steps(way_to_shorter_steps(parameters))
+    , longer_steps(way_to_longer_steps(parameters, law))
     , has_equal_steps(!StepControl::idle_keys(parameters).empty())
     , quantities(parse_quantities(parameters, programme))
     , start(ResourceUsage::now())
@@ -110,6 +159,13 @@ namespace SlipStep
       return;
     history.push_back(row);
     write(row);
+    const std::string pace = has_equal_steps || has_told_pace ?
+                               "" :
+                               pace_in_words(history, programme.end_time());
+    if (pace.empty())
+      return;
+    announce("note: " + pace + "; " + longer_steps);
+    has_told_pace = true;
   }
 
 

@@ -79,7 +79,9 @@ namespace SlipStep
     const Programme   programme;
     const bool        is_writer;
     const std::string shorter_steps; ///< how to have them, in words
+    const std::string longer_steps;
     const bool        has_equal_steps;
+    bool              has_told_pace = false;
     /// Evaluated at the end.
     const std::vector<QuantityOfInterest> quantities;
     const ResourceUsage                   start;
