@@ -122,7 +122,8 @@ namespace SlipStep
         record.time         = values("Time");
         record.displacement = displacement(record.time);
         record.pressure     = pressure();
-        record.friction     = friction("", record.time, record.displacement);
+        doubt_zero_of_coefficient(record.pressure);
+        record.friction = friction("", record.time, record.displacement);
         if (columns.has("Displacement y"))
           {
             record.displacement_y = values("Displacement y");
@@ -330,6 +331,23 @@ namespace SlipStep
           map.attempt("Convention/Friction sign",
                       [&] { give_sign_of_motion(time, motion, result); });
         return result;
+      }
+
+      // What a sensor of force shows without force is the less of a coefficient
+      // the higher the load.
+      void doubt_zero_of_coefficient(const std::vector<double> &pressure)
+      {
+        constexpr double much = 0.05;
+
+        const double usual = median(pressure);
+        if (map.text("Correction/Zero") != "none" && columns.has("Friction") &&
+            range_of(pressure) > much * usual)
+          doubts.push_back(
+            "Correction/Zero of a coefficient: the zero of a load cell is a "
+            "force, and the load here varies by " +
+            rounded_text(100. * range_of(pressure) / usual, 2) +
+            " %: give the tangential load (Columns/Tangential load), or "
+            "import parts of one load each");
       }
 
       void correct_sensor(const std::string         &key,

@@ -249,7 +249,9 @@ TEST(MainsHum, IsFoundInDifferencesOfReplicates)
         find_hum_of_replicates(differences_of(series), series, at_one_speed);
       (hums ? n_found : n_false) += !found.empty();
       if (hums && !found.empty())
-        EXPECT_NEAR(found[0].frequency, 0.02, 0.01) << campaign;
+        {
+          EXPECT_NEAR(found[0].frequency, 0.02, 0.01) << campaign;
+        }
     }
   EXPECT_GE(n_found, 25U);
   EXPECT_LE(n_false, 2U);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Signs of friction that a record does not have.
+// Signs of friction that a record does not have, and zeros of its sensor.
 
 #include <slipstep/measured_data/sensor_zero.h>
 
@@ -9,9 +9,13 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
+#include "imported.h"
+
 using namespace SlipStep;
+using namespace Testing;
 
 
 
@@ -90,4 +94,43 @@ TEST(SensorZero, MotionInItsTimeIsSeen)
     }
   EXPECT_FALSE(moves_in_first("mean of the first 2 s", time, place));
   EXPECT_TRUE(moves_in_first("mean of the first 5 s", time, place));
+}
+
+
+
+// A force of 0.5 N is 0.05 of a coefficient at 10 N, and 0.025 at 20 N.
+TEST(SensorZero, OfACoefficientUnderAVaryingLoadIsDoubtful)
+{
+  const auto strokes_at = [](const std::string &name, const double later) {
+    std::string text = "t,s,N,mu\n";
+    for (int i = 0; i <= 200; ++i)
+      {
+        const double s = i <= 100 ? 0.1 * i : 0.1 * (200 - i);
+        const double N = i <= 100 ? 10. : later;
+        text += std::to_string(0.1 * i) + ',' + std::to_string(s) + ',' +
+                std::to_string(N) + ',' +
+                std::to_string((i <= 100 ? 0.2 : -0.2) + 0.5 / N) + '\n';
+      }
+    return write(name, text);
+  };
+  const auto warnings_of = [&](const std::string &name, const double later) {
+    return import_test(map_of({{"Columns/Time", "t in s"},
+                               {"Columns/Displacement", "s in mm"},
+                               {"Columns/Normal load", "N in N"},
+                               {"Columns/Friction", "mu"},
+                               {"Constants/Area", "100 mm^2"},
+                               {"Correction/Zero", "mean of strokes"}}),
+                       strokes_at(name, later))
+      .warnings;
+  };
+  const auto is_told = [](const std::vector<std::string> &warnings) {
+    return std::any_of(warnings.begin(),
+                       warnings.end(),
+                       [](const std::string &text) {
+                         return text.find("Correction/Zero of a coefficient") !=
+                                std::string::npos;
+                       });
+  };
+  EXPECT_TRUE(is_told(warnings_of("varies.csv", 20.)));
+  EXPECT_FALSE(is_told(warnings_of("steady.csv", 10.)));
 }
