@@ -529,6 +529,7 @@ TEST_F(CampaignFolder, KeepsItsNameBesideAFewBadRows)
 TEST_F(CampaignFolder, HasNoGapThatAFewBadRowsMake)
 {
   plant(CampaignClass::none, 2);
+  parameters.set("Diagnosis/Most effects", "1", "test");
   rewrite([](const std::string &text) {
     return text.find("friction_y") == std::string::npos ?
              with_rows_that_go_with_pressure(text) :
