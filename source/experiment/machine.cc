@@ -324,7 +324,8 @@ namespace SlipStep
                             const Slider       &start,
                             const Tensor<1, 2> &load_point_increment,
                             const double        normal_traction,
-                            const double        time_step) const
+                            const double        time_step,
+                            const double        shortest_step) const
   {
     constexpr double   gamma      = TwoStages::gamma;
     const double       old_normal = point.committed().normal_traction;
@@ -357,7 +358,37 @@ namespace SlipStep
     result.work =
       ((1. - gamma) * result.first.load + gamma * result.slider.load) *
       load_point_increment;
+    result.jumps = jumps(law, result, shortest_step);
+    if (!result.jumps)
+      return result;
+    // What the first of two stages jumps, the second would go on with.
+    point.revert();
+    result.contact = stage(law,
+                           point,
+                           start,
+                           load_point_increment,
+                           normal_traction,
+                           time_step,
+                           result.slider);
+    result.work    = result.slider.load * load_point_increment;
     return result;
+  }
+
+
+
+  // Where friction rises with speed, a contact that lets go is as fast as that
+  // allows, and short steps follow it.
+  bool Machine::jumps(const FrictionLaw &law,
+                      const MachineStep &step,
+                      const double       shortest_step) const
+  {
+    constexpr double sudden = 1e3;
+
+    const double slip = (step.slider.slip - step.start.slip).norm();
+    return !is_rigid() && areal_mass == 0. && step.motion.norm() > 0. &&
+           slip > sudden * step.motion.norm() &&
+           (!law.is_rate_dependent() || slip > fastest_slip * step.time_step ||
+            step.time_step <= shortest_step);
   }
 
 
@@ -425,10 +456,7 @@ namespace SlipStep
     unknown.at_end = std::numeric_limits<double>::infinity();
     if (!std::isfinite((step.first.load + step.slider.load).norm()))
       return unknown;
-    const bool jumps =
-      !is_rigid() && areal_mass == 0. && step.motion.norm() > 0. &&
-      (step.slider.slip - step.start.slip).norm() > 1e3 * step.motion.norm();
-    if (jumps)
+    if (step.jumps)
       return {};
     StepError result = point.error(law);
     if (areal_mass > 0.)

@@ -158,7 +158,13 @@ namespace SlipStep
         const MachineStep step =
           segment.pushes ?
             machine.push(law, point, slider, load, to.pressure, time_step) :
-            machine.step(law, point, slider, motion, to.pressure, time_step);
+            machine.step(law,
+                         point,
+                         slider,
+                         motion,
+                         to.pressure,
+                         time_step,
+                         control.shortest_step());
         if (!step.holds)
           {
             control.cut(reason_of_slip(load.norm() < slider.load.norm() ?

@@ -235,17 +235,22 @@ namespace SlipStep
 
 
 
+  double StepControl::resolution() const
+  {
+    return std::max(smallest_step,
+                    8. * std::numeric_limits<double>::epsilon() *
+                      programme.segments()[segment].end_time);
+  }
+
+
+
   // A step that the clock can hardly resolve is no step.
   void StepControl::shrink(const double wanted_step, const std::string &reason)
   {
     ++rejected;
     ++tries;
     count_step();
-    const double resolution =
-      std::max(smallest_step,
-               8. * std::numeric_limits<double>::epsilon() *
-                 programme.segments()[segment].end_time);
-    if (!(wanted_step > resolution))
+    if (!(wanted_step > resolution()))
       throw RunError("At t = " + short_text(begin, 6) +
                      " s no time step is small enough: " + reason);
     plan(wanted_step);

@@ -414,3 +414,49 @@ TEST(Machine, is_checked_when_read)
                  InputError)
       << text;
 }
+
+
+
+// On a spring softer than the critical one, contacts that age let go at a speed
+// that friction itself bounds. Friction after the first event and the time of
+// the second peak are those of an integrator of its own (implicit Euler,
+// extrapolated, 1e-8).
+TEST(Machine, an_event_that_friction_bounds_is_no_jump)
+{
+  for (const char *tolerance : {"1e-3", "2e-4"})
+    {
+      const auto history =
+        drive({{"Friction/Effects", "subloading, overstress, ageing"},
+               {"Friction/Static coefficient", "0.5"},
+               {"Friction/Tangential stiffness", "1e6"},
+               {"Friction/subloading/Rate", "1e5"},
+               {"Friction/overstress/Viscosity", "1e7"},
+               {"Friction/overstress/Exponent", "60"},
+               {"Friction/overstress/Maximum ratio", "1.8"},
+               {"Friction/ageing/Growth", "0.025"},
+               {"Friction/ageing/Time", "0.01 s"},
+               {"Friction/ageing/Renewal length", "0.01 mm"},
+               {"Loading/Machine stiffness", "2.47 MPa/mm"},
+               {"Time stepping/Tolerance", tolerance},
+               {"Loading/Programme",
+                "press 5 MPa in 1 s; slide 1 um/s for 0.5 mm; slide 1.01 um/s "
+                "for 1.2 mm"}});
+      double least = 1., peak = 0., time_of_peak = 0.;
+      for (const HistoryRow &row : history)
+        {
+          if (row.time > 1400. && row.time < 1500.)
+            least = std::min(least, row.friction);
+          if (row.time > 1500. && row.friction > peak)
+            {
+              peak         = row.friction;
+              time_of_peak = row.time;
+            }
+        }
+      EXPECT_NEAR(least, 0.62835, 1e-4) << tolerance;
+      EXPECT_NEAR(time_of_peak, 1629., 0.5) << tolerance;
+      const HistoryRow &end = history.back();
+      EXPECT_NEAR(end.external_work,
+                  end.stored_energy + end.dissipated_energy,
+                  1e-6 * end.external_work);
+    }
+}

@@ -31,6 +31,7 @@ namespace SlipStep
     double               time_step;    ///< [s]
     double               work  = 0.;   ///< of the load point, per area [MPa mm]
     bool                 holds = true; ///< false if friction cannot hold a push
+    bool                 jumps = false; ///< see Machine::step()
   };
 
   /// The machine that moves a contact point or a block: a spring in series, the
@@ -78,18 +79,23 @@ namespace SlipStep
       return areal_mass;
     }
 
-    /// One step of a contact point and the machine.
+    /// One step of a contact point and the machine. On a soft spring without
+    /// mass the contact may jump; if friction does not rise with speed that
+    /// takes no time, and no step is small enough for it. Such a step has one
+    /// stage, and no error is asked of it.
     /// @param start of the step; default for a machine at rest without load
     /// @param load_point_increment motion of the load point [mm]
     /// @param normal_traction at the end of the step [MPa], to which it changes
     ///   evenly
     /// @param time_step [s]
+    /// @param shortest_step that can be made [s]: what lets go in it jumps
     MachineStep step(const FrictionLaw          &law,
                      ContactPoint               &point,
                      const Slider               &start,
                      const dealii::Tensor<1, 2> &load_point_increment,
                      const double                normal_traction,
-                     const double                time_step) const;
+                     const double                time_step,
+                     const double                shortest_step = 0.) const;
 
     /// One step under a given load of the load point, which moves as contact
     /// and spring let it. Without mass the slip is the one at which the law has
@@ -102,8 +108,7 @@ namespace SlipStep
                      const double                normal_traction,
                      const double                time_step) const;
 
-    /// Estimated error of the step that @p point made last, 0 for a jump of a
-    /// soft machine: that takes no time, so no step is small enough for it.
+    /// Estimated error of the step that @p point made last, 0 for a jump.
     StepError error(const FrictionLaw  &law,
                     const ContactPoint &point,
                     const MachineStep  &step) const;
@@ -135,6 +140,11 @@ namespace SlipStep
     }
 
   private:
+    /// Whether a step is a jump, see step().
+    bool jumps(const FrictionLaw &law,
+               const MachineStep &step,
+               const double       shortest_step) const;
+
     /// One stage.
     /// @param[out] slider at its end
     ContactResponse stage(const FrictionLaw          &law,

@@ -61,6 +61,12 @@ namespace SlipStep
       return end - begin;
     }
 
+    /// A step no longer than this may not be cut once more [s].
+    double shortest_step() const
+    {
+      return 8. * resolution();
+    }
+
     /// Whether the step is the first of a segment of the programme, where
     /// extrapolating from the last step makes no sense.
     bool is_first_of_segment() const
@@ -124,7 +130,9 @@ namespace SlipStep
     void start_segment();
     void count_step();
     void plan(const double wanted_step);
-    void shrink(const double wanted_step, const std::string &reason);
+    /// The least step that is tried [s].
+    double resolution() const;
+    void   shrink(const double wanted_step, const std::string &reason);
 
     const Programme    programme;
     const double       tolerance;

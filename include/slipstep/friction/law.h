@@ -85,6 +85,12 @@ namespace SlipStep
     /// equals it without overstress), an open point carries no traction.
     void complete(ContactState &state) const;
 
+    /// Whether friction depends on how fast the contact slips.
+    bool is_rate_dependent() const
+    {
+      return flow != &neutral || depends_on_rate;
+    }
+
     /// Least upper bound of r.
     double maximum_ratio() const
     {
@@ -278,10 +284,6 @@ namespace SlipStep
                                   const StageRecord  &last) const;
 
     // A step of two stages.
-    bool is_rate_dependent() const
-    {
-      return flow != &neutral || depends_on_rate;
-    }
     double error_of_traction(const ContactState &start,
                              const StageRecord  &first,
                              const StageRecord  &last) const;
