@@ -140,6 +140,30 @@ namespace SlipStep
 
 
 
+    // Where slip begins, a step of one stage returns straight to the strength
+    // all that lies beyond, and so turns too much. A part of which only the
+    // last stage slips is such a step, and both of its halves may end alike.
+    double error_of_turn(const FrictionLaw  &law,
+                         const ContactState &begin,
+                         const ContactPoint &part,
+                         const double        last_stage)
+    {
+      const ContactState &end = part.trial();
+      if (part.stage_start().slip_rate > 0. || !(end.slip_rate > 0.))
+        return 0.;
+      const double share =
+        law.tangential_stiffness() * end.slip_rate * last_stage / end.strength;
+      const dealii::Tensor<1, 2> traction =
+        law.isotropic_traction(end.traction);
+      const dealii::Tensor<1, 2> path =
+        law.isotropic_traction(part.stage_start().traction - begin.traction);
+      // Of second order in the slip along and across the traction.
+      return 0.5 * share * std::abs(dealii::cross_product_2d(path) * traction) /
+             (traction.norm() * end.strength);
+    }
+
+
+
     // By halves: where a host's iteration varies an increment a little, most
     // parts stay, and the tangent is that of what is computed.
     ContactState PartedStep::find_parts(const ContactState         &from,
@@ -160,7 +184,10 @@ namespace SlipStep
       // miss, the one of a part how far its stages are from each other.
       const auto is_good = [&]() {
         if (tried.error(law).at_end > allowed ||
-            unloads_too_much(from, tried.trial()))
+            unloads_too_much(from, tried.trial()) ||
+            error_of_turn(
+              law, from, tried, TwoStages::gamma * (end - begin) * time_step) >
+              allowed)
           return false;
         const ContactState halves =
           part(part(from, begin, middle, slip, pressure).trial(),

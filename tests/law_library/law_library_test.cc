@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/file_text.h"
+#include "tests/law_library/parsed_law.h"
 #include "tests/temporary_folder.h"
 
 namespace
@@ -427,39 +428,6 @@ TEST_F(SlidingPoint, AStepMayBeOfAnyLength)
     }
   EXPECT_GT(in_steps(1, 0., 0.05, 1.), 0.);
 }
-
-
-
-namespace
-{
-  /// A law of a text of its section Friction, and a point of it.
-  struct ParsedLaw
-  {
-    explicit ParsedLaw(const std::string &text)
-      : law(
-          slipstep_law_parse(("subsection Friction\n" + text + "end\n").c_str(),
-                             message,
-                             sizeof(message)))
-    {
-      if (law == nullptr)
-        throw std::runtime_error(message);
-      state.resize(slipstep_state_size(law));
-      slipstep_initial_state(law, state.data());
-    }
-
-    ~ParsedLaw()
-    {
-      slipstep_law_free(law);
-    }
-
-    ParsedLaw(const ParsedLaw &)            = delete;
-    ParsedLaw &operator=(const ParsedLaw &) = delete;
-
-    char                message[300] = "";
-    slipstep_law *const law;
-    std::vector<double> state;
-  };
-} // namespace
 
 
 
