@@ -123,13 +123,36 @@ namespace SlipStep
 
 
 
-    /// What a run used; nothing if it does not tell.
-    Parameters used_parameters(const ReportedRun &run)
+    fs::path used_parameters(const ReportedRun &run)
     {
-      Parameters result = declared_parameters();
-      if (fs::exists(run.folder / "used_parameters.prm"))
-        result.read(run.folder / "used_parameters.prm");
+      return run.folder / "used_parameters.prm";
+    }
+
+
+
+    std::vector<ReportedRun>
+    runs_that_tell(const std::vector<ReportedRun> &runs)
+    {
+      std::vector<ReportedRun> result;
+      for (const ReportedRun &run : runs)
+        if (fs::exists(used_parameters(run)))
+          result.push_back(run);
       return result;
+    }
+
+
+
+    std::vector<std::string>
+    unknown_parameters(const std::vector<ReportedRun> &runs)
+    {
+      std::vector<std::string> warnings;
+      for (const ReportedRun &run : runs)
+        if (!fs::exists(used_parameters(run)))
+          warnings.push_back("run '" + run.label +
+                             "': its parameters are unknown, since " +
+                             used_parameters(run).string() +
+                             " is missing; \"What differs\" leaves it out");
+      return warnings;
     }
 
 
@@ -156,7 +179,8 @@ namespace SlipStep
       std::vector<TableLine>             keys = {{"run"}};
       for (const ReportedRun &run : runs)
         {
-          used.push_back(used_parameters(run));
+          used.push_back(declared_parameters());
+          used.back().read(used_parameters(run));
           inactive.push_back(FrictionLaw(used.back()).inactive_sections());
           keys[0].push_back(run.label);
         }
@@ -194,12 +218,21 @@ namespace SlipStep
 
 
 
-    std::string differences_in_html(const std::vector<ReportedRun> &runs)
+    std::string differences_in_html(const std::vector<ReportedRun> &runs,
+                                    const std::vector<std::string> &unknown)
     {
-      const auto table = differences_of_keys(runs);
-      return heading("What differs") +
-             (table.empty() ? "<p>Nothing: the cases say the same.</p>\n" :
-                              html_table(table, "values"));
+      const std::string title =
+        problem_boxes(unknown) + heading("What differs");
+      const std::vector<ReportedRun> told = runs_that_tell(runs);
+      if (!unknown.empty() && told.size() < 2)
+        return title + paragraph("Unknown: fewer than two of these runs tell "
+                                 "their parameters.");
+      const auto table = differences_of_keys(told);
+      if (!table.empty())
+        return title + html_table(table, "values");
+      return title + paragraph(unknown.empty() ?
+                                 "Nothing: the cases say the same." :
+                                 "Nothing between the cases that are known.");
     }
   } // namespace
 
@@ -241,8 +274,10 @@ namespace SlipStep
     check_output_folder(output, "--output");
     const ResultsFolder results(output, line.command);
     remove_earlier_results(output);
-    print_warnings(
-      write_report(output, parameters, runs, differences_in_html(runs), false));
+    const std::vector<std::string> unknown = unknown_parameters(runs);
+    print_warnings(unknown);
+    print_warnings(write_report(
+      output, parameters, runs, differences_in_html(runs, unknown), false));
     if (!line.quiet)
       std::cout << result_table(parameters, runs)
                 << "\nReport: " << (output / "report.html").string()

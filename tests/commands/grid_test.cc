@@ -283,6 +283,43 @@ TEST_F(Grid, IsComparedWithOtherResults)
 
 
 
+// Of a run without them the defaults would be another's.
+TEST_F(Grid, TellsThatParametersAreUnknown)
+{
+  for (const std::string name : {"1", "2", "3"})
+    run({"point",
+         "one.prm",
+         "--set",
+         "Friction/Static coefficient=0." + name,
+         "--output",
+         name,
+         "--quiet"});
+  fs::remove(process.folder() / "3" / "used_parameters.prm");
+  const auto compared = [&](const std::vector<std::string> &names) {
+    std::vector<std::string> arguments = {"compare", "--output", "page"};
+    arguments.insert(arguments.end(), names.begin(), names.end());
+    EXPECT_TRUE(contains(run(arguments).err,
+                         "run '3': its parameters are unknown, since "
+                         "3/used_parameters.prm is missing"));
+    const std::string page = process.read("page/report.html");
+    EXPECT_TRUE(contains(page, "its parameters are unknown"));
+    return page.substr(page.find("What differs</h2>"), 400);
+  };
+  const std::string three = compared({"1", "2", "3"});
+  EXPECT_TRUE(contains(three, "Friction/Static coefficient")) << three;
+  EXPECT_FALSE(contains(three, "<td>3</td>")) << three;
+  EXPECT_TRUE(contains(compared({"1", "3"}), "Unknown: fewer than two"));
+  fs::copy(process.folder() / "1",
+           process.folder() / "same",
+           fs::copy_options::recursive);
+  EXPECT_TRUE(contains(compared({"1", "same", "3"}),
+                       "Nothing between the cases that are known"));
+  fs::remove(process.folder() / "1" / "used_parameters.prm");
+  EXPECT_TRUE(contains(compared({"1", "3"}), "Unknown: fewer than two"));
+}
+
+
+
 // What a folder had before is not taken for a part of the sweep.
 TEST_F(Grid, TakesThePlaceOfEarlierRunsInItsFolder)
 {
