@@ -216,27 +216,71 @@ namespace SlipStep
 
   namespace
   {
+    /// Where values lie among so many cells of their range.
+    std::size_t
+    cell_of(const double value, const Range &range, const std::size_t n_cells)
+    {
+      const double share =
+        (value - range.lower) / std::max(range.width(), 1e-300);
+      return std::isfinite(share) ? std::lround(share * (n_cells - 1)) : 0;
+    }
+
+    /// First, last, lowest and highest of the points that follow one another
+    /// in a column of pixels: of noise its band, of events their height.
+    Rows extremes_of_columns(const Rows &points, const Range &x)
+    {
+      const auto column_of = [&x](const std::vector<double> &point) {
+        return cell_of(point[0], x, picture_width);
+      };
+      const auto is_below = [](const auto &a, const auto &b) {
+        return a[1] < b[1];
+      };
+      Rows kept;
+      for (auto begin = points.begin(), end = begin; begin != points.end();
+           begin = end)
+        {
+          const std::size_t column = column_of(*begin);
+          end = std::find_if(begin, points.end(), [&](const auto &point) {
+            return column_of(point) != column;
+          });
+          const auto [least, most] = std::minmax_element(begin, end, is_below);
+          for (const auto &chosen : std::set{begin, least, most, end - 1})
+            kept.push_back(*chosen);
+        }
+      return kept;
+    }
+
     /// Leaves out lines that lie on lines before them, as those of many cycles
     /// do, with a gap in their place.
-    Rows drawn_once(const Rows &points, const std::array<Range, 2> &ranges)
+    Rows drawn_once(const Rows &points, const Range &x, const Range &y)
     {
-      constexpr double pixels = 1000.;
+      // A line is two pixels wide.
+      constexpr std::size_t n_columns = picture_width / 2, n_rows = 200;
 
-      using Place      = std::array<long, 2>;
-      const auto place = [&](const std::vector<double> &point) {
-        Place result;
-        for (const std::size_t i : {0, 1})
-          result[i] = std::lround(pixels * (point[i] - ranges[i].lower) /
-                                  std::max(ranges[i].width(), 1e-300));
-        return result;
+      std::vector<bool> is_drawn(n_columns * n_rows, false);
+      // Whether any of it was not drawn yet.
+      const auto draw = [&](const std::vector<double> &from,
+                            const std::vector<double> &to) {
+        const double column = cell_of(from[0], x, n_columns);
+        const double row    = cell_of(from[1], y, n_rows);
+        const double dx     = cell_of(to[0], x, n_columns) - column;
+        const double dy     = cell_of(to[1], y, n_rows) - row;
+        const double n      = std::max({std::abs(dx), std::abs(dy), 1.});
+        bool         is_new = false;
+        for (double i = 0.; i <= n; ++i)
+          {
+            auto drawn = is_drawn[std::lround(column + i / n * dx) * n_rows +
+                                  std::lround(row + i / n * dy)];
+            is_new     = is_new || !drawn;
+            drawn      = true;
+          }
+        return is_new;
       };
-      std::set<std::pair<Place, Place>> lines;
-      Rows                              kept;
-      bool                              is_broken = true;
+      Rows kept;
+      bool is_broken = true;
       for (std::size_t i = 1; i < points.size(); ++i)
         {
-          const Place from = place(points[i - 1]), to = place(points[i]);
-          if (!lines.insert(std::minmax(from, to)).second)
+          if (!draw(points[i - 1], points[i]))
             {
               is_broken = true;
               continue;
@@ -256,8 +300,6 @@ namespace SlipStep
 
   Rows thinned(const Rows &points)
   {
-    constexpr std::size_t many = 5000;
-
     Range x, y;
     x.add(points, 0);
     y.add(points, 1);
@@ -279,7 +321,9 @@ namespace SlipStep
         kept.push_back(points[i]);
         last = i;
       }
-    return kept.size() > many ? drawn_once(kept, {x, y}) : kept;
+    if (kept.size() > most_points)
+      kept = extremes_of_columns(kept, x);
+    return kept.size() > most_points ? drawn_once(kept, x, y) : kept;
   }
 
 

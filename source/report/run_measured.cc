@@ -151,8 +151,10 @@ namespace SlipStep
           figure.plot(test.name,
                       {abscissa(is_over_time), "friction"},
                       thinned(points),
-                      "with points pt 7 ps 0.4 lc rgb '" +
-                        greys[n++ % greys.size()] + "' title " +
+                      std::string(points.size() > most_points ?
+                                    "with lines lw 2" :
+                                    "with points pt 7 ps 0.4") +
+                        " lc rgb '" + greys[n++ % greys.size()] + "' title " +
                         gnuplot_text(test.name + ", measured"));
           if (!beside.is_repeated)
             continue;

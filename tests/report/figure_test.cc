@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 
 #include "tests/file_text.h"
@@ -140,4 +141,50 @@ TEST(Figure, LinesOnLinesAreDrawnOnce)
   // Few points stay as they are.
   points.resize(300);
   EXPECT_EQ(thinned(points), points);
+}
+
+
+
+// A million noisy rows look the same with a few thousand: every column of
+// pixels reaches as far up and down, and a single row that is off is there.
+TEST(Figure, NoiseIsDrawnAsItsBand)
+{
+  std::mt19937                     random(1);
+  std::normal_distribution<double> noise;
+  Rows                             points;
+  for (unsigned int i = 0; i < 200000; ++i)
+    points.push_back({1e-4 * i, 0.2 + 0.01 * noise(random)});
+  points[77777][1] = 0.5;
+  const Rows drawn = thinned(points);
+  EXPECT_LT(drawn.size(), 5000u);
+
+  const auto columns = [](const Rows &rows) {
+    std::vector<Range> ranges(300);
+    for (const auto &row : rows)
+      ranges[row[0] / 20. * 299.99].add(row[1]);
+    return ranges;
+  };
+  const std::vector<Range> before = columns(points), after = columns(drawn);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    {
+      EXPECT_NEAR(after[i].lower, before[i].lower, 0.01);
+      EXPECT_NEAR(after[i].upper, before[i].upper, 0.01);
+    }
+  EXPECT_TRUE(std::find(drawn.begin(), drawn.end(), points[77777]) !=
+              drawn.end());
+}
+
+
+
+// Noise in both directions and many strokes on each other fill an area; it
+// takes no more lines than it has pixels to fill.
+TEST(Figure, NoisyStrokesAreDrawnAsTheirArea)
+{
+  std::mt19937                     random(2);
+  std::normal_distribution<double> noise;
+  Rows                             points;
+  for (unsigned int i = 0; i < 200000; ++i)
+    points.push_back({std::sin(1e-3 * i) + 0.02 * noise(random),
+                      std::cos(1e-3 * i) + 0.05 * noise(random)});
+  EXPECT_LT(thinned(points).size(), 40000u);
 }

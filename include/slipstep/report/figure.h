@@ -161,7 +161,11 @@ namespace SlipStep
                        const double upper,
                        const bool   is_logarithmic);
 
-  /// Drop points that a reader could not tell from the one before.
+  /// Points of a curve that a picture can show one by one.
+  constexpr std::size_t most_points = 5000;
+
+  /// Drop points that a reader could not tell from the one before and, of more
+  /// than most_points, those that a line through the others hides.
   Rows thinned(const Rows &points);
 
   /// Text as gnuplot string in double quotes, with the characters escaped that
