@@ -23,7 +23,11 @@ namespace SlipStep
        "x y u s d pos path hub course",
        "wear verschlei radius thick dicke width height norm nor_ vertical "
        "penetr eindring depth tiefe gap spalt"},
-      {"Speed", "speed veloc geschw vitesse", "v", "set soll target wind fan"},
+      // Not "geschWINDigkeit" or "umFANgs...".
+      {"Speed",
+       "speed veloc geschw vitesse",
+       "v",
+       "set soll target wind_ winds windg fan_ fans"},
       {"Friction",
        "coefficient fric reibwert reibungszahl beiwert reibungskoeff",
        "mu cof \xC2\xB5 \xCE\xBC \xB5 f",

@@ -53,6 +53,22 @@ namespace
   }
 
   const std::vector<Example> examples = {
+    // No wind blows in "Geschwindigkeit", and no fan in "Umfang".
+    {"speed_in_german.csv",
+     "Zeit [ms];Geschwindigkeit [m/min];Reibwert [-];Druck [N/mm2]\n"
+     "0;0,030;0,0001;3,006\n50;0,030;0,2086;3,005\n100;0,031;0,2096;3,0\n",
+     {"Columns/Speed = Geschwindigkeit [m/min] in m/min"},
+     {"Constants/Speed"}},
+    {"speed_of_a_circumference.csv",
+     "Zeit in s\tUmfangsgeschwindigkeit in mm/s\tReibwert\r\n"
+     "0\t0,5\t0,0001\r\n1\t0,5\t0,2086\r\n2\t0,6\t0,2096\r\n",
+     {"Columns/Speed = Umfangsgeschwindigkeit in mm/s in mm/s"},
+     {"Constants/Speed"}},
+    {"speed_of_wind.csv",
+     "time (s),wind speed (m/s),disp (mm),mu\n"
+     "0,0.1,0,0.001\n1,0.2,1,0.256\n2,0.1,2,0.268\n",
+     {"Columns/Displacement = disp (mm) in mm"},
+     {"Columns/Speed"}},
     // What is called normal is, before what is only a load or a stress.
     {"biaxial.txt",
      "  row     lp_disp   shr_stress  nor_disp  nor_stress   time   mu\n"
