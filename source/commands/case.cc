@@ -105,6 +105,24 @@ namespace SlipStep
                           rounded_text(*followed.test.order(), 6) + ", but " +
                           key + " is " + parameters.text(key));
     }
+
+
+
+    // A file in which every key is written has the default in any case.
+    void warn_of_idle_speed(const Parameters      &parameters,
+                            const Programme       &programme,
+                            std::set<std::string> &warnings)
+    {
+      const std::string key        = "Loading/Speed";
+      const std::string origin     = parameters.origin(key);
+      const bool        is_on_line = origin.compare(0, 2, "--") == 0;
+      const bool        is_intended =
+        is_on_line ||
+        parameters.text(key) != parameters.entry(key).default_value;
+      if (is_intended && !programme.takes_default_speed())
+        warnings.insert(origin + " is not used: Loading/Programme has no "
+                                 "'slide' without a speed of its own");
+    }
   } // namespace
 
 
@@ -207,6 +225,7 @@ namespace SlipStep
         warnings.insert(programme.warnings().begin(),
                         programme.warnings().end());
         warn_of_order(parameters, programme, warnings);
+        warn_of_idle_speed(parameters, programme, warnings);
       }
     return {warnings.begin(), warnings.end()};
   }

@@ -70,6 +70,8 @@ namespace SlipStep
       /// What was done to the rows of tests that are followed.
       std::vector<std::string> warnings;
 
+      bool takes_default_speed = false;
+
     private:
       /// A verb and what follows it, by keyword; the part right after the verb
       /// has the keyword "".
@@ -363,20 +365,20 @@ namespace SlipStep
 
     void Parser::slide(const Statement &statement)
     {
-      double       speed      = default_speed;
       const Piece &speed_text = statement.parts.at("");
+      const bool   is_stated  = !speed_text.text.empty();
       if (is_quantity(speed_text, Dimension::length) ||
           is_quantity(speed_text, Dimension::time))
         fail(speed_text.column,
              "how far or how long follows 'for': slide for " + speed_text.text);
-      if (!speed_text.text.empty())
-        speed = quantity(speed_text, Dimension::speed);
+      const double speed =
+        is_stated ? quantity(speed_text, Dimension::speed) : default_speed;
+      takes_default_speed = takes_default_speed || !is_stated;
       if (speed == 0. || !std::isfinite(speed))
-        fail(speed_text.text.empty() ? statement.verb.column :
-                                       speed_text.column,
-             speed_text.text.empty() ?
-               "this slide states no speed, and the case gives none" :
-               "a speed must not be zero; to rest, write 'hold 10 s'");
+        fail(is_stated ? speed_text.column : statement.verb.column,
+             is_stated ?
+               "a speed must not be zero; to rest, write 'hold 10 s'" :
+               "this slide states no speed, and the case gives none");
 
       const dealii::Tensor<1, 2> direction = direction_of(statement);
 
@@ -690,8 +692,9 @@ namespace SlipStep
                        const std::filesystem::path &directory)
   {
     Parser parser(text, default_speed, directory);
-    segment_list  = parser.parse();
-    warning_list  = parser.warnings;
-    followed_list = parser.followed;
+    segment_list       = parser.parse();
+    warning_list       = parser.warnings;
+    followed_list      = parser.followed;
+    is_speed_left_open = parser.takes_default_speed;
   }
 } // namespace SlipStep

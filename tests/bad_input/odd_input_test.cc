@@ -238,6 +238,49 @@ TEST(OddInput, ClosedDescriptorsGetNoFileOfResults)
 
 
 
+// A speed that no slide takes changes nothing. In a file with all keys the
+// default was not meant.
+TEST(OddInput, ASpeedThatIsNotTakenIsTold)
+{
+  const SlipstepProcess process;
+  const std::string     press = "set Loading/Programme = press 1 MPa in 1 s; ";
+  const std::string     speed = "set Loading/Speed = ";
+  process.write("stated.prm", right);
+  process.write("written.prm", right + speed + "2 mm/s\n");
+  process.write("default.prm", right + speed + "1 mm/min\n");
+  process.write("open.prm",
+                press + "slide for 1 mm; slide 1 mm/s for 1 mm\n" + speed +
+                  "2 mm/s\n");
+  const auto expect = [&](const std::vector<std::string> &arguments,
+                          const std::string              &told) {
+    const auto result = process.run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err,
+              told.empty() ? "" :
+                             "warning: " + told +
+                               "Loading/Speed is not used: Loading/Programme "
+                               "has no 'slide' without a speed of its own\n");
+  };
+  expect({"check", "stated.prm"}, "");
+  expect({"check", "default.prm"}, "");
+  expect({"check", "open.prm"}, "");
+  expect({"check", "written.prm"}, "written.prm:2: ");
+  const std::string set = "Loading/Speed=1 mm/min";
+  expect({"check", "open.prm", "--set", set}, "");
+  expect({"check", "stated.prm", "--set", set}, "--set ");
+  expect({"check", "stated.prm", "--sweep", set}, "--sweep ");
+  expect({"point", "stated.prm", "--set", set, "--output", "a"}, "--set ");
+  expect({"run",
+          "written.prm",
+          "--set",
+          "Block/Subdivisions=1, 1, 1",
+          "--output",
+          "b"},
+         "written.prm:2: ");
+}
+
+
+
 TEST(OddInput, AnEmptyEnvironmentIsEnough)
 {
   const SlipstepProcess process;

@@ -117,10 +117,17 @@ namespace SlipStep
       return warning_list;
     }
 
+    /// Whether a `slide` states no speed.
+    bool takes_default_speed() const
+    {
+      return is_speed_left_open;
+    }
+
   private:
     std::vector<Segment>      segment_list;
     std::vector<FollowedTest> followed_list;
     std::vector<std::string>  warning_list;
+    bool                      is_speed_left_open = false;
   };
 
   /// The text of a programme whose file names are relative to @p from, as it
