@@ -160,14 +160,26 @@ namespace SlipStep
       return result.rows.size() >= 0.9 * alike.rows.size() ? result : alike;
     }
 
+    // LabVIEW has a column for comments, the last one, which some rows have and
+    // some end before: no row is longer than without it.
+    void leave_out_comment(Cells &cells, std::size_t &n_most)
+    {
+      if (lower_case(std::string(cells.back())) == "comment" &&
+          cells.size() > 2)
+        n_most = cells.size() - 1;
+      cells.resize(std::min(cells.size(), n_most));
+    }
+
     TableFound table_of(const std::vector<std::string> &lines,
                         const char                      delimiter)
     {
       std::map<std::size_t, AlikeRows> found; // by number of cells
+      std::size_t                      n_most = std::string::npos;
       for (std::size_t i = 0; i < lines.size(); ++i)
         {
-          const auto  cells     = cells_of(lines[i], delimiter);
+          auto        cells     = cells_of(lines[i], delimiter);
           std::size_t n_numbers = 0;
+          leave_out_comment(cells, n_most);
           if (lines[i][0] == '#' || !is_row_of(cells, n_numbers))
             continue;
           found[cells.size()].add(i, cells);

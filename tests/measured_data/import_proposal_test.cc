@@ -139,6 +139,52 @@ namespace
       "? Columns/Normal load = Normal force in N",
       "? Columns/Tangential load = Friction force in N"},
      {}},
+    // Comments that some rows have and some end before.
+    {"comment_first.lvm",
+     "LabVIEW Measurement\n"
+     "***End_of_Header***\t\n\n"
+     "Y_Unit_Label\tmm\tN\tN\n"
+     "***End_of_Header***\n"
+     "X_Value\tPosition\tFriction Force\tNormal Force\tComment\n"
+     "0.00\t0.000\t0.0028\t30.062\tstart\n"
+     "0.05\t0.025\t6.2683\t30.049\n"
+     "0.10\t0.050\t6.2848\t29.986\n"
+     "0.15\t0.075\t6.3459\t30.007\n",
+     {"Raw file/Header line = 6",
+      "? Columns/Displacement = Position in mm",
+      "? Columns/Tangential load = Friction Force in N",
+      "? Columns/Normal load = Normal Force in N"},
+     {"Raw file/Has header"}},
+    {"comment_most.lvm",
+     "LabVIEW Measurement\r\n"
+     "***End_of_Header***\t\r\n\r\n"
+     "Y_Unit_Label\tmm\tN\tN\r\n"
+     "***End_of_Header***\r\n"
+     "X_Value\tPosition\tFriction Force\tNormal Force\tComment\r\n"
+     "0.00\t0.000\t0.0028\t30.062\r\n"
+     "0.05\t0.025\t6.2683\t30.049\tfast\r\n"
+     "0.10\t0.050\t6.2848\t29.986\r\n"
+     "0.15\t0.075\t6.3459\t30.007\tend\r\n",
+     {"Raw file/Header line = 6",
+      "? Columns/Displacement = Position in mm",
+      "? Columns/Tangential load = Friction Force in N",
+      "? Columns/Normal load = Normal Force in N"},
+     {"Raw file/Has header"}},
+    {"comment_three.lvm",
+     "LabVIEW Measurement\n"
+     "***End_of_Header***\t\n\n"
+     "Y_Unit_Label\tmm\tN\tN\n"
+     "***End_of_Header***\n"
+     "X_Value\tPosition\tFriction Force\tNormal Force\tComment\n"
+     "0.00\t0.000\t0.0028\t30.062\tstart\n"
+     "0.05\t0.025\t6.2683\t30.049\tfast\n"
+     "0.10\t0.050\t6.2848\t29.986\n"
+     "0.15\t0.075\t6.3459\t30.007\t\n",
+     {"Raw file/Header line = 6",
+      "? Columns/Displacement = Position in mm",
+      "? Columns/Tangential load = Friction Force in N",
+      "? Columns/Normal load = Normal Force in N"},
+     {"Raw file/Has header"}},
     {"english.csv",
      "Time (s),Displacement (mm),Normal Force (N),Friction Force (N),COF\n"
      "0,0,100,0,0\n0.1,0.01,100.2,5,0.05\n0.2,0.02,99.9,10,0.1\n",
@@ -521,6 +567,20 @@ namespace
      {"? Columns/Friction = column 4"},
      {}}};
 } // namespace
+
+
+
+// A comment behind the first row does not make it less of a row.
+TEST(ImportProposal, RowsWithCommentsAreCounted)
+{
+  const ImportProposal proposal =
+    proposal_for("commented.lvm",
+                 "X_Value\tPosition\tForce\tComment\n"
+                 "0.0\t0.1\t0.2\tstart\n0.1\t0.2\t0.3\n0.2\t0.3\t0.4\n");
+  EXPECT_EQ(proposal.layout.n_rows, 3u);
+  EXPECT_EQ(proposal.layout.first_row, 2u);
+  EXPECT_EQ(proposal.layout.header_line, 1u);
+}
 
 
 
