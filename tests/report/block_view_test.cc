@@ -8,8 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/file_text.h"
-#include "tests/temporary_folder.h"
+#include "tests/report/page_text.h"
 
 using namespace SlipStep;
 
@@ -136,8 +135,7 @@ TEST(BlockView, MeshesStandSideBySide)
     mesh_gallery({{"uniform 0", run.folder}, {"failed", run.folder / "empty"}},
                  warnings);
   EXPECT_TRUE(warnings.empty());
-  EXPECT_TRUE(contains(html, "uniform 0, 30 unknowns"));
-  EXPECT_TRUE(contains(html, "Drawn 3 times as thick along y."));
+  has_all(html, {"uniform 0, 30 unknowns", "Drawn 3 times as thick along y."});
   EXPECT_FALSE(contains(html, "failed"));
   EXPECT_EQ(mesh_gallery({}, warnings), "");
   EXPECT_NE(block_picture(run, warnings), "");

@@ -12,8 +12,7 @@
 #include <random>
 #include <sstream>
 
-#include "tests/file_text.h"
-#include "tests/temporary_folder.h"
+#include "tests/report/page_text.h"
 
 using namespace SlipStep;
 
@@ -62,8 +61,7 @@ TEST(Figure, PicturesOnOnePageShareNoIds)
       const std::string svg = figure.inline_svg();
       EXPECT_EQ(svg.find("<svg"), 0u);
       EXPECT_EQ(count(svg, "</svg>"), 1u);
-      EXPECT_TRUE(contains(svg, "<title>x &lt; y</title>"));
-      EXPECT_TRUE(contains(svg, "a_b {c} \"d\" 'e' \\f<"));
+      has_all(svg, {"<title>x &lt; y</title>", "a_b {c} \"d\" 'e' \\f<"});
       EXPECT_GT(count(svg, "id="), 0u);
       EXPECT_EQ(count(svg, "id="),
                 count(svg, "id='" + name + "-") +
@@ -83,8 +81,7 @@ TEST(Figure, AnErrorInTheScriptIsAWarning)
   Figure figure(scratch_folder(), "broken", "Broken", 300, 200);
   figure.script() << "plot 'no such file' with lines\n";
   const std::string warning = figure.write();
-  EXPECT_TRUE(contains(warning, "Broken"));
-  EXPECT_TRUE(contains(warning, "broken.gp"));
+  has_all(warning, {"Broken", "broken.gp"});
   EXPECT_EQ(figure.inline_svg(), "");
 }
 

@@ -17,8 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/file_text.h"
-#include "tests/temporary_folder.h"
+#include "tests/report/page_text.h"
 
 namespace SyntheticRuns
 {
