@@ -3,7 +3,7 @@
 
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/experiment/refinement_study.h>
-#include <slipstep/report/block_view.h>
+#include <slipstep/report/run_figures.h>
 #include <slipstep/report/run_report.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/experiment/run_options.h>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/calibration_report.h>
 
-#include <slipstep/report/calibration_text.h>
-#include <slipstep/report/friction_curves.h>
-#include <slipstep/report/likelihood_profiles.h>
+#include <slipstep/report/curves.h>
 #include <slipstep/utilities/text.h>
 
 #include <boost/algorithm/string/replace.hpp>
@@ -37,11 +35,11 @@ namespace SlipStep
       return html;
     }
 
-    std::vector<TableLine> parameter_lines(const Calibration &calibration)
+    TableLines parameter_lines(const Calibration &calibration)
     {
-      std::vector<TableLine> lines = {table_head(
-        "parameter | unit | value | " + interval_name(calibration.confidence) +
-        " | standard deviation | start | bounds")};
+      TableLines lines = {table_head("parameter | unit | value | " +
+                                     interval_name(calibration.confidence) +
+                                     " | standard deviation | start | bounds")};
       for (const FittedParameter &fitted : calibration.parameters)
         {
           const FitParameter &parameter = fitted.parameter;
@@ -162,7 +160,7 @@ namespace SlipStep
       const std::vector<StartComparison> compared = compare_starts(calibration);
       if (compared.empty())
         return "";
-      std::vector<TableLine> lines = {table_head(
+      TableLines lines = {table_head(
         "search | misfit at the end | above the best | "
         "largest distance [% of the range] | of | iterations | ended because")};
       for (std::size_t i = 0; i < compared.size(); ++i)
@@ -317,33 +315,35 @@ namespace SlipStep
       Range  y;
       for (const DrawnTest *const test : frame.tests)
         band = std::max(band, 2. * test->noise);
-      picture.plot("twice the noise",
-                   {"position", "lower", "upper"},
-                   {{frame.x.lower, -band, band}, {frame.x.upper, -band, band}},
-                   "using 1:2:3 with filledcurves fillcolor rgb '" +
-                     noise_band_line.colour + "'");
+      picture.plot(picture.add_data("twice the noise",
+                                    {"position", "lower", "upper"},
+                                    {{frame.x.lower, -band, band},
+                                     {frame.x.upper, -band, band}}) +
+                   " using 1:2:3 with filledcurves fillcolor rgb '" +
+                   noise_band_line.colour + "'");
       for (std::size_t i = frame.tests.size(); i-- > 0;)
         {
           const DrawnTest &test = *frame.tests[i];
           const Rows       rows = frame.rows(test, residuals(test));
           for (const auto &row : rows)
             y.add(std::abs(row[1]));
-          picture.plot(test.name,
-                       {frame.is_over_time ? "time_s" : "displacement_mm",
-                        "measured_minus_fitted"},
-                       rows,
-                       "with lines " +
-                         (i == 0 ? residual_line : replicate_line).style(1.2));
+          picture.plot(
+            picture.add_data(test.name,
+                             {frame.is_over_time ? "time_s" : "displacement_mm",
+                              "measured_minus_fitted"},
+                             rows) +
+            " with lines " +
+            (i == 0 ? residual_line : replicate_line).style(1.2));
         }
       // Seen through dense curves.
       for (const double level : {-band, band})
         picture.plot_level(level, "lc rgb '#444444' dt (6,4) lw 1.2");
       const Rows means = local_means(frame);
       if (!means.empty())
-        picture.plot(frame.title + ", local means",
-                     {"position", "mean"},
-                     means,
-                     "with lines " + mean_line.style(2.2));
+        picture.plot(picture.add_data(frame.title + ", local means",
+                                      {"position", "mean"},
+                                      means) +
+                     " with lines " + mean_line.style(2.2));
       y.add(band);
       frame.axes(picture, "Measured − fitted  [–]", {-y.upper, y.upper});
     }
@@ -355,8 +355,7 @@ namespace SlipStep
                       "With a law that fits, nearly all lies within the band "
                       "and the local mean, over a fortieth of the width, "
                       "stays near zero.",
-                      {residual_line},
-                      {}};
+                      {residual_line}};
       for (std::size_t i = 0; i < frames.size(); ++i)
         {
           SmallPicture picture(page,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/report/calibration_text.h>
-
 #include <slipstep/report/calibration_report.h>
+
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -53,11 +52,11 @@ namespace SlipStep
 
 
 
-    std::vector<TableLine> short_parameter_lines(const Calibration &calibration)
+    TableLines short_parameter_lines(const Calibration &calibration)
     {
-      std::vector<TableLine> lines = {
-        table_head("parameter | value | unit | " +
-                   interval_name(calibration.confidence) + " | start")};
+      TableLines lines = {table_head("parameter | value | unit | " +
+                                     interval_name(calibration.confidence) +
+                                     " | start")};
       for (const FittedParameter &fitted : calibration.parameters)
         lines.push_back(
           {label_of(fitted.parameter),
@@ -85,9 +84,7 @@ namespace SlipStep
     text += "; it was " +
             short_text(total_rms(calibration, &TestMisfit::start_rms), 3) +
             " with the start values.";
-    const std::size_t n_open =
-      count_if(calibration.parameters,
-               [](const FittedParameter &fitted) { return is_open(fitted); });
+    const std::size_t n_open = count_if(calibration.parameters, is_open);
     if (n_open > 0)
       text += " " + counted(n_open, "parameter") +
               (n_open == 1 ? " has" : " have") + " an open interval.";
@@ -231,8 +228,7 @@ namespace SlipStep
 
 
 
-  std::vector<TableLine> derived_lines(const Calibration &calibration,
-                                       const bool         in_full)
+  TableLines derived_lines(const Calibration &calibration, const bool in_full)
   {
     ColumnTable<DerivedQuantity> table(calibration.derived);
     table.add(in_full ? "quantity" : "derived", &DerivedQuantity::name);
@@ -249,8 +245,7 @@ namespace SlipStep
 
 
 
-  std::vector<TableLine> test_lines(const Calibration &calibration,
-                                    const bool         in_full)
+  TableLines test_lines(const Calibration &calibration, const bool in_full)
   {
     ColumnTable<TestMisfit> table(calibration.tests);
     table.add("test", &TestMisfit::name);
@@ -281,24 +276,18 @@ namespace SlipStep
 
   std::string calibration_table(const Calibration &calibration)
   {
-    std::string text =
-      wrapped_text(calibration_headline(calibration), 2, terminal_width) + "\n";
-    if (!calibration.parameters.empty())
-      text += text_table(short_parameter_lines(calibration), terminal_width);
-    if (any_of(calibration.parameters, [](const FittedParameter &fitted) {
-          return fitted.is_at_bound;
-        }))
+    std::string text = wrapped_text(calibration_headline(calibration)) +
+                       table_paragraph(short_parameter_lines(calibration));
+    if (any_of(calibration.parameters,
+               std::mem_fn(&FittedParameter::is_at_bound)))
       text += "  * at a bound, or at a condition of the law\n";
-    if (!calibration.derived.empty())
-      text +=
-        "\n" + text_table(derived_lines(calibration, false), terminal_width);
-    if (!calibration.tests.empty())
-      text += "\n" + text_table(test_lines(calibration, false), terminal_width);
+    text += table_paragraph(derived_lines(calibration, false)) +
+            table_paragraph(test_lines(calibration, false));
     if (!calibration.weak.empty())
       text += "\n  What these tests hardly determine:\n";
     for (const WeakDirection &direction : calibration.weak)
       {
-        std::string words = wrapped_text(direction.words, 4, terminal_width);
+        std::string words = wrapped_text(direction.words, 4);
         if (words.size() > 2)
           words[2] = '-';
         text += words;

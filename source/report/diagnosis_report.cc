@@ -4,7 +4,7 @@
 
 #include <slipstep/report/diagnosis_sections.h>
 #include <slipstep/report/diagnosis_text.h>
-#include <slipstep/report/gallery.h>
+#include <slipstep/report/page.h>
 #include <slipstep/utilities/text.h>
 
 #include <slipstep_diagnosis_style.h>
@@ -253,8 +253,7 @@ namespace SlipStep
     {
       if (diagnosis.noise.empty())
         return "";
-      std::vector<TableLine> lines = {
-        table_head("noise | value (95 % interval) | from")};
+      TableLines lines = {table_head("noise | value (95 % interval) | from")};
       for (const NoiseComponent &component : diagnosis.noise)
         lines.push_back(
           {component.name, noise_text(component), component.source});
@@ -285,7 +284,7 @@ namespace SlipStep
       };
       const std::size_t n_in_model =
         diagnosis.candidates.size() - diagnosis.n_candidates;
-      const std::vector<TableLine> lines = {
+      const TableLines lines = {
         {"what the verdict rests on", ""},
         {"tests", std::to_string(diagnosis.tests.size())},
         {"conditions", std::to_string(diagnosis.n_conditions)},

@@ -3,7 +3,7 @@
 #include <slipstep/report/diagnosis_sections.h>
 
 #include <slipstep/report/diagnosis_text.h>
-#include <slipstep/report/friction_curves.h>
+#include <slipstep/report/curves.h>
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
@@ -35,7 +35,6 @@ namespace SlipStep
     std::string candidate_line(const CandidateResult &candidate,
                                const unsigned int     n_draws)
     {
-      const bool        is_tried = candidate.is_testable;
       const std::string style =
         candidate.standing == Standing::named ? "named" :
         candidate.standing == Standing::rival ? "rival" :
@@ -54,8 +53,7 @@ namespace SlipStep
                   html_text(plain_words(candidate.name)) + "</span>") +
              cell("<span class='status'>" +
                   html_text(name_of(candidate.standing)) + "</span>") +
-             cell(is_tried ? html_text(chance_text(candidate.p, n_draws)) : "–",
-                  "number") +
+             cell(html_text(chance_text(candidate, n_draws)), "number") +
              cell(gain_text(candidate.gain), "number") +
              cell(gain_text(candidate.left_out_gain), "number") +
              cell(percent_text(candidate.minimum_detectable), "number") +
@@ -66,7 +64,7 @@ namespace SlipStep
              "</tr>\n";
     }
 
-    void add_lines(std::vector<TableLine>                &lines,
+    void add_lines(TableLines                            &lines,
                    const std::vector<DiagnosedParameter> &parameters)
     {
       for (const DiagnosedParameter &parameter : parameters)
@@ -84,7 +82,7 @@ namespace SlipStep
     /// The numbers of all blocks that were simulated.
     std::string element_table(const std::vector<ElementCheck> &checks)
     {
-      std::vector<TableLine> lines = {table_head(
+      TableLines lines = {table_head(
         "test | block before | block after | point before | point after | "
         "block − point, after")};
       for (const ElementCheck &check : checks)
@@ -119,7 +117,7 @@ namespace SlipStep
 
     std::string places_table(const std::vector<Localisation> &places)
     {
-      std::vector<TableLine> lines = {table_head(
+      TableLines lines = {table_head(
         "along | measured friction is | explains alone | phases | tests")};
       for (const Localisation &where : places)
         lines.push_back({range_text(where),
@@ -149,10 +147,9 @@ namespace SlipStep
             y.add(curve[i]);
           }
         if (!rows.empty())
-          picture.plot(what,
-                       {"displacement_mm", "friction"},
-                       rows,
-                       "with lines " + style);
+          picture.plot(
+            picture.add_data(what, {"displacement_mm", "friction"}, rows) +
+            " with lines " + style);
       };
       add("measured", check.measured, measured_line.style(1.2));
       add("contact point before", check.point_before, "lc rgb '#f0b58c' lw 4");
@@ -170,11 +167,10 @@ namespace SlipStep
       Gallery gallery{"",
                       "",
                       {measured_line,
-                       {"block before", Colour::before, LegendLine::dashed},
+                       {"block before", Colour::before, "dashed"},
                        {"block after", Colour::after},
                        {"contact point before", "#f0b58c"},
-                       {"contact point after", "#8fc3e6"}},
-                      {}};
+                       {"contact point after", "#8fc3e6"}}};
       for (std::size_t i = 0; i < checks.size(); ++i)
         {
           const ElementCheck &check = checks[i];
@@ -186,7 +182,7 @@ namespace SlipStep
           draw_element_check(picture, check);
           picture.finish(gallery);
         }
-      return gallery.pictures.empty() ? "" : figures_html(gallery);
+      return gallery_section(gallery);
     }
 
     std::string block_words(const Diagnosis &diagnosis)
@@ -375,9 +371,8 @@ namespace SlipStep
 
   std::string parameters_section(const Diagnosis &diagnosis)
   {
-    std::vector<TableLine> lines = {
-      table_head("parameter | unit | before | after | " +
-                 interval_name(diagnosis.confidence))};
+    TableLines lines = {table_head("parameter | unit | before | after | " +
+                                   interval_name(diagnosis.confidence))};
     add_lines(lines, diagnosis.start_parameters);
     add_lines(lines, named_parameters(diagnosis));
     if (!has_after(diagnosis))

@@ -17,9 +17,9 @@ namespace SlipStep
 
     std::string summary(const Diagnosis &diagnosis)
     {
-      const Shrink          &shrink = diagnosis.shrink;
-      std::vector<TableLine> lines  = {
-         {"gap", "before", has_after(diagnosis) ? "after" : "", "noise"}};
+      const Shrink &shrink = diagnosis.shrink;
+      TableLines    lines  = {
+            {"gap", "before", has_after(diagnosis) ? "after" : "", "noise"}};
       const auto add = [&](const std::string &name,
                            const double       before,
                            const double       after,
@@ -48,22 +48,21 @@ namespace SlipStep
              (diagnosis.effects.empty() ? "" : " – " + names_text(diagnosis)) +
              (under.empty() ? "" : ", " + under) +
              "\n  chance of this gap by noise alone: " +
-             chance_text(diagnosis.gap.p, diagnosis.n_draws) + "\n\n" +
-             text_table(lines, terminal_width);
+             chance_text(diagnosis.gap.p, diagnosis.n_draws) + "\n" +
+             table_paragraph(lines);
     }
 
     std::string places(const std::string               &title,
                        const std::vector<Localisation> &all)
     {
-      std::vector<TableLine> lines = {
-        {title, "measured is", "explains", "most in"}};
+      TableLines lines = {{title, "measured is", "explains", "most in"}};
       for (const Localisation &where : all)
         if (lines.size() <= n_places)
           lines.push_back({range_text(where),
                            sign_text(where),
                            fixed_text(100. * where.share, 0) + " %",
                            where.phases.empty() ? "" : where.phases[0]});
-      return lines.size() > 1 ? "\n" + text_table(lines, terminal_width) : "";
+      return table_paragraph(lines);
     }
 
     std::string completed(const Diagnosis &diagnosis)
@@ -73,80 +72,70 @@ namespace SlipStep
         text +=
           "\n" +
           wrapped_text("the formula of " + one.effect +
-                         " lacks a factor (x is " + one.covariate +
-                         "), which gains " + fixed_text(one.gain, 1) + ":",
-                       2,
-                       terminal_width) +
-          wrapped_text(one.formula, 4, terminal_width);
+                       " lacks a factor (x is " + one.covariate +
+                       "), which gains " + fixed_text(one.gain, 1) + ":") +
+          wrapped_text(one.formula, 4);
       return text;
     }
 
     std::string candidates(const Diagnosis &diagnosis)
     {
-      std::vector<TableLine> lines = {table_head(
-        "candidate | p | gain | left-out gain | smallest seen | status")};
-      for (const CandidateResult &candidate : diagnosis.candidates)
-        lines.push_back({candidate.name,
-                         candidate.is_testable ?
-                           chance_text(candidate.p, diagnosis.n_draws) :
-                           "–",
-                         fixed_text(candidate.gain, 1),
-                         fixed_text(candidate.left_out_gain, 1),
-                         percent_text(candidate.minimum_detectable),
-                         name_of(candidate.standing)});
-      if (lines.size() == 1)
-        return "";
-      std::string text = "\n" + text_table(lines, terminal_width);
+      ColumnTable<CandidateResult> table(diagnosis.candidates);
+      table.add("candidate", &CandidateResult::name);
+      table.add("p", [&](const CandidateResult &candidate) {
+        return chance_text(candidate, diagnosis.n_draws);
+      });
+      table.add("gain", 1, &CandidateResult::gain);
+      table.add("left-out gain", 1, &CandidateResult::left_out_gain);
+      table.add("smallest seen", [](const CandidateResult &candidate) {
+        return percent_text(candidate.minimum_detectable);
+      });
+      table.add("status", [](const CandidateResult &candidate) {
+        return name_of(candidate.standing);
+      });
+      std::string text = table_paragraph(table.lines);
       // Those of one reason together, in the order of the first of them.
       nlohmann::ordered_map<std::string, std::vector<std::string>> reasons;
       for (const CandidateResult &candidate : diagnosis.candidates)
         if (was_left_out(candidate.standing))
           reasons[candidate.why].push_back(candidate.name);
       for (const auto &[why, names] : reasons)
-        text += wrapped_text(list_text(names) + ": " + why, 2, terminal_width);
+        text += wrapped_text(list_text(names) + ": " + why);
       return text;
     }
 
     std::string parameters(const Diagnosis &diagnosis)
     {
-      std::vector<TableLine> lines = {
-        table_head("parameter added | value | unit | " +
-                   interval_name(diagnosis.confidence))};
+      TableLines lines = {table_head("parameter added | value | unit | " +
+                                     interval_name(diagnosis.confidence))};
+      bool       is_any_at_bound = false;
       for (const DiagnosedParameter &parameter : named_parameters(diagnosis))
-        lines.push_back({label_text(parameter),
-                         (parameter.is_at_bound ? "* " : "") +
-                           value_text(parameter, parameter.value),
-                         parameter.unit,
-                         interval_text(parameter)});
-      if (lines.size() == 1)
-        return "";
-      const auto all = named_parameters(diagnosis);
-      return "\n" + text_table(lines, terminal_width) +
-             (any_of(all,
-                     [](const DiagnosedParameter &parameter) {
-                       return parameter.is_at_bound;
-                     }) ?
-                "  * at a bound\n" :
-                "");
+        {
+          lines.push_back({label_text(parameter),
+                           (parameter.is_at_bound ? "* " : "") +
+                             value_text(parameter, parameter.value),
+                           parameter.unit,
+                           interval_text(parameter)});
+          is_any_at_bound = is_any_at_bound || parameter.is_at_bound;
+        }
+      return table_paragraph(lines) +
+             (is_any_at_bound ? "  * at a bound\n" : "");
     }
 
     std::string blocks(const Diagnosis &diagnosis)
     {
       if (diagnosis.element_checks.empty())
         return "";
-      std::string            remarks;
-      std::vector<TableLine> lines = {table_head(
+      std::string remarks;
+      TableLines  lines = {table_head(
         "with finite elements | block before | after | point before | after | "
-        "block - point")};
+         "block - point")};
       for (const ElementCheck &check : diagnosis.element_checks)
         if (check.block_after.empty())
-          remarks +=
-            wrapped_text(check.test + ": " + check.remark, 2, terminal_width);
+          remarks += wrapped_text(check.test + ": " + check.remark);
         else
           lines.push_back(element_line(check));
-      return "\n" +
-             (lines.size() > 1 ? text_table(lines, terminal_width) : "") +
-             remarks;
+      return (lines.size() > 1 ? table_paragraph(lines) : "\n") + remarks;
     }
 
     std::string next_test(const Diagnosis &diagnosis)
@@ -155,14 +144,12 @@ namespace SlipStep
       if (next.words.empty())
         return "";
       return "\n" +
-             wrapped_text("next test: " + next.words +
-                            (next.separates.empty() ?
-                               "" :
-                               (next.tells() ? " (tells about " :
-                                               " (tells little about ") +
-                                 list_text(next.separates) + ")"),
-                          2,
-                          terminal_width) +
+             wrapped_text(
+               "next test: " + next.words +
+               (next.separates.empty() ?
+                  "" :
+                  (next.tells() ? " (tells about " : " (tells little about ") +
+                    list_text(next.separates) + ")")) +
              (next.programme.empty() ? "" : "    " + next.programme + "\n");
     }
   } // namespace
@@ -171,8 +158,8 @@ namespace SlipStep
 
   std::string diagnosis_table(const Diagnosis &diagnosis)
   {
-    return wrapped_text(headline(diagnosis), 2, terminal_width) + "\n" +
-           summary(diagnosis) + places("where", diagnosis.where) +
+    return wrapped_text(headline(diagnosis)) + "\n" + summary(diagnosis) +
+           places("where", diagnosis.where) +
            places("where the rest is", diagnosis.remains) +
            completed(diagnosis) + candidates(diagnosis) +
            parameters(diagnosis) + blocks(diagnosis) + next_test(diagnosis);

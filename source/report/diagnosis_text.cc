@@ -432,6 +432,14 @@ namespace SlipStep
 
 
 
+  std::string chance_text(const CandidateResult &candidate,
+                          const unsigned int     n_draws)
+  {
+    return candidate.is_testable ? chance_text(candidate.p, n_draws) : "–";
+  }
+
+
+
   std::string nothing_explains(const Diagnosis &diagnosis)
   {
     bool                     is_lost = false;

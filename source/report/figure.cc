@@ -38,14 +38,6 @@ namespace SlipStep
 
 
 
-  // `extern` in the header keeps it visible: constants are local by default.
-  const char *const axes_style =
-    "set border 3 lw 1 lc rgb '#444444'\n"
-    "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
-    "set grid lc rgb '#dddddd' lw 0.7 dt solid\n"
-    "set key outside right top Left reverse samplen 2.5 spacing 1.25\n";
-
-
   Figure::Figure(const std::filesystem::path &folder,
                  const std::string           &name,
                  const std::string           &title,
@@ -79,16 +71,6 @@ namespace SlipStep
     if (rows.empty())
       data << "NaN\n";
     return "'" + name + ".dat' index " + std::to_string(n_blocks++);
-  }
-
-
-
-  void Figure::plot(const std::string              &title,
-                    const std::vector<std::string> &columns,
-                    const Rows                     &rows,
-                    const std::string              &style)
-  {
-    plot(add_data(title, columns, rows) + ' ' + style);
   }
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/report/gallery.h>
+#include <slipstep/report/page.h>
 #include <slipstep/report/import_report.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/measured_data/import_record.h>
@@ -32,11 +32,9 @@ namespace SlipStep
       of_y.add(rows, 1);
       SmallPicture picture(page, name, labels[1] + " over " + labels[0]);
       picture.axes(labels[0], of_x, labels[1], of_y);
-      picture.plot(labels[1],
-                   labels,
-                   rows,
-                   "using 1:2 with lines lc rgb '" +
-                     std::string(Colour::after) + "' lw 1");
+      picture.plot(picture.add_data(labels[1], labels, rows) +
+                   " using 1:2 with lines lc rgb '" +
+                   std::string(Colour::after) + "' lw 1");
       picture.finish(gallery);
     }
 
@@ -92,7 +90,7 @@ namespace SlipStep
 
     std::string columns_section(const ImportProposal &proposal)
     {
-      std::vector<TableLine> lines = {
+      TableLines lines = {
         table_head("column | name | unit | from | to | taken as")};
       for (const SeenColumn &column : proposal.columns)
         lines.push_back(
@@ -108,7 +106,7 @@ namespace SlipStep
     std::string guesses_section(const ImportProposal        &proposal,
                                 const std::filesystem::path &map)
     {
-      std::vector<TableLine> lines = {table_head("key | value | why")};
+      TableLines lines = {table_head("key | value | why")};
       for (const ImportGuess &guess : proposal.guesses)
         lines.push_back({guess.path,
                          guess.is_open ? "open: " + guess.value : guess.value,

@@ -24,6 +24,39 @@ namespace SlipStep
                text :
                "\"" + text + "\"";
     }
+
+
+
+    // On a telephone a picture is as wide as this, with letters as large as
+    // those of the text.
+    constexpr unsigned int small_width = 430, small_height = 290;
+
+    void widen(Range &range)
+    {
+      if (!std::isfinite(range.width()))
+        range = {0., 1.};
+      if (!(range.width() > 0.))
+        {
+          const double margin = std::max(0.05 * std::abs(range.upper), 1e-6);
+          range               = {range.lower - margin, range.upper + margin};
+        }
+    }
+
+    std::string range_text(const Range &range)
+    {
+      return "[" + exact_text(range.lower) + ":" + exact_text(range.upper) +
+             "]\n";
+    }
+
+    std::string legend_html(const std::vector<LegendLine> &legend)
+    {
+      std::string html = "<p class='legend'>";
+      for (const LegendLine &line : legend)
+        html += "<span><i class='" + line.kind +
+                "' style='color:" + line.colour + "'></i>" +
+                html_text(line.text) + "</span> ";
+      return html + "</p>\n";
+    }
   } // namespace
 
 
@@ -185,8 +218,7 @@ namespace SlipStep
 
 
 
-  std::string html_table(const std::vector<TableLine> &lines,
-                         const std::string            &kind)
+  std::string html_table(const TableLines &lines, const std::string &kind)
   {
     std::string html = "<div class='scroll'><table class='" + kind + "'>\n";
     for (std::size_t n = 0; n < lines.size(); ++n)
@@ -202,10 +234,10 @@ namespace SlipStep
 
 
 
-  std::string table_section(const std::string            &title,
-                            const std::vector<TableLine> &lines,
-                            const std::string            &meaning,
-                            const std::string            &kind)
+  std::string table_section(const std::string &title,
+                            const TableLines  &lines,
+                            const std::string &meaning,
+                            const std::string &kind)
   {
     return lines.size() < 2 ?
              "" :
@@ -224,5 +256,69 @@ namespace SlipStep
              heading(title) + "<figure" + (is_map ? " class='map'" : "") +
                ">\n" + svg + "<figcaption>" + html_text(caption) +
                "</figcaption></figure>\n";
+  }
+
+
+
+  SmallPicture::SmallPicture(Page              &page,
+                             const std::string &name,
+                             const std::string &title)
+    : Figure(page.pictures, name, title, small_width, small_height)
+    , page(page)
+  {
+    script() << axes_style
+             << "unset key\nset lmargin at screen 0.19\nset rmargin at "
+                "screen 0.97\nset tmargin at screen 0.96\nset bmargin "
+                "at screen 0.19\n";
+  }
+
+
+
+  void SmallPicture::axes(const std::string &x_label,
+                          Range              x,
+                          const std::string &y_label,
+                          Range              y,
+                          const bool         is_x_logarithmic)
+  {
+    widen(x);
+    if (x.lower > 0. && x.lower < 0.05 * x.upper && !is_x_logarithmic)
+      x.lower = 0.;
+    widen(y);
+    const double margin = 0.05 * y.width();
+    // Whatever begins at zero shall stand on the axis.
+    if (y.lower != 0.)
+      y.lower -= margin;
+    y.upper += margin;
+    script() << "set xlabel " << gnuplot_text(cut_text(x_label, 46))
+             << " offset 0,0.6\nset ylabel " << gnuplot_text(y_label)
+             << " offset 0.4\nset xrange " << range_text(x) << "set yrange "
+             << range_text(y) << (is_x_logarithmic ? "set logscale x\n" : "")
+             << few_tics('x', x.lower, x.upper, is_x_logarithmic)
+             << "set ytics " << round_up(y.width() / 8.) << '\n';
+  }
+
+
+
+  void SmallPicture::finish(Gallery &gallery)
+  {
+    const std::string warning = write();
+    const std::string svg     = inline_svg();
+    if (!svg.empty())
+      gallery.pictures += "<figure><figcaption>" + html_text(title) +
+                          "</figcaption>\n" + svg + "</figure>\n";
+    if (!warning.empty() && !gallery.has_warned)
+      page.warnings.push_back(warning);
+    gallery.has_warned = gallery.has_warned || !warning.empty();
+  }
+
+
+
+  std::string gallery_section(const Gallery &gallery)
+  {
+    return gallery.pictures.empty() ?
+             "" :
+             (gallery.title.empty() ? "" : heading(gallery.title)) +
+               legend_html(gallery.legend) + "<div class='gallery'>\n" +
+               gallery.pictures + "</div>\n" + note(gallery.caption);
   }
 } // namespace SlipStep

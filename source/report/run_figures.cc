@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/run_figures.h>
 
-#include <slipstep/report/block_view.h>
-
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
@@ -77,8 +75,7 @@ namespace SlipStep
     }
 
     /// Order in which a legend beside the curves lists them as they lie.
-    std::vector<std::size_t>
-    from_top_to_bottom(const std::vector<RunResults> &runs)
+    std::vector<std::size_t> from_top_to_bottom(const Runs &runs)
     {
       std::vector<std::size_t> order(runs.size());
       for (std::size_t i = 0; i < runs.size(); ++i)
@@ -102,8 +99,7 @@ namespace SlipStep
     }
 
     /// Which run slides at this speed; runs.size() if none does.
-    std::size_t run_of_speed(const std::vector<RunResults> &runs,
-                             const double                   speed)
+    std::size_t run_of_speed(const Runs &runs, const double speed)
     {
       for (std::size_t i = 0; i < runs.size(); ++i)
         for (const SlideSummary &slide : runs[i].summary.slides)
@@ -148,10 +144,11 @@ namespace SlipStep
           const std::size_t run   = run_of_speed(runs, speed);
           const std::string style =
             run < runs.size() ? run_colour(run) : "lc rgb '#777777'";
-          figure.plot(reference.name + " at " + speed_text(speed),
-                      {"displacement_mm", "friction"},
-                      {{from, level}, {to, level}},
-                      "with lines lw 4 " + style + " notitle");
+          figure.plot(
+            figure.add_data(reference.name + " at " + speed_text(speed),
+                            {"displacement_mm", "friction"},
+                            {{from, level}, {to, level}}) +
+            " with lines lw 4 " + style + " notitle");
         }
       if (!speeds.empty())
         figure.plot("NaN with lines lw 4 lc rgb '#777777' title " +
@@ -206,7 +203,7 @@ namespace SlipStep
 
 
     /// Displacement that shows the static peak well; 0 if the whole curve does.
-    double zoom_length(const std::vector<RunResults> &runs)
+    double zoom_length(const Runs &runs)
     {
       double peak = 0., length = 0.;
       for (const RunResults &run : runs)
@@ -334,20 +331,16 @@ namespace SlipStep
       const std::vector<std::string> columns = {"speed_mm/min", "r"};
       if (!marks.empty())
         {
-          figure.plot(reference.name,
-                      columns,
-                      line,
-                      "with lines lw 1.2 lc rgb '#D55E00' notitle");
-          figure.plot(reference.name + ", marks",
-                      columns,
-                      marks,
-                      "with points pt 6 ps 1.3 lw 1.8 lc rgb '#D55E00' title " +
-                        gnuplot_text(reference.name));
+          figure.plot(figure.add_data(reference.name, columns, line) +
+                      " with lines lw 1.2 lc rgb '#D55E00' notitle");
+          figure.plot(
+            figure.add_data(reference.name + ", marks", columns, marks) +
+            " with points pt 6 ps 1.3 lw 1.8 lc rgb '#D55E00' title " +
+            gnuplot_text(reference.name));
         }
-      figure.plot("simulated",
-                  columns,
-                  simulated,
-                  "with points pt 7 ps 0.8 lc rgb '#0072B2' title 'simulated'");
+      figure.plot(
+        figure.add_data("simulated", columns, simulated) +
+        " with points pt 7 ps 0.8 lc rgb '#0072B2' title 'simulated'");
       figures.add(figure,
                   "Rate dependence",
                   marks.empty() ? "r at the end of each slide." :
@@ -369,7 +362,7 @@ namespace SlipStep
 
 
 
-  LegendPlace place_legend(const std::vector<RunResults>  &runs,
+  LegendPlace place_legend(const Runs                     &runs,
                            const std::vector<std::string> &others,
                            const unsigned int              height)
   {
@@ -425,12 +418,10 @@ namespace SlipStep
                 const double                    line_width,
                 const bool                      is_named)
   {
-    figure.plot(legend(run),
-                columns,
-                thinned(points),
-                "with lines lw " + exact_text(line_width) + " " + run_style(i) +
-                  (is_named ? " title " + gnuplot_text(legend(run)) :
-                              " notitle"));
+    figure.plot(
+      figure.add_data(legend(run), columns, thinned(points)) +
+      " with lines lw " + exact_text(line_width) + " " + run_style(i) +
+      (is_named ? " title " + gnuplot_text(legend(run)) : " notitle"));
   }
 
 

@@ -16,8 +16,6 @@ namespace SlipStep
 {
   namespace
   {
-    using ResultRows = std::vector<ResultRow>;
-
     std::string comparison(const double lowest, const double highest)
     {
       const std::string low = fixed_text(lowest, 1);
@@ -371,9 +369,9 @@ namespace SlipStep
 
 
 
-  std::string headline(const std::vector<ResultRow> &all_rows,
-                       const Reference              &reference,
-                       const bool                    is_one_law)
+  std::string headline(const ResultRows &all_rows,
+                       const Reference  &reference,
+                       const bool        is_one_law)
   {
     if (all_rows.empty())
       return "No slide has been reached.";
@@ -407,7 +405,7 @@ namespace SlipStep
 
 
 
-  std::string headline_of_pushes(const std::vector<RunResults> &runs)
+  std::string headline_of_pushes(const Runs &runs)
   {
     std::vector<const RunResults *> moved;
     for (const RunResults &run : runs)

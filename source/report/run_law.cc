@@ -153,7 +153,7 @@ namespace SlipStep
     /// "0.1", or "0.1 (thin), 0.2 (thick)"
     std::string values_text(const EffectInfo              &effect,
                             const EffectParameter         &parameter,
-                            const std::vector<RunResults> &runs,
+                            const Runs                    &runs,
                             const std::vector<Parameters> &laws)
     {
       std::set<std::string> different;
@@ -211,13 +211,13 @@ namespace SlipStep
 
 
 
-  std::vector<TableLine> effect_table(const RunFigures &figures)
+  TableLines effect_table(const RunFigures &figures)
   {
-    const std::vector<RunResults> &runs = figures.runs;
-    std::vector<Parameters>        laws;
+    const Runs             &runs = figures.runs;
+    std::vector<Parameters> laws;
     for (const RunResults &run : runs)
       laws.push_back(figures.parameters_of(run));
-    std::vector<TableLine> lines = {
+    TableLines lines = {
       table_head("effect | formula | parameter | symbol | value | unit")};
     for (const auto &[name, effect] : effect_registry())
       {

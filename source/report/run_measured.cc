@@ -148,14 +148,14 @@ namespace SlipStep
                  test.friction[i]});
               friction.add(test.friction[i]);
             }
-          figure.plot(test.name,
-                      {abscissa(is_over_time), "friction"},
-                      thinned(points),
-                      std::string(points.size() > most_points ?
-                                    "with lines lw 2" :
-                                    "with points pt 7 ps 0.4") +
-                        " lc rgb '" + greys[n++ % greys.size()] + "' title " +
-                        gnuplot_text(test.name + ", measured"));
+          figure.plot(figure.add_data(test.name,
+                                      {abscissa(is_over_time), "friction"},
+                                      thinned(points)) +
+                      (points.size() > most_points ?
+                         " with lines lw 2" :
+                         " with points pt 7 ps 0.4") +
+                      " lc rgb '" + greys[n++ % greys.size()] + "' title " +
+                      gnuplot_text(test.name + ", measured"));
           if (!beside.is_repeated)
             continue;
           const std::string difference =
@@ -172,9 +172,9 @@ namespace SlipStep
                        const std::vector<MeasuredBeside> &measured,
                        const bool                         is_over_time)
     {
-      const std::vector<RunResults> &runs = figures.runs;
-      const std::string              over = abscissa(is_over_time);
-      Figure                         figure =
+      const Runs       &runs = figures.runs;
+      const std::string over = abscissa(is_over_time);
+      Figure            figure =
         figures.figure("measured_over_" + over,
                        "Measured and simulated friction over " + over,
                        // The legend is below.

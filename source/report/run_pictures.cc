@@ -228,8 +228,7 @@ namespace SlipStep
     }
 
     /// The axis' label, loads and energies in the unit of the runs.
-    std::string label(const PictureQuantity         &quantity,
-                      const std::vector<RunResults> &runs)
+    std::string label(const PictureQuantity &quantity, const Runs &runs)
     {
       std::string text = quantity.label;
       for (const std::string unit : {"[N]", "[N mm]"})
@@ -254,10 +253,10 @@ namespace SlipStep
              range.lower > 0. && range.upper > 15. * range.lower;
     }
 
-    std::string axes_of(const RequestedPicture        &picture,
-                        const Range                   &x,
-                        const Range                   &y,
-                        const std::vector<RunResults> &runs)
+    std::string axes_of(const RequestedPicture &picture,
+                        const Range            &x,
+                        const Range            &y,
+                        const Runs             &runs)
     {
       const std::string x_label = label(picture.x, runs);
       const std::string y_label = label(picture.y, runs);
@@ -362,12 +361,11 @@ namespace SlipStep
                                                    "0.8 lw 1.2 ";
       for (std::size_t i = 0; i < curves.points.size(); ++i)
         if (const std::string &of = curves.names[i]; !curves.points[i].empty())
-          figure.plot(of,
-                      {requested.x.name, requested.y.name},
-                      curves.points[i],
-                      marks + run_style(i) +
-                        (of.empty() ? " notitle" :
-                                      " title " + gnuplot_text(of)));
+          figure.plot(figure.add_data(of,
+                                      {requested.x.name, requested.y.name},
+                                      curves.points[i]) +
+                      " " + marks + run_style(i) +
+                      (of.empty() ? " notitle" : " title " + gnuplot_text(of)));
       figure.script() << axes_style << legend_place.commands
                       << axes_of(requested, curves.x, curves.y, figures.runs);
       figures.add(figure,

@@ -82,7 +82,7 @@ namespace SlipStep
   namespace
   {
     /// Cycles make many slides, of which the first and the last are shown.
-    std::vector<TableLine> shortened(std::vector<TableLine> lines)
+    TableLines shortened(TableLines lines)
     {
       constexpr std::size_t most = 60, kept = 20;
       if (lines.size() <= most)
@@ -101,7 +101,7 @@ namespace SlipStep
     }
 
     /// Whether a slide is not along the first axis, where a sign would do.
-    bool angles_matter(const std::vector<ResultRow> &rows)
+    bool angles_matter(const ResultRows &rows)
     {
       return any_of(rows, [](const ResultRow &row) {
         return std::abs(std::sin(row.slide.angle)) > 1e-6;
@@ -109,7 +109,7 @@ namespace SlipStep
     }
 
     /// Whether the slides are under different pressures.
-    bool pressures_matter(const std::vector<ResultRow> &rows)
+    bool pressures_matter(const ResultRows &rows)
     {
       return any_of(rows, [&](const ResultRow &row) {
         return std::abs(row.slide.pressure - rows[0].slide.pressure) >
@@ -118,7 +118,7 @@ namespace SlipStep
     }
 
     /// Whether runs have labels that say more than the column of speeds does.
-    bool labels_matter(const std::vector<ResultRow> &rows)
+    bool labels_matter(const ResultRows &rows)
     {
       return any_of(rows, [&](const ResultRow &row) {
         return row.label != rows[0].label &&
@@ -127,7 +127,7 @@ namespace SlipStep
     }
 
     /// A run has several slides, and which statements they are is known.
-    bool statements_matter(const std::vector<ResultRow> &rows)
+    bool statements_matter(const ResultRows &rows)
     {
       for (std::size_t i = 1; i < rows.size(); ++i)
         if (rows[i].run == rows[i - 1].run && rows[i].slide.statement > 0)
@@ -136,7 +136,7 @@ namespace SlipStep
     }
 
     /// Whether slides follow rests, other than the same one to change pressure.
-    bool rests_matter(const std::vector<ResultRow> &rows)
+    bool rests_matter(const ResultRows &rows)
     {
       double rest = 0.;
       for (const ResultRow &row : rows)
@@ -225,9 +225,9 @@ namespace SlipStep
     }
 
     /// The table of results; the report shows more columns than the terminal.
-    std::vector<TableLine> result_lines(const std::vector<ResultRow> &rows,
-                                        const Reference              &reference,
-                                        const bool                    in_full)
+    TableLines result_lines(const ResultRows &rows,
+                            const Reference  &reference,
+                            const bool        in_full)
     {
       ResultTable table(rows);
       add_conditions(table);
@@ -238,7 +238,7 @@ namespace SlipStep
     }
 
     /// What the columns mean, of those that there are.
-    std::string result_note(const std::vector<ResultRow> &rows)
+    std::string result_note(const ResultRows &rows)
     {
       const ResultTable table(rows);
       std::string       text;
@@ -271,7 +271,7 @@ namespace SlipStep
                                               run.folder.filename().string();
     }
 
-    std::vector<TableLine> cost_lines(const std::vector<RunResults> &runs)
+    TableLines cost_lines(const Runs &runs)
     {
       // A single point has neither mesh nor systems to solve.
       ColumnTable<RunResults> table(runs);
@@ -342,7 +342,7 @@ namespace SlipStep
                 });
     }
 
-    std::vector<TableLine> energy_lines(const std::vector<RunResults> &runs)
+    TableLines energy_lines(const Runs &runs)
     {
       ColumnTable<RunResults> table(runs);
       table.add("run", run_name);
@@ -362,9 +362,9 @@ namespace SlipStep
 
     /// Whether the machine lets the contact slide steadily; a head alone
     /// without a spring.
-    std::vector<TableLine> stability_lines(const std::vector<RunResults> &runs)
+    TableLines stability_lines(const Runs &runs)
     {
-      std::vector<TableLine> lines = {
+      TableLines lines = {
         table_head("run | speed [mm/min] | pressure [MPa] | k [MPa/mm] | "
                    "critical k [MPa/mm] | at [Hz] | steady sliding")};
       for (const RunResults &run : runs)
@@ -390,7 +390,7 @@ namespace SlipStep
     }
 
     /// The quantities of interest of all runs; "" if there are none.
-    std::string quantities(const std::vector<RunResults> &runs)
+    std::string quantities(const Runs &runs)
     {
       std::vector<std::string> names;
       for (const RunResults &run : runs)
@@ -412,10 +412,9 @@ namespace SlipStep
     }
 
     /// What the user set, and in what the variants differ.
-    std::vector<TableLine> condition_lines(const Parameters &parameters,
-                                           const std::vector<RunResults> &runs)
+    TableLines condition_lines(const Parameters &parameters, const Runs &runs)
     {
-      std::vector<TableLine> lines = {{"key", "value"}};
+      TableLines lines = {{"key", "value"}};
       for (const std::string &path : parameters.paths())
         {
           const bool shown_above =
@@ -436,7 +435,7 @@ namespace SlipStep
 
 
 
-    std::string problems_of(const std::vector<RunResults> &runs)
+    std::string problems_of(const Runs &runs)
     {
       std::string html;
       for (const RunResults &run : runs)
@@ -452,9 +451,9 @@ namespace SlipStep
     }
 
     /// How to get these results again.
-    std::string repetition(const Parameters              &parameters,
-                           const std::vector<RunResults> &runs,
-                           const bool                     is_one_case)
+    std::string repetition(const Parameters &parameters,
+                           const Runs       &runs,
+                           const bool        is_one_case)
     {
       std::string html =
         !is_one_case ? "" :
@@ -477,8 +476,7 @@ namespace SlipStep
       return html;
     }
 
-    std::string case_title(const Parameters              &parameters,
-                           const std::vector<RunResults> &runs)
+    std::string case_title(const Parameters &parameters, const Runs &runs)
     {
       const std::string title = parameters.text("Report/Title");
       if (!title.empty())

@@ -54,7 +54,7 @@ namespace SlipStep
 
 
 
-    void shorten_labels(std::vector<RunResults> &runs)
+    void shorten_labels(Runs &runs)
     {
       std::map<std::string, std::size_t>    n_runs_with;
       std::vector<std::vector<std::string>> parts;
@@ -105,10 +105,10 @@ namespace SlipStep
 
 
 
-  std::vector<RunResults> load_runs(const std::vector<ReportedRun> &runs,
-                                    std::vector<std::string>       &warnings)
+  Runs load_runs(const std::vector<ReportedRun> &runs,
+                 std::vector<std::string>       &warnings)
   {
-    std::vector<RunResults> results;
+    Runs results;
     for (const ReportedRun &run : runs)
       try
         {
@@ -194,10 +194,9 @@ namespace SlipStep
 
 
 
-  std::vector<ResultRow> result_rows(const std::vector<RunResults> &runs,
-                                     const Reference               &reference)
+  ResultRows result_rows(const Runs &runs, const Reference &reference)
   {
-    std::vector<ResultRow> rows;
+    ResultRows rows;
     for (std::size_t i = 0; i < runs.size(); ++i)
       for (const SlideSummary &slide : runs[i].summary.slides)
         {

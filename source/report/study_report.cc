@@ -39,9 +39,9 @@ namespace SlipStep
 
     /// What was found, one line per curve: quantity, runs, reference, error of
     /// the finest run, order, cheapest run for 1 %.
-    std::vector<TableLine> study_summary(const std::vector<StudyCurve> &curves)
+    TableLines study_summary(const std::vector<StudyCurve> &curves)
     {
-      std::vector<TableLine> lines = {table_head(
+      TableLines lines = {table_head(
         "quantity | runs | reference | error of the finest | order | "
         "cheapest for 1 %")};
       for (const StudyCurve &curve : curves)
@@ -244,7 +244,7 @@ namespace SlipStep
     out << '\n' << text_table(study_summary(curves));
     for (const StudyCurve &curve : curves)
       {
-        std::vector<TableLine> lines = {table_head(
+        TableLines lines = {table_head(
           "run | unknowns | steps | CPU [s] | value | error | order")};
         for (const StudyPoint &point : curve.points)
           lines.push_back(run_line(point));
@@ -341,7 +341,7 @@ namespace SlipStep
       "unknowns times steps whose error, and that of all "
       "finer ones, is at most 1 % with that uncertainty.</p>\n" +
       draw_study(page, curves);
-    std::vector<TableLine> lines = {
+    TableLines lines = {
       table_head("quantity | run | unknowns | steps | CPU time [s] | value | "
                  "relative error | order")};
     for (const StudyCurve &curve : curves)

@@ -61,8 +61,7 @@ namespace SlipStep
 
 
 
-  std::string text_table(const std::vector<TableLine> &lines,
-                         const std::size_t             widest)
+  std::string text_table(const TableLines &lines, const std::size_t widest)
   {
     std::vector<std::size_t> widths(lines[0].size(), 0);
     for (const TableLine &line : lines)
@@ -97,6 +96,13 @@ namespace SlipStep
           text += std::string(margin, ' ') + std::string(total, '-') + '\n';
       }
     return text;
+  }
+
+
+
+  std::string table_paragraph(const TableLines &lines)
+  {
+    return lines.size() > 1 ? "\n" + text_table(lines, terminal_width) : "";
   }
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/report/block_view.h>
+#include <slipstep/report/run_figures.h>
 
 #include <gtest/gtest.h>
 

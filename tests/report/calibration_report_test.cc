@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/calibration_report.h>
-#include <slipstep/report/calibration_text.h>
 #include <slipstep/report/figure.h>
 #include <slipstep/report/run_report.h>
 #include <slipstep/report/text_table.h>

@@ -3,7 +3,7 @@
 #define slipstep_report_diagnosis_text_h
 
 #include <slipstep/diagnosis/diagnosis.h>
-#include <slipstep/report/calibration_text.h>
+#include <slipstep/report/calibration_report.h>
 
 #include <string>
 #include <vector>
@@ -34,6 +34,10 @@ namespace SlipStep
 
   /// A chance; "≤ 0.001" where so many draws tell none that is smaller.
   std::string chance_text(const double p, const unsigned int n_draws);
+
+  /// The same of a candidate; "–" if it was not tried.
+  std::string chance_text(const CandidateResult &candidate,
+                          const unsigned int     n_draws);
 
   /// "speed 0.1 … 10 mm/s"
   std::string range_text(const Localisation &where);

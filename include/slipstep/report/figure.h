@@ -73,14 +73,7 @@ namespace SlipStep
                          const std::vector<std::string> &columns,
                          const Rows                     &rows);
 
-    /// A block of data in the plot at the end of the script.
-    /// @param style what follows the data, "with lines ..."
-    void plot(const std::string              &title,
-              const std::vector<std::string> &columns,
-              const Rows                     &rows,
-              const std::string              &style);
-
-    /// The same of what is no data: "0.1 with lines ...".
+    /// In the plot at the end of the script: data, "0.1 with lines ..."
     void plot(const std::string &plotted)
     {
       plots += (plots.empty() ? "plot " : ", \\\n  ") + plotted;
@@ -140,7 +133,11 @@ namespace SlipStep
   constexpr unsigned int picture_width = 860;
 
   /// Axes, ticks and grid of all pictures with curves, as gnuplot commands.
-  extern const char *const axes_style;
+  constexpr const char *axes_style =
+    "set border 3 lw 1 lc rgb '#444444'\n"
+    "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
+    "set grid lc rgb '#dddddd' lw 0.7 dt solid\n"
+    "set key outside right top Left reverse samplen 2.5 spacing 1.25\n";
 
   /// The next of 1, 2, 5, 10, ...
   double round_up(const double value);

@@ -5,6 +5,7 @@
 #include <slipstep/report/figure.h>
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/parameters.h>
+#include <slipstep/utilities/text.h>
 
 #include <string>
 #include <vector>
@@ -77,14 +78,14 @@ namespace SlipStep
 
   /// A table, the first line being its head.
   /// @param kind style: "numbers", with "unbroken" also of long cells, or "values"
-  std::string html_table(const std::vector<TableLine> &lines,
-                         const std::string            &kind = "numbers");
+  std::string html_table(const TableLines  &lines,
+                         const std::string &kind = "numbers");
 
   /// A table with its heading and what it means; nothing if it has a head only.
-  std::string table_section(const std::string            &title,
-                            const std::vector<TableLine> &lines,
-                            const std::string            &meaning = "",
-                            const std::string            &kind    = "numbers");
+  std::string table_section(const std::string &title,
+                            const TableLines  &lines,
+                            const std::string &meaning = "",
+                            const std::string &kind    = "numbers");
 
   /// A picture with heading and caption; nothing if it was not drawn.
   /// @param is_map of cells: drawn without smoothing, else seams show
@@ -92,6 +93,78 @@ namespace SlipStep
                              const std::string &svg,
                              const std::string &caption,
                              const bool         is_map = false);
+
+  /// What a line of a picture means.
+  struct LegendLine
+  {
+    std::string text;
+    std::string colour;        ///< "#0072B2"
+    std::string kind = "line"; ///< as style: or "dashed", "dot", "area"
+
+    /// As gnuplot has it, for `plot ... with lines`.
+    std::string style(const double width = 2.) const
+    {
+      return "lc rgb '" + colour + "' lw " + exact_text(width) +
+             (kind == "dashed" ? " dt (6,3)" : "");
+    }
+  };
+
+  /// Small pictures under one heading, which stand side by side where there is
+  /// room, and the legend that they share.
+  struct Gallery
+  {
+    std::string             title;
+    std::string             caption;
+    std::vector<LegendLine> legend;
+    std::string             pictures   = {}; ///< those that were drawn, as HTML
+    bool                    has_warned = false; ///< of one that was not
+  };
+
+  /// A small picture: its frame is the same in all galleries.
+  class SmallPicture : public Figure
+  {
+  public:
+    /// @param name of its files
+    SmallPicture(Page &page, const std::string &name, const std::string &title);
+
+    /// Axes; a range of no width is widened.
+    void axes(const std::string &x_label,
+              Range              x,
+              const std::string &y_label,
+              Range              y,
+              const bool         is_x_logarithmic = false);
+
+    /// A line all across the picture at this height.
+    void plot_level(const double level, const std::string &style)
+    {
+      plot(exact_text(level) + " with lines " + style);
+    }
+
+    /// Draw; nothing is added to the gallery if gnuplot is missing, of which
+    /// there is one warning per gallery.
+    void finish(Gallery &gallery);
+
+  private:
+    Page &page;
+  };
+
+  /// "speed  [mm/s]", "r  [–]"
+  inline std::string axis_label(const std::string &name,
+                                const std::string &unit)
+  {
+    return name + "  [" + (unit.empty() ? "–" : unit) + "]";
+  }
+
+  /// Colours that colour-blind readers tell apart, the same in all pictures.
+  namespace Colour
+  {
+    constexpr const char *measured = "#555555", *before = "#D55E00",
+                         *after = "#0072B2", *band = "#cde3f2";
+  } // namespace Colour
+
+  /// Pictures with legend, heading and caption, as HTML; of no pictures
+  /// nothing.
+  std::string gallery_section(const Gallery &gallery);
 } // namespace SlipStep
 
 #endif

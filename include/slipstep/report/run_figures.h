@@ -10,10 +10,10 @@ namespace SlipStep
   /// Finished runs, and the pictures of them that have been drawn so far.
   struct RunFigures
   {
-    Page                          &page;
-    const Parameters              &parameters;
-    const std::vector<RunResults> &runs;
-    const Reference               &reference;
+    Page             &page;
+    const Parameters &parameters;
+    const Runs       &runs;
+    const Reference  &reference;
     /// As HTML; folded away is what repeats for another run what is shown.
     std::string shown = {}, folded = {};
 
@@ -47,7 +47,7 @@ namespace SlipStep
   /// there are many names or long ones.
   /// @param others names that are no runs
   /// @param height of the picture [pixel]
-  LegendPlace place_legend(const std::vector<RunResults>  &runs,
+  LegendPlace place_legend(const Runs                     &runs,
                            const std::vector<std::string> &others,
                            const unsigned int              height);
 
@@ -102,7 +102,20 @@ namespace SlipStep
   /// The active effects of all runs with formulas, and their parameters with
   /// symbols, values in base units, and units. Where variants differ, all their
   /// values are named.
-  std::vector<TableLine> effect_table(const RunFigures &figures);
+  TableLines effect_table(const RunFigures &figures);
+
+  /// The block with its mesh at moments of a run, from the surface files of
+  /// BlockOutput: deformed, coloured by stress, displacement or what the
+  /// contact plane bears, to be turned by hand. Without scripts and on paper a
+  /// drawing of the last moment. As HTML; "" if no file is there.
+  /// @param warnings told of files that cannot be read
+  std::string block_picture(const RunResults         &run,
+                            std::vector<std::string> &warnings);
+
+  /// The meshes of runs at their end side by side, as HTML; "" if none is
+  /// there. Those too fine to be seen are named only.
+  std::string mesh_gallery(const std::vector<ReportedRun> &runs,
+                           std::vector<std::string>       &warnings);
 } // namespace SlipStep
 
 #endif

@@ -30,9 +30,11 @@ namespace SlipStep
     std::optional<CsvTable> contact_face;
   };
 
+  using Runs = std::vector<RunResults>;
+
   /// Load the runs; what cannot be read is left out with a warning.
-  std::vector<RunResults> load_runs(const std::vector<ReportedRun> &runs,
-                                    std::vector<std::string>       &warnings);
+  Runs load_runs(const std::vector<ReportedRun> &runs,
+                 std::vector<std::string>       &warnings);
 
   /// What the results are compared with: a formula for the kinetic coefficient
   /// as a function of speed, from section "Report".
@@ -117,6 +119,8 @@ namespace SlipStep
     double reference  = 0.;
     double difference = 0.; ///< of kinetic from reference [%]
   };
+  using ResultRows = std::vector<ResultRow>;
+
 
   /// A value of the slide of a row.
   template <typename Value>
@@ -125,19 +129,18 @@ namespace SlipStep
     return [value](const ResultRow &row) { return row.slide.*value; };
   }
 
-  std::vector<ResultRow> result_rows(const std::vector<RunResults> &runs,
-                                     const Reference               &reference);
+  ResultRows result_rows(const Runs &runs, const Reference &reference);
 
   /// A sentence or two with the numbers that matter of this kind of test, of
   /// completed slides only.
   /// @param is_one_law whether the runs have the same friction law, so that a
   ///   difference between them is one of speed or pressure
-  std::string headline(const std::vector<ResultRow> &rows,
-                       const Reference              &reference,
-                       const bool                    is_one_law = true);
+  std::string headline(const ResultRows &rows,
+                       const Reference  &reference,
+                       const bool        is_one_law = true);
 
   /// The same of runs without slides, in which the contact is pushed by a load.
-  std::string headline_of_pushes(const std::vector<RunResults> &runs);
+  std::string headline_of_pushes(const Runs &runs);
 } // namespace SlipStep
 
 #endif

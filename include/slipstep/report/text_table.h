@@ -12,7 +12,8 @@
 
 namespace SlipStep
 {
-  using TableLine = std::vector<std::string>;
+  using TableLine  = std::vector<std::string>;
+  using TableLines = std::vector<TableLine>;
 
   /// Length in characters, not bytes.
   std::size_t text_width(const std::string &text);
@@ -29,8 +30,12 @@ namespace SlipStep
   /// A table for the terminal, the first line being its head. The first column
   /// holds names; the others are aligned to the right.
   /// @param widest number of characters in a line beyond which names are cut
-  std::string text_table(const std::vector<TableLine> &lines,
-                         const std::size_t             widest = -1);
+  std::string text_table(const TableLines &lines,
+                         const std::size_t widest = -1);
+
+  /// The same below an empty line, as wide as the terminal; "" if it has a head
+  /// only.
+  std::string table_paragraph(const TableLines &lines);
 
   /// A table that is written column by column, since there are columns that not
   /// every table has. It has a line for each of the rows.
@@ -84,13 +89,13 @@ namespace SlipStep
     }
 
     const std::vector<Row> &rows;
-    std::vector<TableLine>  lines; ///< the first is the head
+    TableLines              lines; ///< the first is the head
   };
 
   /// Text broken between words into indented lines.
   std::string wrapped_text(const std::string &text,
-                           const std::size_t  indent,
-                           const std::size_t  widest);
+                           const std::size_t  indent = 2,
+                           const std::size_t  widest = terminal_width);
 } // namespace SlipStep
 
 #endif
