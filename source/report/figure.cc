@@ -7,8 +7,6 @@
 
 #include <boost/algorithm/string/replace.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <regex>
 #include <set>

@@ -3,7 +3,6 @@
 #include <slipstep/report/import_report.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/measured_data/import_record.h>
-#include <slipstep/utilities/text.h>
 
 namespace SlipStep
 {

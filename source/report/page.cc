@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/page.h>
 
-#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/version.h>
 #include <slipstep/utilities/write_file.h>
 
@@ -123,10 +122,12 @@ namespace SlipStep
 
 
 
-  std::string title_of(const Parameters &parameters)
+  std::string title_of(const Parameters &parameters, const std::string &name)
   {
     const std::string title = parameters.text("Report/Title");
-    return title.empty() ? parameters.case_file().stem().string() : title;
+    return !title.empty() ? title :
+           !name.empty()  ? name :
+                            parameters.case_file().stem().string();
   }
 
 
@@ -168,9 +169,12 @@ namespace SlipStep
 
 
 
-  std::string given_settings(const Parameters &parameters)
+  std::string case_call(const std::string &command,
+                        const Parameters  &parameters,
+                        const unsigned int n_ranks)
   {
-    std::string text;
+    std::string text =
+      program_call(command, parameters.case_file().string(), n_ranks);
     for (const std::string &path : parameters.paths())
       if (parameters.is_set(path) &&
           parameters.origin(path).compare(0, 5, "--set") == 0)
@@ -185,7 +189,7 @@ namespace SlipStep
     for (const auto &[path, values] : sweeps)
       text +=
         " --sweep \"" + path + "=" + boost::algorithm::join(values, "|") + "\"";
-    return text;
+    return "<pre>" + html_text(text) + "\n</pre>\n";
   }
 
 
@@ -193,10 +197,7 @@ namespace SlipStep
   std::string repeat_section(const std::string &command,
                              const Parameters  &parameters)
   {
-    return heading("Repeat it") + "<pre>" +
-           html_text(program_call(command, parameters.case_file().string()) +
-                     given_settings(parameters)) +
-           "\n</pre>\n";
+    return heading("Repeat it") + case_call(command, parameters);
   }
 
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/run_figures.h>
 
-#include <slipstep/utilities/lists.h>
-#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include <numeric>
 
 namespace SlipStep
 {
@@ -78,24 +74,23 @@ namespace SlipStep
     std::vector<std::size_t> from_top_to_bottom(const Runs &runs)
     {
       std::vector<std::size_t> order(runs.size());
-      for (std::size_t i = 0; i < runs.size(); ++i)
-        order[i] = i;
+      std::iota(order.begin(), order.end(), 0);
       stable_sort(order, [&runs](const std::size_t a, const std::size_t b) {
         return runs[a].summary.final_friction > runs[b].summary.final_friction;
       });
       return order;
     }
 
+
+
     /// The legend has the reference, too.
     LegendPlace place_names(const RunFigures  &figures,
                             const unsigned int height)
     {
-      const Reference &reference = figures.reference;
-      return place_legend(figures.runs,
-                          reference.exists() ?
-                            std::vector<std::string>{reference.name} :
-                            std::vector<std::string>(),
-                          height);
+      std::vector<std::string> others;
+      if (figures.reference.exists())
+        others = {figures.reference.name};
+      return place_legend(figures.runs, others, height);
     }
 
     /// Which run slides at this speed; runs.size() if none does.

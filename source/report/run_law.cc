@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/friction/effect.h>
 #include <slipstep/report/run_figures.h>
-#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
 #include <deal.II/base/numbers.h>
 
-#include <algorithm>
 #include <functional>
 #include <set>
 

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/run_figures.h>
-#include <slipstep/utilities/lists.h>
-#include <slipstep/utilities/text.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 
 namespace SlipStep

@@ -3,11 +3,6 @@
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/report/run_figures.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/lists.h>
-#include <slipstep/utilities/text.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace SlipStep
 {

@@ -3,8 +3,6 @@
 // The pictures that a case asks for: "Report/Pictures".
 
 #include <slipstep/report/run_figures.h>
-#include <slipstep/utilities/lists.h>
-#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/units.h>
 
 #include <deal.II/base/numbers.h>
@@ -13,8 +11,6 @@
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
 #include <set>
 #include <variant>
@@ -152,14 +148,9 @@ namespace SlipStep
       const std::string y = dealii::Utilities::trim(text.substr(0, place));
       const std::string x =
         dealii::Utilities::trim(text.substr(place + over.size()));
-      const auto all      = picture_quantities();
-      const auto is_known = [&all](const std::string &name) {
-        return any_of(all, [&](const auto &quantity) {
-          return quantity.name == name;
-        });
-      };
+      const auto all = picture_quantities();
       for (const std::string &name : {y, x})
-        if (!is_known(name))
+        if (none_of(all, [&](const auto &one) { return one.name == name; }))
           throw InputError("\"" + name + "\" is not known; allowed are: " +
                            picture_quantity_names());
       if (y == x)

@@ -4,16 +4,13 @@
 #include <slipstep/report/run_results.h>
 #include <slipstep/report/run_figures.h>
 #include <slipstep/measured_data/measured_test.h>
-#include <slipstep/utilities/text.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/patterns.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 
-#include <cmath>
 #include <set>
-#include <sstream>
 
 namespace SlipStep
 {
@@ -95,36 +92,7 @@ namespace SlipStep
       return lines;
     }
 
-    bool is_reverse(const SlideSummary &slide)
-    {
-      return std::cos(slide.angle) < -1e-9;
-    }
 
-    /// Whether a slide is not along the first axis, where a sign would do.
-    bool angles_matter(const ResultRows &rows)
-    {
-      return any_of(rows, [](const ResultRow &row) {
-        return std::abs(std::sin(row.slide.angle)) > 1e-6;
-      });
-    }
-
-    /// Whether the slides are under different pressures.
-    bool pressures_matter(const ResultRows &rows)
-    {
-      return any_of(rows, [&](const ResultRow &row) {
-        return std::abs(row.slide.pressure - rows[0].slide.pressure) >
-               1e-3 * rows[0].slide.pressure;
-      });
-    }
-
-    /// Whether runs have labels that say more than the column of speeds does.
-    bool labels_matter(const ResultRows &rows)
-    {
-      return any_of(rows, [&](const ResultRow &row) {
-        return row.label != rows[0].label &&
-               row.label != speed_text(row.slide.speed);
-      });
-    }
 
     /// A run has several slides, and which statements they are is known.
     bool statements_matter(const ResultRows &rows)
@@ -136,13 +104,13 @@ namespace SlipStep
     }
 
     /// Whether slides follow rests, other than the same one to change pressure.
-    bool rests_matter(const ResultRows &rows)
+    bool rests_matter(const ResultRows &rows, const bool pressures_matter)
     {
       double rest = 0.;
       for (const ResultRow &row : rows)
         if (row.slide.rest > 0.)
           {
-            if (!pressures_matter(rows) ||
+            if (!pressures_matter ||
                 (rest > 0. && std::abs(row.slide.rest - rest) > 1e-6 * rest))
               return true;
             rest = row.slide.rest;
@@ -152,28 +120,37 @@ namespace SlipStep
 
     using ResultTable = ColumnTable<ResultRow>;
 
-    std::string degrees_text(const ResultRow &row)
-    {
-      return short_text(row.slide.angle * 180. / dealii::numbers::PI);
-    }
-
     /// What makes the slides different.
     void add_conditions(ResultTable &table)
     {
-      const bool with_angles = angles_matter(table.rows);
-      if (labels_matter(table.rows))
+      const ResultRows &rows = table.rows;
+      if (table.has([&](const ResultRow &row) {
+            return row.label != rows[0].label &&
+                   row.label != speed_text(row.slide.speed);
+          }))
         table.add("run", &ResultRow::label);
-      if (statements_matter(table.rows))
+      if (statements_matter(rows))
         table.add("statement", of_slide(&SlideSummary::statement));
+      // Along the first axis a sign will do.
+      const bool with_angles = table.has([](const ResultRow &row) {
+        return std::abs(std::sin(row.slide.angle)) > 1e-6;
+      });
       table.add("speed [mm/min]", [with_angles](const ResultRow &row) {
-        return (is_reverse(row.slide) && !with_angles ? "-" : "") +
+        const bool is_reverse = std::cos(row.slide.angle) < -1e-9;
+        return (is_reverse && !with_angles ? "-" : "") +
                short_text(60. * row.slide.speed);
       });
       if (with_angles)
-        table.add("angle [deg]", degrees_text);
-      if (pressures_matter(table.rows))
+        table.add_short("angle [deg]", 4, [](const ResultRow &row) {
+          return row.slide.angle * 180. / dealii::numbers::PI;
+        });
+      const bool with_pressures = table.has([&](const ResultRow &row) {
+        return std::abs(row.slide.pressure - rows[0].slide.pressure) >
+               1e-3 * rows[0].slide.pressure;
+      });
+      if (with_pressures)
         table.add_short("pressure [MPa]", 4, of_slide(&SlideSummary::pressure));
-      if (rests_matter(table.rows))
+      if (rests_matter(rows, with_pressures))
         table.add_short("rest before [s]", 6, of_slide(&SlideSummary::rest));
     }
 
@@ -455,15 +432,11 @@ namespace SlipStep
                            const Runs       &runs,
                            const bool        is_one_case)
     {
-      std::string html =
-        !is_one_case ? "" :
-                       "<p>The whole case, as its file is now:</p>\n<pre>" +
-                         html_text(program_call(runs[0].summary.command,
-                                                parameters.case_file().string(),
-                                                runs[0].summary.ranks) +
-                                   given_settings(parameters)) +
-                         "\n</pre>\n";
-      std::string single;
+      const Summary &first = runs[0].summary;
+      std::string    html, single;
+      if (is_one_case)
+        html = paragraph("The whole case, as its file is now:") +
+               case_call(first.command, parameters, first.ranks);
       for (const RunResults &run : runs)
         if (std::filesystem::exists(run.folder / "used_parameters.prm"))
           single += program_call(run.summary.command,
@@ -471,17 +444,9 @@ namespace SlipStep
                                  run.summary.ranks) +
                     "\n";
       if (!single.empty())
-        html += "<p>One run, with every value it used:</p>\n<pre>" +
+        html += paragraph("One run, with every value it used:") + "<pre>" +
                 html_text(single) + "</pre>\n";
       return html;
-    }
-
-    std::string case_title(const Parameters &parameters, const Runs &runs)
-    {
-      const std::string title = parameters.text("Report/Title");
-      if (!title.empty())
-        return title;
-      return runs.empty() ? "slipstep" : runs[0].summary.case_name;
     }
 
     /// Whether all variants slide under the same law.
@@ -532,7 +497,9 @@ namespace SlipStep
           html << heading("Repeat it")
                << repetition(parameters, runs, is_one_case);
         }
-      drawn.page.write(case_title(parameters, runs),
+      drawn.page.write(title_of(parameters,
+                                runs.empty() ? "slipstep" :
+                                               runs[0].summary.case_name),
                        rows.empty() ?
                          headline_of_pushes(runs) :
                          headline(rows,

@@ -2,14 +2,10 @@
 #include <slipstep/report/study_report.h>
 
 #include <slipstep/utilities/json_file.h>
-#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/version.h>
 #include <slipstep/utilities/write_file.h>
 
-#include <array>
-#include <cmath>
 #include <set>
-#include <sstream>
 
 namespace SlipStep
 {

@@ -49,9 +49,8 @@ namespace SlipStep
     }
   };
 
-  /// A picture made by gnuplot: collects data and commands, then writes
-  /// `<name>.dat`, `<name>.gp` and `<name>.svg`, so that a user can change the
-  /// script and draw again with `gnuplot <name>.gp`.
+  /// A picture made by gnuplot: writes `<name>.dat`, `<name>.gp`, which a user
+  /// can change and draw again, and `<name>.svg`.
   class Figure
   {
   public:
@@ -90,9 +89,9 @@ namespace SlipStep
     /// @throws RunError if the files cannot be written
     std::string write();
 
-    /// The picture for inclusion in an HTML page: without XML prologue, its
-    /// ids made unique by the name, with a label for screen readers and the
-    /// place of its axes for the page's script; "" if it was not drawn.
+    /// The picture for an HTML page: its ids made unique by the name, with a
+    /// label for screen readers and the place of its axes for the page's
+    /// script; "" if it was not drawn.
     std::string inline_svg() const;
 
     std::filesystem::path svg_file() const
@@ -165,11 +164,10 @@ namespace SlipStep
   /// than most_points, those that a line through the others hides.
   Rows thinned(const Rows &points);
 
-  /// Text as gnuplot string in double quotes, with the characters escaped that
-  /// would change the font or end the string.
+  /// Text as gnuplot string in double quotes.
   std::string gnuplot_text(std::string text);
 
-  /// Text with the characters escaped that mean something in HTML.
+  /// Text as HTML has it.
   std::string html_text(std::string text);
 } // namespace SlipStep
 

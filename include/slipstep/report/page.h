@@ -5,10 +5,6 @@
 #include <slipstep/report/figure.h>
 #include <slipstep/report/text_table.h>
 #include <slipstep/utilities/parameters.h>
-#include <slipstep/utilities/text.h>
-
-#include <string>
-#include <vector>
 
 namespace SlipStep
 {
@@ -48,7 +44,9 @@ namespace SlipStep
                         const std::string &content);
 
   /// What "Report/Title" says, or else the name of the case.
-  std::string title_of(const Parameters &parameters);
+  /// @param name of the case if not that of its file
+  std::string title_of(const Parameters  &parameters,
+                       const std::string &name = "");
 
   std::string heading(const std::string &text);
 
@@ -64,9 +62,11 @@ namespace SlipStep
                            const std::string &file,
                            const unsigned int n_ranks = 1);
 
-  /// The options --set and --sweep that the user gave, each preceded by a
-  /// blank.
-  std::string given_settings(const Parameters &parameters);
+  /// The call of a case with the options --set and --sweep that the user gave,
+  /// as HTML.
+  std::string case_call(const std::string &command,
+                        const Parameters  &parameters,
+                        const unsigned int n_ranks = 1);
 
   /// How to come to the same page again, by a command that reads one case.
   std::string repeat_section(const std::string &command,

@@ -51,9 +51,8 @@ namespace SlipStep
                            const std::vector<std::string> &others,
                            const unsigned int              height);
 
-  /// Colour and dash of a run as gnuplot has it: colours of Okabe and Ito,
-  /// distinct for colour-blind readers; dashes keep the curves apart in print.
-  /// (Their yellow is lost on white.)
+  /// Colour of Okabe and Ito (without yellow, which is lost on white) and dash
+  /// of a run as gnuplot has it: apart for the colour-blind and in print.
   std::string run_style(const std::size_t i);
 
   /// Plot a curve of the i-th run in its colour and dash.
@@ -65,9 +64,7 @@ namespace SlipStep
                 const double                    line_width = 2.,
                 const bool                      is_named   = true);
 
-  /// Draw all pictures of the report, each with its data and script: those that
-  /// the case asks for, friction over displacement, its beginning enlarged, r
-  /// over speed, and the state of the contact face.
+  /// Draw all pictures of the report, first those that the case asks for.
   void draw_pictures(RunFigures &figures);
 
   /// Draw what "Report/Pictures" names, all runs in one; what the runs have no
@@ -85,9 +82,8 @@ namespace SlipStep
   /// combinations of the values of two keys.
   void add_grid_pictures(RunFigures &figures);
 
-  /// Draw measured friction beside the runs: tests that their programmes follow
-  /// and those that "Report/Measured" names.
-  /// What they differ by is told where a programme follows a test.
+  /// Draw measured friction beside the runs: tests that "Report/Measured" names
+  /// and those that programmes follow, with what they differ by.
   void add_measured_pictures(RunFigures &figures);
 
   /// Draw pressure and slip on the contact face at the end of a run, which has
@@ -95,19 +91,16 @@ namespace SlipStep
   std::string draw_face(const RunFigures &figures, const std::size_t run);
 
   /// The law at work, as HTML: friction, the variables of the law and what its
-  /// effects remember, one below the other over the path of the drive. What
-  /// stays the same all along is said in words.
+  /// effects remember over the path of the drive, or in words what is constant.
   std::string law_at_work(const RunFigures &figures);
 
   /// The active effects of all runs with formulas, and their parameters with
-  /// symbols, values in base units, and units. Where variants differ, all their
-  /// values are named.
+  /// symbols, the values of all variants in base units, and units.
   TableLines effect_table(const RunFigures &figures);
 
-  /// The block with its mesh at moments of a run, from the surface files of
-  /// BlockOutput: deformed, coloured by stress, displacement or what the
-  /// contact plane bears, to be turned by hand. Without scripts and on paper a
-  /// drawing of the last moment. As HTML; "" if no file is there.
+  /// The block at moments of a run, from the surface files of BlockOutput:
+  /// deformed and coloured, to be turned by hand; without scripts and on paper
+  /// a drawing of the last moment. As HTML; "" if no file is there.
   /// @param warnings told of files that cannot be read
   std::string block_picture(const RunResults         &run,
                             std::vector<std::string> &warnings);

@@ -5,10 +5,6 @@
 #include <slipstep/experiment/study_results.h>
 #include <slipstep/report/page.h>
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 namespace SlipStep
 {
   /// A table of what was found, one row per curve; then one table per curve,
