@@ -3,7 +3,6 @@
 #include <slipstep/commands/new_case.h>
 #include <slipstep/diagnosis/diagnose.h>
 #include <slipstep/report/diagnosis_report.h>
-#include <slipstep/report/diagnosis_text.h>
 #include <slipstep/diagnosis/element_tests.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/commands/sweep.h>

@@ -5,7 +5,7 @@
 #include <slipstep/commands/new_case.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/friction/law.h>
-#include <slipstep/report/diagnosis_text.h>
+#include <slipstep/report/diagnosis_report.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/paths.h>
 #include <slipstep/utilities/write_file.h>

@@ -2,19 +2,215 @@
 #include <slipstep/report/calibration_report.h>
 
 #include <slipstep/report/curves.h>
-#include <slipstep/utilities/text.h>
 
 #include <boost/algorithm/string/replace.hpp>
 #include <boost/math/distributions/normal.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace SlipStep
 {
   namespace
   {
+    /// Over all rows of all tests.
+    double total_rms(const Calibration &calibration, double TestMisfit::*rms)
+    {
+      double sum = 0., n = 0.;
+      for (const TestMisfit &test : calibration.tests)
+        {
+          sum += test.n_rows * test.*rms * test.*rms;
+          n += test.n_rows;
+        }
+      return std::sqrt(sum / n);
+    }
+
+    /// Beyond this a factor says only that nothing is known.
+    constexpr double largest_factor = 1000.;
+
+    std::string factor_text(const double logarithm)
+    {
+      const double factor = std::exp(std::abs(logarithm));
+      return factor > largest_factor ? "> " + short_text(largest_factor) :
+                                       short_text(factor, factor < 1.1 ? 4 : 3);
+    }
+
+
+
+    bool is_open(const FittedParameter &fitted)
+    {
+      return fitted.constraint.empty() &&
+             (fitted.is_lower_open || fitted.is_upper_open);
+    }
+
+
+
+    TableLines short_parameter_lines(const Calibration &calibration)
+    {
+      TableLines lines = {table_head("parameter | value | unit | " +
+                                     interval_name(calibration.confidence) +
+                                     " | start")};
+      for (const FittedParameter &fitted : calibration.parameters)
+        lines.push_back(
+          {label_of(fitted.parameter),
+           (fitted.is_at_bound ? "* " : "") + digits_text(fitted, fitted.value),
+           fitted.parameter.unit(),
+           interval_text(fitted),
+           plain_text(fitted.parameter.in_unit(fitted.parameter.start), 5)});
+      return lines;
+    }
+
+    /// "6 parameters from 4 tests: rms difference of friction 0.0021 ..."
+    std::string calibration_headline(const Calibration &calibration)
+    {
+      std::string text =
+        counted(calibration.parameters.size(), "parameter") + " from " +
+        counted(calibration.tests.size(), "test") +
+        ": rms difference of friction " +
+        short_text(total_rms(calibration, &TestMisfit::rms), 3);
+      const double ratio = std::sqrt(calibration.misfit / calibration.n_rows);
+      if (std::isfinite(ratio))
+        text += ", " +
+                (ratio < 10. ? fixed_text(ratio, 2) : short_text(ratio, 3)) +
+                " times the noise";
+      text += "; it was " +
+              short_text(total_rms(calibration, &TestMisfit::start_rms), 3) +
+              " with the start values.";
+      const std::size_t n_open = count_if(calibration.parameters, is_open);
+      if (n_open > 0)
+        text += " " + counted(n_open, "parameter") +
+                (n_open == 1 ? " has" : " have") + " an open interval.";
+      return text;
+    }
+
+    /// Those parameters whose interval is open, "" if there are none.
+    std::string open_intervals(const Calibration &calibration)
+    {
+      std::string text;
+      for (const FittedParameter &fitted : calibration.parameters)
+        if (is_open(fitted))
+          text += (text.empty() ? "" : ", ") + label_of(fitted.parameter) +
+                  (!fitted.is_upper_open ? " (no lower end)" :
+                   !fitted.is_lower_open ? " (no upper end)" :
+                                           " (neither end)");
+      return text.empty() ?
+               "" :
+               "Up to their bounds, these tests do not limit: " + text + ".";
+    }
+
+    /// What one standard deviation along a weak direction changes:
+    /// "Rate × 1.5, Amount -0.03".
+    std::string change_text(const Calibration   &calibration,
+                            const WeakDirection &direction)
+    {
+      std::string text;
+      for (const std::size_t i : direction.members)
+        {
+          const FitParameter &parameter = calibration.parameters[i].parameter;
+          const double        change    = direction.change[i];
+          const std::string   unit      = parameter.unit();
+          text += (text.empty() ? "" : ", ") + label_of(parameter);
+          if (parameter.is_logarithmic)
+            text += (change < 0. ? " ÷ " : " × ") + factor_text(change);
+          else
+            text += (change < 0. ? " " : " +") +
+                    short_text(parameter.in_unit(change), 3) +
+                    (unit.empty() ? "" : " " + unit);
+        }
+      return text;
+    }
+
+    /// @param in_full with what the terminal has no room for
+    TableLines derived_lines(const Calibration &calibration, const bool in_full)
+    {
+      ColumnTable<DerivedQuantity> table(calibration.derived);
+      table.add(in_full ? "quantity" : "derived", &DerivedQuantity::name);
+      if (in_full)
+        table.add("formula", &DerivedQuantity::formula);
+      table.add_short("value", 4, &DerivedQuantity::value);
+      table.add("standard deviation", [](const DerivedQuantity &quantity) {
+        return std::isfinite(quantity.deviation) ?
+                 "± " + short_text(quantity.deviation, 2) :
+                 "unknown";
+      });
+      return table.lines;
+    }
+
+    TableLines test_lines(const Calibration &calibration, const bool in_full)
+    {
+      ColumnTable<TestMisfit> table(calibration.tests);
+      table.add("test", &TestMisfit::name);
+      table.add("rows", &TestMisfit::n_rows);
+      table.add_short("start rms", 3, &TestMisfit::start_rms);
+      table.add_short("rms", 3, &TestMisfit::rms);
+      table.add("noise", [&](const TestMisfit &test) {
+        return short_text(test.noise, 3) +
+               (in_full && test.noise_is_stated ? " (stated)" : "");
+      });
+      table.add("rms/noise", 2, noise_ratio);
+      if (!in_full)
+        return table.lines;
+
+      table.add("mean offset", 5, &TestMisfit::mean);
+      table.add_short("correlated rows", 2, &TestMisfit::correlation_length);
+      table.add_short("work measured [N/mm]", 4, &TestMisfit::measured_work);
+      table.add_short("fitted [N/mm]", 4, &TestMisfit::simulated_work);
+      table.add("difference [%]", [](const TestMisfit &test) {
+        const double difference =
+          100. * (test.simulated_work / test.measured_work - 1.);
+        return (difference > 0. ? "+" : "") + fixed_text(difference, 2);
+      });
+      return table.lines;
+    }
+
+
+
+    /// Whether both parameters are members of the same weak direction.
+    bool are_named(const Calibration &calibration,
+                   const std::size_t  i,
+                   const std::size_t  j)
+    {
+      return any_of(calibration.weak, [&](const WeakDirection &weak) {
+        return holds(weak.members, i) && holds(weak.members, j);
+      });
+    }
+
+    std::string correlation_text(const double correlation)
+    {
+      // Full correlation is claimed only where it is full.
+      if (std::abs(correlation) > 0.9999 && std::abs(correlation) < 1.)
+        return correlation < 0. ? "< -0.9999" : "> 0.9999";
+      return fixed_text(correlation, std::abs(correlation) > 0.99 ? 4 : 2);
+    }
+
+    /// Pairs that the tests determine only together, apart from those that a
+    /// weak direction names; "" if there are none.
+    std::string close_pairs(const Calibration &calibration)
+    {
+      constexpr double                            close    = 0.95;
+      constexpr std::size_t                       n_listed = 6;
+      std::vector<std::pair<double, std::string>> pairs;
+      const auto &matrix = calibration.correlation;
+      for (std::size_t i = 0; i < matrix.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+          if (std::abs(matrix[i][j]) > close && !are_named(calibration, i, j))
+            pairs.emplace_back(std::abs(matrix[i][j]),
+                               label_of(calibration.parameters[j].parameter) +
+                                 " and " +
+                                 label_of(calibration.parameters[i].parameter) +
+                                 " (" + correlation_text(matrix[i][j]) + ")");
+      if (pairs.empty())
+        return "";
+      stable_sort(pairs, [](const auto &a, const auto &b) {
+        return a.first > b.first;
+      });
+      std::string text;
+      for (std::size_t i = 0; i < std::min(pairs.size(), n_listed); ++i)
+        text += (i > 0 ? ", " : "") + pairs[i].second;
+      if (pairs.size() > n_listed)
+        text += ", and " + std::to_string(pairs.size() - n_listed) + " more";
+      return "These values belong together, changing one alone spoils the fit "
+             "(correlation): " +
+             text + ".";
+    }
+
     /// What the reader must not miss: results that the tests do not support.
     std::string weak_section(const Calibration &calibration)
     {
@@ -121,17 +317,6 @@ namespace SlipStep
              note("Near 1 or -1, two parameters make up for each other; 0 also "
                   "where nothing is known of one. Blue: negative, orange: "
                   "positive.");
-    }
-
-    std::string tests_section(const Calibration &calibration)
-    {
-      return table_section(
-        "Tests",
-        test_lines(calibration, true),
-        "rms: of measured minus fitted friction; start rms: with the start "
-        "values; noise: estimated from the rows unless stated; correlated "
-        "rows: how many in a row are off together; work: of friction per area "
-        "of contact.");
     }
 
     /// In how far the result depends on where the search began.
@@ -266,112 +451,6 @@ namespace SlipStep
       return result;
     }
 
-    std::vector<double> residuals(const DrawnTest &test)
-    {
-      std::vector<double> result;
-      for (std::size_t i = 0; i < test.measured.size(); ++i)
-        result.push_back(test.measured[i] - test.simulated[i]);
-      return result;
-    }
-
-    /// What the residuals of all tests of a frame have in common, which noise
-    /// would hide; none for few rows.
-    Rows local_means(const ConditionFrame &frame)
-    {
-      constexpr std::size_t            n_parts = 40, least = 5;
-      std::array<double, n_parts>      sum{};
-      std::array<std::size_t, n_parts> count{};
-      for (const DrawnTest *const test : frame.tests)
-        {
-          const std::vector<double> left_over = residuals(*test);
-          for (std::size_t i = 0; i < left_over.size(); ++i)
-            {
-              const double share =
-                (frame.abscissa(*test)[i] - frame.x.lower) / frame.x.width();
-              if (!std::isfinite(left_over[i]) || !(share >= 0. && share <= 1.))
-                continue;
-              const auto part =
-                std::min(static_cast<std::size_t>(share * n_parts),
-                         n_parts - 1);
-              sum[part] += left_over[i];
-              ++count[part];
-            }
-        }
-      Rows rows;
-      for (std::size_t part = 0; part < n_parts; ++part)
-        if (count[part] >= least)
-          rows.push_back(
-            {frame.x.lower + (part + 0.5) / n_parts * frame.x.width(),
-             sum[part] / count[part]});
-      return rows.size() > 1 ? rows : Rows();
-    }
-
-    const LegendLine residual_line = {"measured − fitted", Colour::measured},
-                     mean_line     = {"local mean", "#000000"};
-
-    void draw_residuals(SmallPicture &picture, const ConditionFrame &frame)
-    {
-      double band = 0.;
-      Range  y;
-      for (const DrawnTest *const test : frame.tests)
-        band = std::max(band, 2. * test->noise);
-      picture.plot(picture.add_data("twice the noise",
-                                    {"position", "lower", "upper"},
-                                    {{frame.x.lower, -band, band},
-                                     {frame.x.upper, -band, band}}) +
-                   " using 1:2:3 with filledcurves fillcolor rgb '" +
-                   noise_band_line.colour + "'");
-      for (std::size_t i = frame.tests.size(); i-- > 0;)
-        {
-          const DrawnTest &test = *frame.tests[i];
-          const Rows       rows = frame.rows(test, residuals(test));
-          for (const auto &row : rows)
-            y.add(std::abs(row[1]));
-          picture.plot(
-            picture.add_data(test.name,
-                             {frame.is_over_time ? "time_s" : "displacement_mm",
-                              "measured_minus_fitted"},
-                             rows) +
-            " with lines " +
-            (i == 0 ? residual_line : replicate_line).style(1.2));
-        }
-      // Seen through dense curves.
-      for (const double level : {-band, band})
-        picture.plot_level(level, "lc rgb '#444444' dt (6,4) lw 1.2");
-      const Rows means = local_means(frame);
-      if (!means.empty())
-        picture.plot(picture.add_data(frame.title + ", local means",
-                                      {"position", "mean"},
-                                      means) +
-                     " with lines " + mean_line.style(2.2));
-      y.add(band);
-      frame.axes(picture, "Measured − fitted  [–]", {-y.upper, y.upper});
-    }
-
-    std::string draw_all_residuals(Page                              &page,
-                                   const std::vector<ConditionFrame> &frames)
-    {
-      Gallery gallery{"What is left over",
-                      "With a law that fits, nearly all lies within the band "
-                      "and the local mean, over a fortieth of the width, "
-                      "stays near zero.",
-                      {residual_line}};
-      for (std::size_t i = 0; i < frames.size(); ++i)
-        {
-          SmallPicture picture(page,
-                               "residuals_" + std::to_string(i + 1),
-                               frames[i].title);
-          draw_residuals(picture, frames[i]);
-          picture.finish(gallery);
-        }
-      if (any_of(frames, has_replicates))
-        gallery.legend.push_back(replicate_line);
-      gallery.legend.insert(gallery.legend.end(), {mean_line, noise_band_line});
-      return gallery_section(gallery);
-    }
-
-
-
     /// Measured and fitted curves, a picture per condition; the beginning of
     /// those that have an early peak; and what is left over against the noise.
     std::string draw_curves(Page &page, const Calibration &calibration)
@@ -388,7 +467,7 @@ namespace SlipStep
                             "",
                             beginnings(frames),
                             "fitted");
-      return html + draw_all_residuals(page, frames);
+      return html + draw_residuals(page, frames);
     }
 
 
@@ -425,6 +504,86 @@ namespace SlipStep
 
 
 
+  std::string interval_name(const double confidence)
+  {
+    return short_text(100. * confidence) + " % interval";
+  }
+
+
+
+  std::string digits_text(const FittedParameter &fitted, const double value)
+  {
+    const FitParameter &parameter = fitted.parameter;
+    const double        size      = std::abs(parameter.in_unit(fitted.value));
+    const double        deviation = parameter.is_logarithmic ?
+                                      fitted.deviation * size :
+                                      parameter.in_unit(fitted.deviation);
+    const double        shown     = parameter.in_unit(value);
+    // Two digits of the deviation, the value to the same decimals; but not for
+    // values that differ by orders of magnitude or need many zeros.
+    if (deviation > 0. && deviation < 0.3 * size && size > 1e-3 && size < 1e6 &&
+        (!parameter.is_logarithmic || shown > 0.1 * size))
+      {
+        const int decimals = 1 - std::floor(std::log10(deviation));
+        if (decimals >= 0)
+          return fixed_text(shown, std::min(decimals, 8));
+        const double step = std::pow(10., -decimals);
+        return fixed_text(step * std::round(shown / step), 0);
+      }
+    const bool   is_known = deviation > 0. && deviation < size;
+    const double digits   = is_known ? 2. - std::log10(deviation / size) : 3.;
+    return plain_text(shown, std::clamp(static_cast<int>(digits), 3, 7));
+  }
+
+
+
+  std::string interval_text(const FittedParameter &fitted)
+  {
+    if (!fitted.constraint.empty())
+      return "–";
+    const std::string lower = digits_text(fitted, fitted.lower);
+    const std::string upper = digits_text(fitted, fitted.upper);
+    return fitted.is_lower_open ?
+             (fitted.is_upper_open ? "open" : "≤ " + upper) :
+             (fitted.is_upper_open ? "≥ " + lower : lower + " … " + upper);
+  }
+
+
+
+  std::string deviation_text(const FittedParameter &fitted)
+  {
+    if (!std::isfinite(fitted.deviation))
+      return "unknown";
+    return fitted.parameter.is_logarithmic ?
+             "×/÷ " + factor_text(fitted.deviation) :
+             "± " + short_text(fitted.parameter.in_unit(fitted.deviation), 2);
+  }
+
+
+
+  std::string calibration_table(const Calibration &calibration)
+  {
+    std::string text = wrapped_text(calibration_headline(calibration)) +
+                       table_paragraph(short_parameter_lines(calibration));
+    if (any_of(calibration.parameters,
+               std::mem_fn(&FittedParameter::is_at_bound)))
+      text += "  * at a bound, or at a condition of the law\n";
+    text += table_paragraph(derived_lines(calibration, false)) +
+            table_paragraph(test_lines(calibration, false));
+    if (!calibration.weak.empty())
+      text += "\n  What these tests hardly determine:\n";
+    for (const WeakDirection &direction : calibration.weak)
+      {
+        std::string words = wrapped_text(direction.words, 4);
+        if (words.size() > 2)
+          words[2] = '-';
+        text += words;
+      }
+    return text;
+  }
+
+
+
   std::vector<std::string>
   write_calibration_report(const std::filesystem::path &folder,
                            const Parameters            &parameters,
@@ -433,18 +592,24 @@ namespace SlipStep
     Page              page(folder);
     const std::string curves   = draw_curves(page, calibration);
     const std::string profiles = draw_fitted_profiles(page, calibration);
-    page.write(title_of(parameters) + ": calibration",
-               calibration_headline(calibration),
-               problem_boxes(calibration.warnings) +
-                 problem_boxes(page.warnings) + weak_section(calibration) +
-                 parameter_section(calibration) +
-                 table_section("Derived quantities",
-                               derived_lines(calibration, true),
-                               "In units of mm, s, N, MPa, rad.") +
-                 curves + profiles + correlation_section(calibration) +
-                 tests_section(calibration) + starts_section(calibration) +
-                 cost_section(calibration) +
-                 repeat_section("calibrate", parameters));
+    page.write(
+      title_of(parameters) + ": calibration",
+      calibration_headline(calibration),
+      problem_boxes(calibration.warnings) + problem_boxes(page.warnings) +
+        weak_section(calibration) + parameter_section(calibration) +
+        table_section("Derived quantities",
+                      derived_lines(calibration, true),
+                      "In units of mm, s, N, MPa, rad.") +
+        curves + profiles + correlation_section(calibration) +
+        table_section(
+          "Tests",
+          test_lines(calibration, true),
+          "rms: of measured minus fitted friction; start rms: with the "
+          "start values; noise: estimated from the rows unless stated; "
+          "correlated rows: how many in a row are off together; work: "
+          "of friction per area of contact.") +
+        starts_section(calibration) + cost_section(calibration) +
+        repeat_section("calibrate", parameters));
     return page.warnings;
   }
 } // namespace SlipStep

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/calibration_report.h>
 #include <slipstep/report/curves.h>
-#include <slipstep/utilities/lists.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 
 namespace SlipStep
 {
@@ -14,14 +8,7 @@ namespace SlipStep
   {
     constexpr std::size_t most_frames = 12;
 
-    /// Points of a curve that are kept, at four per column of pixels: many
-    /// curves share what a page may weigh.
-    std::size_t n_columns_of(const std::size_t n_tests)
-    {
-      return std::clamp<std::size_t>(10000 / std::max<std::size_t>(n_tests, 1),
-                                     60,
-                                     500);
-    }
+
 
     /// Whether a motion comes back, noise aside, or there is none.
     bool comes_back(const std::vector<double> &displacement)
@@ -330,6 +317,90 @@ namespace SlipStep
                    {0., view.highest},
                    view.is_logarithmic);
     }
+
+
+
+    std::vector<double> residuals(const DrawnTest &test)
+    {
+      std::vector<double> result;
+      for (std::size_t i = 0; i < test.measured.size(); ++i)
+        result.push_back(test.measured[i] - test.simulated[i]);
+      return result;
+    }
+
+    /// What the residuals of all tests of a frame have in common, which noise
+    /// would hide; none for few rows.
+    Rows local_means(const ConditionFrame &frame)
+    {
+      constexpr std::size_t            n_parts = 40, least = 5;
+      std::array<double, n_parts>      sum{};
+      std::array<std::size_t, n_parts> count{};
+      for (const DrawnTest *const test : frame.tests)
+        {
+          const std::vector<double> left_over = residuals(*test);
+          for (std::size_t i = 0; i < left_over.size(); ++i)
+            {
+              const double share =
+                (frame.abscissa(*test)[i] - frame.x.lower) / frame.x.width();
+              if (!std::isfinite(left_over[i]) || !(share >= 0. && share <= 1.))
+                continue;
+              const auto part =
+                std::min(static_cast<std::size_t>(share * n_parts),
+                         n_parts - 1);
+              sum[part] += left_over[i];
+              ++count[part];
+            }
+        }
+      Rows rows;
+      for (std::size_t part = 0; part < n_parts; ++part)
+        if (count[part] >= least)
+          rows.push_back(
+            {frame.x.lower + (part + 0.5) / n_parts * frame.x.width(),
+             sum[part] / count[part]});
+      return rows.size() > 1 ? rows : Rows();
+    }
+
+    const LegendLine residual_line = {"measured − fitted", Colour::measured},
+                     mean_line     = {"local mean", "#000000"};
+
+    void draw_left_over(SmallPicture &picture, const ConditionFrame &frame)
+    {
+      double band = 0.;
+      Range  y;
+      for (const DrawnTest *const test : frame.tests)
+        band = std::max(band, 2. * test->noise);
+      picture.plot(picture.add_data("twice the noise",
+                                    {"position", "lower", "upper"},
+                                    {{frame.x.lower, -band, band},
+                                     {frame.x.upper, -band, band}}) +
+                   " using 1:2:3 with filledcurves fillcolor rgb '" +
+                   noise_band_line.colour + "'");
+      for (std::size_t i = frame.tests.size(); i-- > 0;)
+        {
+          const DrawnTest &test = *frame.tests[i];
+          const Rows       rows = frame.rows(test, residuals(test));
+          for (const auto &row : rows)
+            y.add(std::abs(row[1]));
+          picture.plot(
+            picture.add_data(test.name,
+                             {frame.is_over_time ? "time_s" : "displacement_mm",
+                              "measured_minus_fitted"},
+                             rows) +
+            " with lines " +
+            (i == 0 ? residual_line : replicate_line).style(1.2));
+        }
+      // Seen through dense curves.
+      for (const double level : {-band, band})
+        picture.plot_level(level, "lc rgb '#444444' dt (6,4) lw 1.2");
+      const Rows means = local_means(frame);
+      if (!means.empty())
+        picture.plot(picture.add_data(frame.title + ", local means",
+                                      {"position", "mean"},
+                                      means) +
+                     " with lines " + mean_line.style(2.2));
+      y.add(band);
+      frame.axes(picture, "Measured − fitted  [–]", {-y.upper, y.upper});
+    }
   } // namespace
 
 
@@ -419,7 +490,8 @@ namespace SlipStep
       n_tests += frame.tests.size();
     for (ConditionFrame &frame : frames)
       {
-        frame.n_columns = n_columns_of(n_tests);
+        // Many curves share what a page may weigh.
+        frame.n_columns = std::clamp<std::size_t>(10000 / n_tests, 60, 500);
         for (const DrawnTest *const test : frame.tests)
           for (const double position : frame.abscissa(*test))
             frame.x.add(position);
@@ -460,6 +532,30 @@ namespace SlipStep
       gallery.legend.push_back(before_line);
     gallery.legend.push_back(simulated_line);
     gallery.legend.push_back(noise_band_line);
+    return gallery_section(gallery);
+  }
+
+
+
+  std::string draw_residuals(Page                              &page,
+                             const std::vector<ConditionFrame> &frames)
+  {
+    Gallery gallery{"What is left over",
+                    "With a law that fits, nearly all lies within the band "
+                    "and the local mean, over a fortieth of the width, "
+                    "stays near zero.",
+                    {residual_line}};
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      {
+        SmallPicture picture(page,
+                             "residuals_" + std::to_string(i + 1),
+                             frames[i].title);
+        draw_left_over(picture, frames[i]);
+        picture.finish(gallery);
+      }
+    if (any_of(frames, has_replicates))
+      gallery.legend.push_back(replicate_line);
+    gallery.legend.insert(gallery.legend.end(), {mean_line, noise_band_line});
     return gallery_section(gallery);
   }
 

@@ -4,15 +4,11 @@
 // along the covariates, and profiles of the parameters.
 
 #include <slipstep/report/diagnosis_sections.h>
-#include <slipstep/report/diagnosis_text.h>
+#include <slipstep/report/diagnosis_report.h>
 #include <slipstep/report/curves.h>
-#include <slipstep/utilities/text.h>
 
 #include <boost/math/distributions/normal.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 #include <set>
 
@@ -272,6 +268,56 @@ namespace SlipStep
         }
       return html + "</tbody></table></div></div>\n";
     }
+
+    /// Tests by phases, before and after.
+    std::string heat_map_section(const Diagnosis &diagnosis)
+    {
+      const HeatMap map   = make_map(diagnosis);
+      const double  noise = diagnosis.shrink.noise_floor;
+      if (map.tests.empty())
+        return "";
+      std::string html = heading("Tests and phases") + "<div class='maps'>\n" +
+                         table(map,
+                               map.before,
+                               has_after(diagnosis) ? "before" : "simulated",
+                               noise);
+      if (has_after(diagnosis))
+        html += table(map, map.after, "after", noise);
+      html += "</div>\n<p class='legend'>noise alone, " + percent_text(noise) +
+              " <span class='gradient' style='background:linear-gradient(to "
+              "right,#fff,rgb(240,150,70),rgb(110,30,0))'></span> " +
+              percent_text(map.largest) + "</p>\n";
+      std::string text =
+        "Root mean square of measured minus simulated, in % of friction.";
+      if (diagnosis.tests.size() > map.tests.size())
+        text += " " +
+                std::to_string(diagnosis.tests.size() - map.tests.size()) +
+                " tests are left out: those met best before.";
+      return html + note(text);
+    }
+
+
+
+    /// What the formulas of named effects lack along their covariates.
+    std::string draw_completed_formulas(Page &page, const Diagnosis &diagnosis)
+    {
+      std::vector<CovariatePanel> panels;
+      std::string                 effects;
+      for (const CompletedFormula &one : diagnosis.completed)
+        {
+          panels.push_back(one.panel);
+          effects += (effects.empty() ? "" : ", ") + one.effect;
+        }
+      Gallery gallery{
+        "The formula of " + effects + " is not quite right",
+        "Measured minus simulated friction with the formula of the effect alone, "
+        "as means of bins with two standard deviations; line: a free factor along "
+        "what the formula is a function of, which stands beside it in the improved "
+        "case. Its shape tells what the formula lacks.",
+        {{"left over by the formula", "#222222", "dot"}}};
+      return draw_panels(
+        page, "formula", panels, signature_lines(diagnosis, panels), gallery);
+    }
   } // namespace
 
 
@@ -283,15 +329,16 @@ namespace SlipStep
     std::string                       caption;
     const std::vector<ConditionFrame> frames = condition_frames(tests, caption);
     return draw_friction(
-      page,
-      "test",
-      is_after ? "Measured, before and after" : "Measured and simulated",
-      caption +
-        "With a law that lacks nothing, nearly all that was measured lies "
-        "within the band of the noise. Steep flanks are cut off where the "
-        "difference is elsewhere.",
-      frames,
-      is_after ? "after" : "simulated");
+             page,
+             "test",
+             is_after ? "Measured, before and after" : "Measured and simulated",
+             caption +
+               "With a law that lacks nothing, nearly all that was measured lies "
+               "within the band of the noise. Steep flanks are cut off where the "
+               "difference is elsewhere.",
+             frames,
+             is_after ? "after" : "simulated") +
+           heat_map_section(diagnosis);
   }
 
 
@@ -314,29 +361,9 @@ namespace SlipStep
                           "with two standard deviations.";
         gallery.legend[0].text = "left over";
       }
-    return draw_panels(page, "covariate", diagnosis.panels, lines, gallery);
-  }
-
-
-
-  std::string draw_completed_formulas(Page &page, const Diagnosis &diagnosis)
-  {
-    std::vector<CovariatePanel> panels;
-    std::string                 effects;
-    for (const CompletedFormula &one : diagnosis.completed)
-      {
-        panels.push_back(one.panel);
-        effects += (effects.empty() ? "" : ", ") + one.effect;
-      }
-    Gallery gallery{
-      "The formula of " + effects + " is not quite right",
-      "Measured minus simulated friction with the formula of the effect alone, "
-      "as means of bins with two standard deviations; line: a free factor along "
-      "what the formula is a function of, which stands beside it in the improved "
-      "case. Its shape tells what the formula lacks.",
-      {{"left over by the formula", "#222222", "dot"}}};
-    return draw_panels(
-      page, "formula", panels, signature_lines(diagnosis, panels), gallery);
+    const std::string html =
+      draw_panels(page, "covariate", diagnosis.panels, lines, gallery);
+    return html + draw_completed_formulas(page, diagnosis);
   }
 
 
@@ -362,32 +389,5 @@ namespace SlipStep
                          "How sharply the new parameters are determined",
                          profiles,
                          diagnosis.confidence);
-  }
-
-
-
-  std::string heat_map_section(const Diagnosis &diagnosis)
-  {
-    const HeatMap map   = make_map(diagnosis);
-    const double  noise = diagnosis.shrink.noise_floor;
-    if (map.tests.empty())
-      return "";
-    std::string html = heading("Tests and phases") + "<div class='maps'>\n" +
-                       table(map,
-                             map.before,
-                             has_after(diagnosis) ? "before" : "simulated",
-                             noise);
-    if (has_after(diagnosis))
-      html += table(map, map.after, "after", noise);
-    html += "</div>\n<p class='legend'>noise alone, " + percent_text(noise) +
-            " <span class='gradient' style='background:linear-gradient(to "
-            "right,#fff,rgb(240,150,70),rgb(110,30,0))'></span> " +
-            percent_text(map.largest) + "</p>\n";
-    std::string text =
-      "Root mean square of measured minus simulated, in % of friction.";
-    if (diagnosis.tests.size() > map.tests.size())
-      text += " " + std::to_string(diagnosis.tests.size() - map.tests.size()) +
-              " tests are left out: those met best before.";
-    return html + note(text);
   }
 } // namespace SlipStep

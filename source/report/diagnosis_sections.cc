@@ -2,12 +2,8 @@
 #include <slipstep/diagnosis/candidates.h>
 #include <slipstep/report/diagnosis_sections.h>
 
-#include <slipstep/report/diagnosis_text.h>
+#include <slipstep/report/diagnosis_report.h>
 #include <slipstep/report/curves.h>
-#include <slipstep/utilities/text.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace SlipStep
 {
@@ -197,216 +193,223 @@ namespace SlipStep
                       "that." :
                       "";
     }
+
+
+
+    std::string tests_in_numbers(const Diagnosis &diagnosis)
+    {
+      const bool                 is_after = has_after(diagnosis);
+      ColumnTable<DiagnosedTest> table(diagnosis.tests);
+      const bool                 is_left_out = table.has(
+        [](const DiagnosedTest &test) { return test.left_out_before > 0.; });
+      const auto add = [&](const std::string &head,
+                           double DiagnosedTest::*share) {
+        table.add(head, [&](const DiagnosedTest &test) {
+          return percent_text(test.*share);
+        });
+      };
+      table.add("test", [](const DiagnosedTest &test) {
+        return test.name + (test.is_outlier ? " (outlier)" : "");
+      });
+      add(is_after ? "rms before" : "rms", &DiagnosedTest::rms_before);
+      if (is_after)
+        add("after", &DiagnosedTest::rms_after);
+      if (is_left_out)
+        add(is_after ? "left out, before" : "left out",
+            &DiagnosedTest::left_out_before);
+      if (is_left_out && is_after)
+        add("left out, after", &DiagnosedTest::left_out_after);
+      table.add("noise", [](const DiagnosedTest &test) {
+        return percent_text(test.level > 0. ? test.noise / test.level : 0.);
+      });
+      table.add("condition", &DiagnosedTest::condition);
+      return table_section(
+        "Every test in numbers",
+        table.lines,
+        "Root mean square of measured minus simulated, in % of the friction of "
+        "the test; left out: as predicted from the tests under all other "
+        "conditions.",
+        "numbers tests");
+    }
+
+    std::string places_section(const Diagnosis &diagnosis)
+    {
+      if (diagnosis.where.empty())
+        return "";
+      return heading("Where simulation and measurement disagree") +
+             places_table(diagnosis.where) +
+             note(
+               std::string(
+                 "Explains alone: how much of the difference beyond the noise a "
+                 "smooth correction along this quantity would take away; the "
+                 "shares overlap. The range, if there is one, is where it is felt "
+                 "most.") +
+               history_words(diagnosis));
+    }
+
+    std::string remains_section(const Diagnosis &diagnosis)
+    {
+      if (!diagnosis.is_incomplete)
+        return "";
+      const std::string names = list_text(diagnosis.effects);
+      return heading("What " + names + " " +
+                     (diagnosis.effects.size() > 1 ? "do" : "does") +
+                     " not explain") +
+             (diagnosis.remains.empty() ?
+                paragraph("More than noise is left, but along no quantity that "
+                          "is known of the tests.") :
+                places_table(diagnosis.remains) +
+                  note("The same as above for what is left with the effects "
+                       "added: a formula that is not quite right, or something "
+                       "weaker that is missing, too."));
+    }
+
+    std::string all_candidates(const Diagnosis &diagnosis)
+    {
+      if (diagnosis.candidates.empty())
+        return "";
+      std::string html =
+        heading("All effects that were considered") +
+        "<div class='scroll'><table class='candidates'>\n<thead><tr>"
+        "<th>effect</th><th>status</th><th class='number'>chance p</th>"
+        "<th class='number'>gain</th><th class='number'>left-out gain</th>"
+        "<th class='number'>smallest detectable</th><th>remark</th></tr></thead>"
+        "\n<tbody>\n";
+      for (const CandidateResult &candidate : diagnosis.candidates)
+        html += candidate_line(candidate, diagnosis.n_draws);
+      return html + "</tbody></table></div>\n" +
+             note(
+               "p: chance that noise alone would make any of these effects "
+               "look as needed as this one. Gain: what adding it alone takes "
+               "off the objective (squares of difference over noise); left "
+               "out: the same on conditions that were not fitted; – where it "
+               "was not worth a fit. Smallest detectable: the change of "
+               "friction that would have been seen.");
+    }
+
+    std::string steps_section(const Diagnosis &diagnosis)
+    {
+      if (diagnosis.steps.empty())
+        return "";
+      const double noise   = diagnosis.shrink.noise_floor;
+      double       largest = noise, calibrated = noise;
+      for (const GapStep &step : diagnosis.steps)
+        if (std::isfinite(step.rms))
+          {
+            largest = std::max(largest, step.rms);
+            if (&step != &diagnosis.steps.front())
+              calibrated = std::max(calibrated, step.rms);
+          }
+      if (!(largest > 0.))
+        return "";
+      // A start that is far off would make dots of everything else.
+      const bool is_cut = largest > 4. * calibrated;
+      if (is_cut)
+        largest = 1.5 * calibrated;
+      std::string html =
+        heading("From the starting model down to the noise") +
+        "<p class='legend'><span><i class='dashed' style='color:#222'></i>noise "
+        "alone, " +
+        percent_text(noise) + " of friction</span></p>\n";
+      std::vector<GapBar> bars;
+      for (const GapStep &step : diagnosis.steps)
+        bars.push_back({step.label, step.rms, Colour::before});
+      if (bars.size() > 1)
+        bars.back().colour = Colour::after;
+      return html + gap_bars(bars, noise, 1.02 * largest) +
+             note("Root mean square of measured minus simulated, in % of "
+                  "friction. Grey: what the step took away." +
+                  std::string(is_cut ? " A bar with » goes on." : ""));
+    }
+
+    std::string diagnosed_parameters(const Diagnosis &diagnosis)
+    {
+      TableLines lines = {table_head("parameter | unit | before | after | " +
+                                     interval_name(diagnosis.confidence))};
+      add_lines(lines, diagnosis.start_parameters);
+      add_lines(lines, named_parameters(diagnosis));
+      if (!has_after(diagnosis))
+        lines[0][3] = "fitted";
+      return table_section(
+        "Parameters",
+        lines,
+        "≥, ≤, open: the tests do not limit the value on the other side." +
+          (diagnosis.improved_case.empty() ?
+             "" :
+             " The case with these values: " + diagnosis.improved_case + "."),
+        "numbers unbroken");
+    }
+
+    std::string elements_section(Page &page, const Diagnosis &diagnosis)
+    {
+      if (diagnosis.element_checks.empty())
+        return "";
+      std::string html = heading("The block with finite elements");
+      for (const ElementCheck &check : diagnosis.element_checks)
+        if (!check.remark.empty())
+          html += paragraph(check.test + ": " + check.remark);
+      html += draw_element_checks(page, diagnosis.element_checks);
+      const std::string table = element_table(diagnosis.element_checks);
+      return html + table +
+             (table.empty() ? "" :
+                              note("Root mean square of the difference to what "
+                                   "was measured, in % of friction; the last "
+                                   "column is the difference of block and "
+                                   "contact point. The search runs on the "
+                                   "contact point; this is the proof on the "
+                                   "block." +
+                                   block_words(diagnosis)));
+    }
   } // namespace
 
 
 
-  std::string gap_bar(const std::string &label,
-                      const double       value,
-                      const double       before,
-                      const double       noise,
-                      const double       largest,
-                      const std::string &colour)
+  std::string gap_bars(const std::vector<GapBar> &bars,
+                       const double               noise,
+                       const double               largest)
   {
-    std::string html = "<div class='bar'><span class='label'>" +
-                       html_text(label) + "</span><span class='track'>";
     const auto width = [&](const double end) {
       return css("width", std::min(1., end / largest));
     };
-    if (before > value)
-      html += "<i class='was' style='" + width(before) + "'></i>";
-    html += "<i" + std::string(value > largest ? " class='cut'" : "") +
-            " style='" + width(value) + ";background:" + colour + "'></i>";
-    if (noise > 0.)
-      html +=
-        "<i class='floor' style='" + css("left", noise / largest) + "'></i>";
-    return html + "</span><span class='number'>" + percent_text(value) +
-           "</span></div>\n";
+    std::string html;
+    double      before = 0.;
+    for (const auto &[label, value, colour] : bars)
+      {
+        html += "<div class='bar'><span class='label'>" + html_text(label) +
+                "</span><span class='track'>";
+        if (before > value)
+          html += "<i class='was' style='" + width(before) + "'></i>";
+        html += "<i" + std::string(value > largest ? " class='cut'" : "") +
+                " style='" + width(value) + ";background:" + colour + "'></i>";
+        if (noise > 0.)
+          html += "<i class='floor' style='" + css("left", noise / largest) +
+                  "'></i>";
+        html += "</span><span class='number'>" + percent_text(value) +
+                "</span></div>\n";
+        before = value;
+      }
+    return html;
   }
 
 
 
   std::string tests_section(const Diagnosis &diagnosis)
   {
-    const bool                 is_after = has_after(diagnosis);
-    ColumnTable<DiagnosedTest> table(diagnosis.tests);
-    const bool                 is_left_out = table.has(
-      [](const DiagnosedTest &test) { return test.left_out_before > 0.; });
-    const auto add = [&](const std::string &head,
-                         double DiagnosedTest::*share) {
-      table.add(head, [&](const DiagnosedTest &test) {
-        return percent_text(test.*share);
-      });
-    };
-    table.add("test", [](const DiagnosedTest &test) {
-      return test.name + (test.is_outlier ? " (outlier)" : "");
-    });
-    add(is_after ? "rms before" : "rms", &DiagnosedTest::rms_before);
-    if (is_after)
-      add("after", &DiagnosedTest::rms_after);
-    if (is_left_out)
-      add(is_after ? "left out, before" : "left out",
-          &DiagnosedTest::left_out_before);
-    if (is_left_out && is_after)
-      add("left out, after", &DiagnosedTest::left_out_after);
-    table.add("noise", [](const DiagnosedTest &test) {
-      return percent_text(test.level > 0. ? test.noise / test.level : 0.);
-    });
-    table.add("condition", &DiagnosedTest::condition);
-    return table_section(
-      "Every test in numbers",
-      table.lines,
-      "Root mean square of measured minus simulated, in % of the friction of "
-      "the test; left out: as predicted from the tests under all other "
-      "conditions.",
-      "numbers tests");
-  }
-
-
-
-  std::string places_section(const Diagnosis &diagnosis)
-  {
-    if (diagnosis.where.empty())
-      return "";
-    return heading("Where simulation and measurement disagree") +
-           places_table(diagnosis.where) +
-           note(
-             std::string(
-               "Explains alone: how much of the difference beyond the noise a "
-               "smooth correction along this quantity would take away; the "
-               "shares overlap. The range, if there is one, is where it is felt "
-               "most.") +
-             history_words(diagnosis));
-  }
-
-
-
-  std::string remains_section(const Diagnosis &diagnosis)
-  {
-    if (!diagnosis.is_incomplete)
-      return "";
-    const std::string names = list_text(diagnosis.effects);
-    return heading("What " + names + " " +
-                   (diagnosis.effects.size() > 1 ? "do" : "does") +
-                   " not explain") +
-           (diagnosis.remains.empty() ?
-              paragraph("More than noise is left, but along no quantity that "
-                        "is known of the tests.") :
-              places_table(diagnosis.remains) +
-                note("The same as above for what is left with the effects "
-                     "added: a formula that is not quite right, or something "
-                     "weaker that is missing, too."));
+    return tests_in_numbers(diagnosis) + places_section(diagnosis);
   }
 
 
 
   std::string candidates_section(const Diagnosis &diagnosis)
   {
-    if (diagnosis.candidates.empty())
-      return "";
-    std::string html =
-      heading("All effects that were considered") +
-      "<div class='scroll'><table class='candidates'>\n<thead><tr>"
-      "<th>effect</th><th>status</th><th class='number'>chance p</th>"
-      "<th class='number'>gain</th><th class='number'>left-out gain</th>"
-      "<th class='number'>smallest detectable</th><th>remark</th></tr></thead>"
-      "\n<tbody>\n";
-    for (const CandidateResult &candidate : diagnosis.candidates)
-      html += candidate_line(candidate, diagnosis.n_draws);
-    return html + "</tbody></table></div>\n" +
-           note("p: chance that noise alone would make any of these effects "
-                "look as needed as this one. Gain: what adding it alone takes "
-                "off the objective (squares of difference over noise); left "
-                "out: the same on conditions that were not fitted; – where it "
-                "was not worth a fit. Smallest detectable: the change of "
-                "friction that would have been seen.");
+    return remains_section(diagnosis) + all_candidates(diagnosis) +
+           steps_section(diagnosis);
   }
 
 
 
-  std::string steps_section(const Diagnosis &diagnosis)
+  std::string parameters_section(Page &page, const Diagnosis &diagnosis)
   {
-    if (diagnosis.steps.empty())
-      return "";
-    const double noise   = diagnosis.shrink.noise_floor;
-    double       largest = noise, calibrated = noise;
-    for (const GapStep &step : diagnosis.steps)
-      if (std::isfinite(step.rms))
-        {
-          largest = std::max(largest, step.rms);
-          if (&step != &diagnosis.steps.front())
-            calibrated = std::max(calibrated, step.rms);
-        }
-    if (!(largest > 0.))
-      return "";
-    // A start that is far off would make dots of everything else.
-    const bool is_cut = largest > 4. * calibrated;
-    if (is_cut)
-      largest = 1.5 * calibrated;
-    std::string html =
-      heading("From the starting model down to the noise") +
-      "<p class='legend'><span><i class='dashed' style='color:#222'></i>noise "
-      "alone, " +
-      percent_text(noise) + " of friction</span></p>\n";
-    double before = 0.;
-    for (const GapStep &step : diagnosis.steps)
-      {
-        html += gap_bar(step.label,
-                        step.rms,
-                        before,
-                        noise,
-                        1.02 * largest,
-                        &step == &diagnosis.steps.back() &&
-                            diagnosis.steps.size() > 1 ?
-                          Colour::after :
-                          Colour::before);
-        before = step.rms;
-      }
-    return html + note("Root mean square of measured minus simulated, in % of "
-                       "friction. Grey: what the step took away." +
-                       std::string(is_cut ? " A bar with » goes on." : ""));
-  }
-
-
-
-  std::string parameters_section(const Diagnosis &diagnosis)
-  {
-    TableLines lines = {table_head("parameter | unit | before | after | " +
-                                   interval_name(diagnosis.confidence))};
-    add_lines(lines, diagnosis.start_parameters);
-    add_lines(lines, named_parameters(diagnosis));
-    if (!has_after(diagnosis))
-      lines[0][3] = "fitted";
-    return table_section(
-      "Parameters",
-      lines,
-      "≥, ≤, open: the tests do not limit the value on the other side." +
-        (diagnosis.improved_case.empty() ?
-           "" :
-           " The case with these values: " + diagnosis.improved_case + "."),
-      "numbers unbroken");
-  }
-
-
-
-  std::string elements_section(Page &page, const Diagnosis &diagnosis)
-  {
-    if (diagnosis.element_checks.empty())
-      return "";
-    std::string html = heading("The block with finite elements");
-    for (const ElementCheck &check : diagnosis.element_checks)
-      if (!check.remark.empty())
-        html += paragraph(check.test + ": " + check.remark);
-    html += draw_element_checks(page, diagnosis.element_checks);
-    const std::string table = element_table(diagnosis.element_checks);
-    return html + table +
-           (table.empty() ? "" :
-                            note("Root mean square of the difference to what "
-                                 "was measured, in % of friction; the last "
-                                 "column is the difference of block and "
-                                 "contact point. The search runs on the "
-                                 "contact point; this is the proof on the "
-                                 "block." +
-                                 block_words(diagnosis)));
+    return diagnosed_parameters(diagnosis) + elements_section(page, diagnosis);
   }
 } // namespace SlipStep

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/candidates.h>
 #include <slipstep/diagnosis/covariate.h>
-#include <slipstep/report/diagnosis_text.h>
-
-#include <slipstep/report/run_results.h>
-#include <slipstep/utilities/text.h>
+#include <slipstep/report/diagnosis_report.h>
 
 #include <cmath>
 
@@ -31,17 +28,14 @@ namespace SlipStep
     std::string formula_words(const Diagnosis   &diagnosis,
                               const std::string &name)
     {
-      const std::string friction = "Friction/";
       for (const CandidateResult &candidate : diagnosis.candidates)
         if (candidate.name == name && !candidate.parameters.empty())
           {
-            const std::string &path = candidate.parameters[0].path;
-            const std::size_t  end  = path.find('/', friction.size());
-            if (path.rfind(friction, 0) != 0 || end == std::string::npos)
-              return "";
-            const std::string effect =
-              path.substr(friction.size(), end - friction.size());
-            return effect == name ? "" : ", by the formula of " + effect;
+            const std::string label  = label_text(candidate.parameters[0]);
+            const std::string effect = label.substr(0, label.find('/'));
+            return effect == label || effect == name || effect == "Friction" ?
+                     "" :
+                     ", by the formula of " + effect;
           }
       return "";
     }
@@ -504,7 +498,7 @@ namespace SlipStep
   std::string label_text(const DiagnosedParameter &parameter)
   {
     const std::string all = "Friction/";
-    return parameter.path.compare(0, all.size(), all) == 0 ?
+    return parameter.path.rfind(all, 0) == 0 ?
              parameter.path.substr(all.size()) :
              parameter.path;
   }

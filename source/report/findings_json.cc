@@ -4,7 +4,6 @@
 
 #include <slipstep/report/calibration_report.h>
 #include <slipstep/report/diagnosis_report.h>
-#include <slipstep/report/diagnosis_text.h>
 
 #include <slipstep/utilities/json_file.h>
 #include <slipstep/utilities/version.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/diagnosis_report.h>
-#include <slipstep/report/diagnosis_text.h>
 
 #include <slipstep/report/run_report.h>
 #include <slipstep/report/text_table.h>

@@ -5,10 +5,6 @@
 #include <slipstep/calibration/calibration.h>
 #include <slipstep/report/page.h>
 
-#include <limits>
-#include <string>
-#include <vector>
-
 namespace SlipStep
 {
   /// Friction of a test along one axis, as pictures show it.
@@ -77,6 +73,10 @@ namespace SlipStep
                             const std::string                 &caption,
                             const std::vector<ConditionFrame> &frames,
                             const std::string                 &simulated);
+
+  /// What is left over of the measured friction, against the noise.
+  std::string draw_residuals(Page                              &page,
+                             const std::vector<ConditionFrame> &frames);
 
   /// An axis from zero, unless that would hide the difference.
   Range with_zero(Range y);
