@@ -284,11 +284,7 @@ namespace SlipStep
                           0.);
     }
 
-    /// A place where a long name may be broken.
-    std::string breakable(const std::string &name)
-    {
-      return boost::algorithm::replace_all_copy(html_text(name), "/", "/<wbr>");
-    }
+
 
     std::string correlation_section(const Calibration &calibration)
     {
@@ -298,9 +294,12 @@ namespace SlipStep
       std::string html =
         heading("Correlation of the parameters") +
         "<div class='scroll'><table class='numbers matrix'>\n<thead><tr><td></td>";
+      // Long names may be broken.
       for (const FittedParameter &fitted : calibration.parameters)
-        html +=
-          "<th scope='col'>" + breakable(label_of(fitted.parameter)) + "</th>";
+        html += "<th scope='col'>" +
+                boost::algorithm::replace_all_copy(
+                  html_text(label_of(fitted.parameter)), "/", "/<wbr>") +
+                "</th>";
       html += "</tr></thead>\n<tbody>\n";
       for (std::size_t i = 0; i < matrix.size(); ++i)
         {
@@ -392,18 +391,16 @@ namespace SlipStep
     {
       std::vector<DrawnTest> tests;
       for (const TestMisfit &test : calibration.tests)
-        {
-          DrawnTest drawn;
-          drawn.name         = test.name;
-          drawn.condition    = test.condition;
-          drawn.time         = test.time;
-          drawn.displacement = test.displacement;
-          drawn.measured     = test.measured;
-          drawn.simulated    = test.simulated;
-          drawn.noise        = std::isfinite(test.noise) ? test.noise : 0.;
-          drawn.gap          = test.noise > 0. ? noise_ratio(test) : test.rms;
-          tests.push_back(drawn);
-        }
+        tests.push_back({test.name,
+                         test.condition,
+                         test.time,
+                         test.displacement,
+                         test.measured,
+                         {},
+                         test.simulated,
+                         std::isfinite(test.noise) ? test.noise : 0.,
+                         test.noise > 0. ? noise_ratio(test) : test.rms,
+                         {}});
       return tests;
     }
 

@@ -65,12 +65,7 @@ namespace SlipStep
       return kept;
     }
 
-    /// NaN where there is none.
-    double value_at(const std::vector<double> &curve, const std::size_t i)
-    {
-      return i < curve.size() ? curve[i] :
-                                std::numeric_limits<double>::quiet_NaN();
-    }
+
 
     /// What the axis has to show. Flanks from zero would flatten a difference
     /// that is elsewhere, so that only half of its surroundings is shown.
@@ -84,10 +79,13 @@ namespace SlipStep
             const double position = frame.abscissa(*test)[i];
             if (position < frame.x.lower || position > frame.x.upper)
               continue;
+            const auto at = [i](const std::vector<double> &curve) {
+              return i < curve.size() ? curve[i] : std::nan("");
+            };
             const double measured  = test->measured[i];
-            const double simulated = value_at(test->simulated, i);
+            const double simulated = at(test->simulated);
             const double first =
-              test->before.empty() ? simulated : value_at(test->before, i);
+              test->before.empty() ? simulated : at(test->before);
             const bool is_steep =
               i >= test->is_flank.size() || test->is_flank[i];
             double &largest = is_steep ? on_flanks : elsewhere;

@@ -162,12 +162,7 @@ namespace SlipStep
              "</div>\n";
     }
 
-    /// "phases peak and steady"
-    std::string plural(const std::string              &what,
-                       const std::vector<std::string> &names)
-    {
-      return what + (names.size() > 1 ? "s " : " ") + list_text(names);
-    }
+
 
     std::vector<std::string> all_in_quotes(std::vector<std::string> names)
     {
@@ -194,7 +189,9 @@ namespace SlipStep
       std::string         text =
         "Measured friction is " + sign_text(where) + " there than simulated";
       if (!where.phases.empty())
-        text += ", most in " + plural("phase", where.phases);
+        text += std::string(", most in phase") +
+                (where.phases.size() > 1 ? "s " : " ") +
+                list_text(where.phases);
       if (!where.tests.empty())
         text += ", in " + list_text(all_in_quotes(where.tests));
       return card(title,

@@ -284,15 +284,6 @@ namespace SlipStep
 
 
 
-    std::string look_alike_remedy(const LookAlike &look_alike)
-    {
-      return look_alike.kind == LookAlike::Kind::held_parameter ?
-               "let it be fitted (Calibration/Parameters) if it is not known." :
-               "take it off if it is one (Correction/Zero of an import).";
-    }
-
-
-
     /// "0.5 … 1.7 mm/s", or the length of a wave
     std::string values_text(const Localisation &where)
     {
@@ -339,9 +330,10 @@ namespace SlipStep
     if (is_doubted)
       text += capitalised(look_alike_words(*diagnosis.look_alike)) +
               (diagnosis.look_alike->kind == LookAlike::Kind::held_parameter ?
-                 " explains these tests as well: " :
-                 ", explains these tests as well: ") +
-              look_alike_remedy(*diagnosis.look_alike) + " If not, ";
+                 " explains these tests as well: let it be fitted "
+                 "(Calibration/Parameters) if it is not known. If not, " :
+                 ", explains these tests as well: take it off if it is one "
+                 "(Correction/Zero of an import). If not, ");
     if (is_stated)
       text += std::string(is_doubted ? "and if" : "If") +
               " the stated noise is right (there are no replicates), ";

@@ -334,16 +334,6 @@ namespace SlipStep
               {"per_test", tests},
               {"steps", diagnosis.steps}};
     }
-
-    json next_test_block(const NextTest &next)
-    {
-      if (next.words.empty())
-        return nullptr;
-      return {{"words", next.words},
-              {"programme", next.programme},
-              {"separates", next.separates},
-              {"distance", next.distance}};
-    }
   } // namespace
 
 
@@ -381,6 +371,13 @@ namespace SlipStep
                             const Parameters            &parameters,
                             const Diagnosis             &diagnosis)
   {
+    const NextTest &next = diagnosis.next_test;
+    json            next_test;
+    if (!next.words.empty())
+      next_test = {{"words", next.words},
+                   {"programme", next.programme},
+                   {"separates", next.separates},
+                   {"distance", next.distance}};
     write_json(file,
                {{"schema", "slipstep/diagnosis/1"},
                 {"version", version()},
@@ -405,7 +402,7 @@ namespace SlipStep
                 {"not_testable", not_testable_block(diagnosis)},
                 {"new_model", new_model_block(diagnosis)},
                 {"shrink", shrink_block(diagnosis)},
-                {"next_test", next_test_block(diagnosis.next_test)},
+                {"next_test", next_test},
                 {"fe_check", diagnosis.element_checks},
                 {"budget",
                  {{"candidates", diagnosis.n_candidates},

@@ -8,15 +8,7 @@ namespace SlipStep
 {
   namespace
   {
-    /// Two columns of numbers as rows of a picture, thinned.
-    Rows points_of(const std::vector<double> &x, const std::vector<double> &y)
-    {
-      Rows rows;
-      for (std::size_t i = 0; i < y.size(); ++i)
-        if (std::isfinite(x[i]) && std::isfinite(y[i]))
-          rows.push_back({x[i], y[i]});
-      return thinned(rows);
-    }
+
 
     void draw_curve(Page                           &page,
                     const std::string              &name,
@@ -25,8 +17,12 @@ namespace SlipStep
                     const std::vector<double>      &y,
                     Gallery                        &gallery)
     {
-      const Rows rows = points_of(x, y);
-      Range      of_x, of_y;
+      Rows rows;
+      for (std::size_t i = 0; i < y.size(); ++i)
+        if (std::isfinite(x[i]) && std::isfinite(y[i]))
+          rows.push_back({x[i], y[i]});
+      rows = thinned(rows);
+      Range of_x, of_y;
       of_x.add(rows, 0);
       of_y.add(rows, 1);
       SmallPicture picture(page, name, labels[1] + " over " + labels[0]);

@@ -46,16 +46,6 @@ namespace SlipStep
       return "[" + exact_text(range.lower) + ":" + exact_text(range.upper) +
              "]\n";
     }
-
-    std::string legend_html(const std::vector<LegendLine> &legend)
-    {
-      std::string html = "<p class='legend'>";
-      for (const LegendLine &line : legend)
-        html += "<span><i class='" + line.kind +
-                "' style='color:" + line.colour + "'></i>" +
-                html_text(line.text) + "</span> ";
-      return html + "</p>\n";
-    }
   } // namespace
 
 
@@ -316,10 +306,14 @@ namespace SlipStep
 
   std::string gallery_section(const Gallery &gallery)
   {
-    return gallery.pictures.empty() ?
-             "" :
-             (gallery.title.empty() ? "" : heading(gallery.title)) +
-               legend_html(gallery.legend) + "<div class='gallery'>\n" +
-               gallery.pictures + "</div>\n" + note(gallery.caption);
+    if (gallery.pictures.empty())
+      return "";
+    std::string html = gallery.title.empty() ? "" : heading(gallery.title);
+    html += "<p class='legend'>";
+    for (const LegendLine &line : gallery.legend)
+      html += "<span><i class='" + line.kind + "' style='color:" + line.colour +
+              "'></i>" + html_text(line.text) + "</span> ";
+    return html + "</p>\n<div class='gallery'>\n" + gallery.pictures +
+           "</div>\n" + note(gallery.caption);
   }
 } // namespace SlipStep

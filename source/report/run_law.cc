@@ -115,13 +115,6 @@ namespace SlipStep
       return figures.page.svg_of(figure);
     }
 
-    bool is_used(const LawPanel &panel, const std::vector<Rows> &curves)
-    {
-      const Range y = range_of(curves, 1);
-      return panel.name == "friction" ||
-             y.width() > 1e-6 * std::max(std::abs(y.lower), std::abs(y.upper));
-    }
-
 
 
     /// In base units, so that the column of units holds.
@@ -185,14 +178,16 @@ namespace SlipStep
           of_runs.push_back(over_path(run, panel));
         if (!(range_of(of_runs, 0).width() > 0.))
           return "";
-        if (is_used(panel, of_runs))
+        const Range y = range_of(of_runs, 1);
+        if (panel.name == "friction" ||
+            y.width() > 1e-6 * std::max(std::abs(y.lower), std::abs(y.upper)))
           {
             shown.push_back(panel);
             curves.push_back(of_runs);
           }
         else if (panel.name.size() <= 3) // of every law
           constants += (constants.empty() ? "" : ", ") + panel.label + " = " +
-                       short_text(range_of(of_runs, 1).upper, 5);
+                       short_text(y.upper, 5);
       }
     std::string svg;
     for (std::size_t i = 0; i < shown.size(); ++i)

@@ -103,23 +103,6 @@ namespace SlipStep
 
 
 
-    /// Rests and strokes lie on top of each other over displacement.
-    bool is_better_over_time(const MeasuredBeside &measured)
-    {
-      const auto  &x    = measured.test.displacement;
-      const double band = 0.01 * SlipStep::range_of(x);
-      return measured.is_repeated && !turning_rows(x, band).empty();
-    }
-
-
-
-    std::string abscissa(const bool is_over_time)
-    {
-      return is_over_time ? "time" : "displacement";
-    }
-
-
-
     // Their points; in words how far those that a run repeats are off.
     std::string plot_measured(Figure                            &figure,
                               const RunFigures                  &figures,
@@ -144,7 +127,8 @@ namespace SlipStep
               friction.add(test.friction[i]);
             }
           figure.plot(figure.add_data(test.name,
-                                      {abscissa(is_over_time), "friction"},
+                                      {is_over_time ? "time" : "displacement",
+                                       "friction"},
                                       thinned(points)) +
                       (points.size() > most_points ?
                          " with lines lw 2" :
@@ -168,7 +152,7 @@ namespace SlipStep
                        const bool                         is_over_time)
     {
       const Runs       &runs = figures.runs;
-      const std::string over = abscissa(is_over_time);
+      const std::string over = is_over_time ? "time" : "displacement";
       Figure            figure =
         figures.figure("measured_over_" + over,
                        "Measured and simulated friction over " + over,
@@ -217,7 +201,14 @@ namespace SlipStep
   {
     std::vector<MeasuredBeside> over[2];
     for (const MeasuredBeside &measured : measured_tests(figures))
-      over[is_better_over_time(measured)].push_back(measured);
+      {
+        // Rests and strokes lie on top of each other over displacement.
+        const auto  &x    = measured.test.displacement;
+        const double band = 0.01 * range_of(x);
+        const bool   has_turns =
+          measured.is_repeated && !turning_rows(x, band).empty();
+        over[has_turns].push_back(measured);
+      }
     for (const bool is_over_time : {false, true})
       if (!over[is_over_time].empty())
         draw_measured(figures, over[is_over_time], is_over_time);
