@@ -225,7 +225,7 @@ namespace SlipStep
                 html_text(change_text(calibration, direction)) +
                 "</span></div>\n";
       if (!open.empty())
-        html += problem_box(open);
+        html += paragraph(open, "problem");
       if (!close.empty())
         html += paragraph(close);
       return html;

@@ -16,41 +16,35 @@ namespace SlipStep
 {
   namespace
   {
-    DrawnTest drawn_axis(const DiagnosedTest &test,
-                         const bool           is_second_axis,
-                         const bool           is_after)
-    {
-      DrawnTest   drawn;
-      const auto &before = is_second_axis ? test.before_y : test.before;
-      drawn.name         = test.name;
-      drawn.condition = (test.condition.empty() ? test.name : test.condition) +
-                        (is_second_axis ? ", second axis" : "");
-      drawn.time         = test.time;
-      drawn.displacement = test.displacement;
-      drawn.measured     = is_second_axis ? test.measured_y : test.measured;
-      drawn.simulated =
-        is_after ? is_second_axis ? test.after_y : test.after : before;
-      if (is_after)
-        drawn.before = before;
-      // Of a test with two axes each has its share.
-      drawn.noise =
-        test.measured_y.empty() ? test.noise : test.noise / std::sqrt(2.);
-      drawn.gap = test.rms_before;
-      for (const Phase phase : test.phase)
-        drawn.is_flank.push_back(is_flank(phase) || phase == Phase::hold);
-      return drawn;
-    }
-
     std::vector<DrawnTest> drawn_tests(const Diagnosis &diagnosis)
     {
       const bool             is_after = has_after(diagnosis);
       std::vector<DrawnTest> tests;
       for (const DiagnosedTest &test : diagnosis.tests)
-        {
-          tests.push_back(drawn_axis(test, false, is_after));
-          if (!test.measured_y.empty())
-            tests.push_back(drawn_axis(test, true, is_after));
-        }
+        for (const bool is_second : {false, true})
+          {
+            const bool has_second = !test.measured_y.empty();
+            if (is_second && !has_second)
+              break;
+            const auto       &before = is_second ? test.before_y : test.before;
+            const auto       &after  = is_second ? test.after_y : test.after;
+            const std::string name =
+              test.condition.empty() ? test.name : test.condition;
+            tests.push_back({test.name,
+                             name + (is_second ? ", second axis" : ""),
+                             test.time,
+                             test.displacement,
+                             is_second ? test.measured_y : test.measured,
+                             is_after ? before : std::vector<double>(),
+                             is_after ? after : before,
+                             // Of a test with two axes each has its share.
+                             test.noise / (has_second ? std::sqrt(2.) : 1.),
+                             test.rms_before,
+                             {}});
+            for (const Phase phase : test.phase)
+              tests.back().is_flank.push_back(is_flank(phase) ||
+                                              phase == Phase::hold);
+          }
       return tests;
     }
 

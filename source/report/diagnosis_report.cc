@@ -444,9 +444,10 @@ namespace SlipStep
       std::string html =
         "<div class='honest'>\n" + heading("How far this can be trusted");
       if (diagnosis.n_replicate_pairs == 0)
-        html += problem_box("No two tests share a condition: how large the "
-                            "noise is has been stated, not measured. Repeat a "
-                            "test or two before you believe the verdict.");
+        html += paragraph("No two tests share a condition: how large the "
+                          "noise is has been stated, not measured. Repeat a "
+                          "test or two before you believe the verdict.",
+                          "problem");
       html +=
         bullets("What would overturn this verdict", diagnosis.would_overturn) +
         bullets(counted(tests.size(), "test") + " out of line with the others",

@@ -157,7 +157,7 @@ namespace SlipStep
                  "Every line of the map was guessed: look whether the pictures "
                  "are what you measured." :
                  "The map is incomplete: what is open, only you can say.",
-               (problem.empty() ? "" : problem_box(problem)) +
+               (problem.empty() ? "" : paragraph(problem, "problem")) +
                  problem_boxes(page.warnings) + gallery_section(gallery) +
                  columns_section(proposal) + guesses_section(proposal, map));
     return page.warnings;

@@ -192,18 +192,11 @@ namespace SlipStep
 
 
 
-  std::string problem_box(const std::string &text)
-  {
-    return paragraph(text, "problem");
-  }
-
-
-
   std::string problem_boxes(const std::vector<std::string> &texts)
   {
     std::string html;
     for (const std::string &text : texts)
-      html += problem_box(text);
+      html += paragraph(text, "problem");
     return html;
   }
 

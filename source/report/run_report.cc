@@ -418,11 +418,13 @@ namespace SlipStep
       for (const RunResults &run : runs)
         {
           if (run.summary.status == "failed")
-            html += problem_box("Run " + run_name(run) +
+            html += paragraph("Run " + run_name(run) +
                                 " failed: " + run.summary.reason +
-                                ". What follows shows it up to there.");
+                                ". What follows shows it up to there.",
+                              "problem");
           for (const std::string &warning : run.summary.warnings)
-            html += problem_box("Run " + run_name(run) + ": " + warning);
+            html +=
+              paragraph("Run " + run_name(run) + ": " + warning, "problem");
         }
       return html;
     }

@@ -72,8 +72,7 @@ namespace SlipStep
   std::string repeat_section(const std::string &command,
                              const Parameters  &parameters);
 
-  /// Something that the reader has to know first.
-  std::string problem_box(const std::string &text);
+  /// What the reader has to know first, each in a box.
   std::string problem_boxes(const std::vector<std::string> &texts);
 
   /// A table, the first line being its head.
