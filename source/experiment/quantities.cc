@@ -84,6 +84,26 @@ namespace SlipStep
 
   namespace
   {
+    /// A parabola through three points.
+    struct Parabola
+    {
+      Parabola(const std::array<double, 3> &x, const std::array<double, 3> &y)
+      {
+        const double h = x[1] - x[0], H = x[2] - x[1];
+        const double d = (y[1] - y[0]) / h, D = (y[2] - y[1]) / H;
+        if (h > 0. && H > 0.)
+          {
+            curvature = (D - d) / (h + H);
+            slope     = (H * d + h * D) / (h + H);
+          }
+      }
+
+      double curvature = 0.; ///< half of it
+      double slope     = 0.; ///< at the point in the middle
+    };
+
+
+
     /// What a history says between its rows.
     class HistoryReader
     {
@@ -119,21 +139,116 @@ namespace SlipStep
         });
       }
 
-      /// Path and value of the largest friction coefficient.
-      std::pair<double, double> peak() const;
+      /// Path and value of the largest friction coefficient: the vertex of the
+      /// parabola through it and its neighbours, so that the place does not
+      /// depend on where the steps fall. In a corner, which is bent far more
+      /// than what is beside it, there is none.
+      std::pair<double, double> peak() const
+      {
+        constexpr double corner = 3.;
+
+        const auto magnitude = [](const HistoryRow &row) {
+          return std::hypot(row.friction, row.friction_y);
+        };
+        double largest = 0.;
+        for (const HistoryRow &row : history)
+          largest = std::max(largest, magnitude(row));
+        std::size_t i = 0;
+        while (i < history.size() &&
+               magnitude(history[i]) < (1. - 1e-9) * largest)
+          ++i;
+        if (i == history.size())
+          return {QuantityOfInterest::undefined, QuantityOfInterest::undefined};
+
+        const double x1 = path_of_row(i), y1 = magnitude(history[i]);
+        const auto [begin, end] = times_of_statement(history[i].time);
+        const auto is_near =
+          [&, begin = begin, end = end](const std::size_t row) {
+            return row < history.size() &&
+                   history[row].time >= begin - round_off() &&
+                   history[row].time <= end + round_off();
+          };
+        const auto around = [&](const std::size_t row) {
+          std::array<double, 3> x, y;
+          for (std::size_t k = 0; k < 3; ++k)
+            {
+              x[k] = path_of_row(row - 1 + k);
+              y[k] = magnitude(history[row - 1 + k]);
+            }
+          return Parabola(x, y);
+        };
+        // Beyond the first row they are as far as can be.
+        if (!is_near(i - 1) || !is_near(i + 1))
+          return {x1, y1};
+        const Parabola      top = around(i);
+        std::vector<double> beside;
+        if (is_near(i - 2))
+          beside.push_back(around(i - 1).curvature);
+        if (is_near(i + 2))
+          beside.push_back(around(i + 1).curvature);
+        if (!(top.curvature < 0.) ||
+            (!beside.empty() &&
+             top.curvature <
+               corner *
+                 std::min(0., *std::min_element(beside.begin(), beside.end()))))
+          return {x1, y1};
+        return {x1 - top.slope / (2. * top.curvature),
+                y1 - top.slope * top.slope / (4. * top.curvature)};
+      }
 
     private:
-      const Programme              &programme;
-      const std::vector<HistoryRow> history;
-      const SlidingPath             path;
-
-      double time_of(const double displacement, std::size_t &segment) const;
+      double time_of(const double displacement, std::size_t &segment) const
+      {
+        const std::vector<double> &path_after = path.after_segments();
+        segment =
+          std::min<std::size_t>(path_after.size() - 1,
+                                std::lower_bound(path_after.begin(),
+                                                 path_after.end(),
+                                                 displacement * (1. - 1e-12)) -
+                                  path_after.begin());
+        const Segment &moving = programme.segments()[segment];
+        const double   before = segment == 0 ? 0. : path_after[segment - 1];
+        const double   share =
+          (displacement - before) / (path_after[segment] - before);
+        return moving.start_time +
+               std::min(share, 1.) * (moving.end_time - moving.start_time);
+      }
 
       /// Begin and end of a statement, of two the first [s].
-      std::pair<double, double> times_of_statement(const double time) const;
+      /// A replayed test has a segment per sample, which says nothing about the
+      /// friction: only the borders of statements are kinks.
+      std::pair<double, double> times_of_statement(const double time) const
+      {
+        const auto &segments = programme.segments();
+        std::size_t first    = 0;
+        while (first + 1 < segments.size() &&
+               segments[first].end_time < time - round_off())
+          ++first;
+        std::size_t last = first;
+        while (first > 0 &&
+               segments[first - 1].statement == segments[last].statement)
+          --first;
+        while (last + 1 < segments.size() &&
+               segments[last + 1].statement == segments[first].statement)
+          ++last;
+        return {segments[first].start_time, segments[last].end_time};
+      }
 
       /// Path of the drive, with what pushes moved.
-      double path_of_row(const std::size_t row) const;
+      double path_of_row(const std::size_t row) const
+      {
+        const auto &segments = programme.segments();
+        if (none_of(segments, [](const Segment &one) { return one.pushes; }))
+          return path.at(history[row].time);
+        double sum =
+          std::hypot(history[0].displacement, history[0].displacement_y);
+        for (std::size_t i = 1; i <= row; ++i)
+          sum +=
+            std::hypot(history[i].displacement - history[i - 1].displacement,
+                       history[i].displacement_y -
+                         history[i - 1].displacement_y);
+        return sum;
+      }
 
       /// Steps end at the borders of segments but for round-off.
       double round_off() const
@@ -145,166 +260,26 @@ namespace SlipStep
       template <typename Value>
       double interpolate(const std::size_t segment,
                          const double      time,
-                         const Value      &value) const;
-    };
-
-
-
-    double HistoryReader::time_of(const double displacement,
-                                  std::size_t &segment) const
-    {
-      const std::vector<double> &path_after = path.after_segments();
-      segment =
-        std::min<std::size_t>(path_after.size() - 1,
-                              std::lower_bound(path_after.begin(),
-                                               path_after.end(),
-                                               displacement * (1. - 1e-12)) -
-                                path_after.begin());
-      const Segment &moving = programme.segments()[segment];
-      const double   before = segment == 0 ? 0. : path_after[segment - 1];
-      const double   share =
-        (displacement - before) / (path_after[segment] - before);
-      return moving.start_time +
-             std::min(share, 1.) * (moving.end_time - moving.start_time);
-    }
-
-
-
-    double HistoryReader::path_of_row(const std::size_t row) const
-    {
-      const auto &segments = programme.segments();
-      if (none_of(segments, [](const Segment &one) { return one.pushes; }))
-        return path.at(history[row].time);
-      double sum =
-        std::hypot(history[0].displacement, history[0].displacement_y);
-      for (std::size_t i = 1; i <= row; ++i)
-        sum +=
-          std::hypot(history[i].displacement - history[i - 1].displacement,
-                     history[i].displacement_y - history[i - 1].displacement_y);
-      return sum;
-    }
-
-
-
-    // A replayed test has a segment per sample, which says nothing about the
-    // friction: only the borders of statements are kinks.
-    std::pair<double, double>
-    HistoryReader::times_of_statement(const double time) const
-    {
-      const auto &segments = programme.segments();
-      std::size_t first    = 0;
-      while (first + 1 < segments.size() &&
-             segments[first].end_time < time - round_off())
-        ++first;
-      std::size_t last = first;
-      while (first > 0 &&
-             segments[first - 1].statement == segments[last].statement)
-        --first;
-      while (last + 1 < segments.size() &&
-             segments[last + 1].statement == segments[first].statement)
-        ++last;
-      return {segments[first].start_time, segments[last].end_time};
-    }
-
-
-
-    template <typename Value>
-    double HistoryReader::interpolate(const std::size_t segment,
-                                      const double      time,
-                                      const Value      &value) const
-    {
-      const auto [begin, end] =
-        times_of_statement(programme.segments()[segment].end_time);
-      std::vector<double> times, values;
-      for (const HistoryRow &row : history)
-        if (row.time >= begin - round_off() && row.time <= end + round_off())
-          {
-            times.push_back(row.time);
-            values.push_back(value(row));
-          }
-      if (!times.empty() && std::abs(time - times.back()) <= round_off())
-        return values.back();
-      return monotone_interpolation(times, values, time);
-    }
-
-
-
-    /// A parabola through three points.
-    struct Parabola
-    {
-      Parabola(const std::array<double, 3> &x, const std::array<double, 3> &y)
+                         const Value      &value) const
       {
-        const double h = x[1] - x[0], H = x[2] - x[1];
-        const double d = (y[1] - y[0]) / h, D = (y[2] - y[1]) / H;
-        if (h > 0. && H > 0.)
-          {
-            curvature = (D - d) / (h + H);
-            slope     = (H * d + h * D) / (h + H);
-          }
+        const auto [begin, end] =
+          times_of_statement(programme.segments()[segment].end_time);
+        std::vector<double> times, values;
+        for (const HistoryRow &row : history)
+          if (row.time >= begin - round_off() && row.time <= end + round_off())
+            {
+              times.push_back(row.time);
+              values.push_back(value(row));
+            }
+        if (!times.empty() && std::abs(time - times.back()) <= round_off())
+          return values.back();
+        return monotone_interpolation(times, values, time);
       }
 
-      double curvature = 0.; ///< half of it
-      double slope     = 0.; ///< at the point in the middle
+      const Programme              &programme;
+      const std::vector<HistoryRow> history;
+      const SlidingPath             path;
     };
-
-
-
-    // The vertex of the parabola through the largest coefficient and its
-    // neighbours, so that the place does not depend on where the steps fall.
-    // In a corner, which is bent far more than what is beside it, there is
-    // none.
-    std::pair<double, double> HistoryReader::peak() const
-    {
-      constexpr double corner = 3.;
-
-      const auto magnitude = [](const HistoryRow &row) {
-        return std::hypot(row.friction, row.friction_y);
-      };
-      double largest = 0.;
-      for (const HistoryRow &row : history)
-        largest = std::max(largest, magnitude(row));
-      std::size_t i = 0;
-      while (i < history.size() &&
-             magnitude(history[i]) < (1. - 1e-9) * largest)
-        ++i;
-      if (i == history.size())
-        return {QuantityOfInterest::undefined, QuantityOfInterest::undefined};
-
-      const double x1 = path_of_row(i), y1 = magnitude(history[i]);
-      const auto [begin, end] = times_of_statement(history[i].time);
-      const auto is_near =
-        [&, begin = begin, end = end](const std::size_t row) {
-          return row < history.size() &&
-                 history[row].time >= begin - round_off() &&
-                 history[row].time <= end + round_off();
-        };
-      const auto around = [&](const std::size_t row) {
-        std::array<double, 3> x, y;
-        for (std::size_t k = 0; k < 3; ++k)
-          {
-            x[k] = path_of_row(row - 1 + k);
-            y[k] = magnitude(history[row - 1 + k]);
-          }
-        return Parabola(x, y);
-      };
-      // Beyond the first row they are as far as can be.
-      if (!is_near(i - 1) || !is_near(i + 1))
-        return {x1, y1};
-      const Parabola      top = around(i);
-      std::vector<double> beside;
-      if (is_near(i - 2))
-        beside.push_back(around(i - 1).curvature);
-      if (is_near(i + 2))
-        beside.push_back(around(i + 1).curvature);
-      if (!(top.curvature < 0.) ||
-          (!beside.empty() &&
-           top.curvature <
-             corner *
-               std::min(0., *std::min_element(beside.begin(), beside.end()))))
-        return {x1, y1};
-      return {x1 - top.slope / (2. * top.curvature),
-              y1 - top.slope * top.slope / (4. * top.curvature)};
-    }
 
 
 

@@ -78,35 +78,204 @@ namespace SlipStep
                         [](const Segment &one) { return one.pushes; }))
       {}
 
-      std::vector<QuantityOfInterest> read();
+      std::vector<QuantityOfInterest> read()
+      {
+        for (const std::string &item : dealii::Utilities::split_string_list(
+               parameters.text(quantities_key), ';'))
+          if (!item.empty())
+            read_item(squeezed(item));
+        if (probes_among(quantities).size() > most_probes)
+          fail(
+            "there can be " + std::to_string(most_probes) +
+            " of what a run finds step by step at most (all but friction force, "
+            "peak and dissipated energy)");
+        return quantities;
+      }
 
     private:
-      void read_item(const std::string &item);
+      void read_item(const std::string &item)
+      {
+        const Form &form = find_form(item);
+        present_item     = item;
+        present_example  = form.example;
+        std::string rest = squeezed(item.substr(form.name.size()));
 
-      const Form &find_form(const std::string &item) const;
+        QuantityOfInterest quantity;
+        quantity.kind = form.kind;
+        quantity.name = item;
+        if (quantity.is_probe() || form.kind == Kind::dissipated_energy)
+          quantity.displacement = take_after(rest);
+        if (quantity.has_component())
+          quantity.component = take_component(rest);
+        if (form.kind == Kind::force || form.kind == Kind::moment)
+          {
+            read_face(rest, quantity);
+            return add(quantity);
+          }
+        const std::string place = words_after_at(rest);
+
+        if (form.kind == Kind::friction_force)
+          {
+            if (place.empty())
+              show_example();
+            for (const std::string &text :
+                 dealii::Utilities::split_string_list(place, ','))
+              {
+                quantity.displacement = path(text);
+                quantity.name         = form.name + " at " + text;
+                add(quantity);
+              }
+            return;
+          }
+        if (form.kind == Kind::pressure)
+          read_point(place, 2, quantity);
+        else if (form.kind == Kind::displacement)
+          read_point(place, 3, quantity);
+        else if (form.kind == Kind::slip_front)
+          read_ratio(place, quantity);
+        else if (!rest.empty())
+          show_example();
+        add(quantity);
+      }
+
+      const Form &find_form(const std::string &item) const
+      {
+        for (const Form &form : forms)
+          if (item == form.name || item.rfind(form.name + " ", 0) == 0)
+            return form;
+
+        // As many words as the name has may be misspelt.
+        const std::vector<std::string> words =
+          dealii::Utilities::split_string_list(item, ' ');
+        std::string known;
+        for (const Form &form : forms)
+          {
+            const std::size_t n =
+              1 + std::count(form.name.begin(), form.name.end(), ' ');
+            std::string beginning;
+            for (std::size_t i = 0; i < std::min(n, words.size()); ++i)
+              beginning += (i > 0 ? " " : "") + words[i];
+            if (!nearest_name(beginning, {form.name}).empty())
+              fail("'" + item + "' is no quantity of interest; did you mean '" +
+                   form.name + "'?");
+            known += (known.empty() ? "" : ", ") + form.name;
+          }
+        fail("'" + item + "' is no quantity of interest; there are " + known);
+      }
 
       /// The words from "after" on, removed from @p rest.
-      double take_after(std::string &rest) const;
+      double take_after(std::string &rest) const
+      {
+        const std::string padded = " " + rest;
+        const auto        begin  = padded.find(" after ");
+        if (begin == std::string::npos)
+          return QuantityOfInterest::undefined;
+        const double displacement = path(padded.substr(begin + 7));
+        rest                      = squeezed(padded.substr(0, begin));
+        return displacement;
+      }
 
       /// "x", "y" or "z", removed from @p rest.
-      unsigned int take_component(std::string &rest) const;
+      unsigned int take_component(std::string &rest) const
+      {
+        const std::string axes = "xyz";
+        if (rest.size() < 2 || axes.find(rest[0]) == std::string::npos ||
+            rest[1] != ' ')
+          show_example();
+        const unsigned int component = axes.find(rest[0]);
+        rest                         = rest.substr(2);
+        return component;
+      }
 
       /// What follows "at", "" if nothing does.
-      std::string words_after_at(const std::string &rest) const;
+      std::string words_after_at(const std::string &rest) const
+      {
+        if (rest.empty())
+          return "";
+        if (rest.rfind("at ", 0) != 0)
+          show_example();
+        return squeezed(rest.substr(3));
+      }
 
+      // "(9.5 mm, 5 mm)", and "9.5 mm" for a single coordinate.
       void read_point(const std::string  &text,
                       const std::size_t   most_coordinates,
-                      QuantityOfInterest &quantity);
+                      QuantityOfInterest &quantity)
+      {
+        std::string inside = text;
+        if (!text.empty() && text.front() == '(' && text.back() == ')')
+          inside = text.substr(1, text.size() - 2);
+        const auto coordinates =
+          dealii::Utilities::split_string_list(inside, ',');
+        if (text.empty() || coordinates.empty() ||
+            coordinates.size() > most_coordinates)
+          show_example();
+        for (const std::string &coordinate : coordinates)
+          quantity.position.push_back(number(coordinate, Dimension::length));
+      }
 
-      void read_face(const std::string &text, QuantityOfInterest &quantity);
+      void read_face(const std::string &text, QuantityOfInterest &quantity)
+      {
+        if (text.rfind("on ", 0) != 0)
+          show_example();
+        quantity.face = text.substr(3);
+        if (!holds(face_names, quantity.face))
+          fail("'" + present_item + "': '" + quantity.face +
+               "' is no face of the block; there are left, right, front, back, "
+               "bottom, top" +
+               did_you_mean(quantity.face, face_names));
+      }
 
-      void read_ratio(const std::string &text, QuantityOfInterest &quantity);
+      void read_ratio(const std::string &text, QuantityOfInterest &quantity)
+      {
+        if (text.empty())
+          return;
+        const auto sides = dealii::Utilities::split_string_list(text, '=');
+        if (sides.size() != 2 || sides[0] != "r")
+          show_example();
+        quantity.loading_ratio = number(sides[1], Dimension::number);
+        if (!(quantity.loading_ratio > 0.))
+          fail("'" + present_item + "': the loading ratio r must be above 0");
+      }
 
-      double path(const std::string &text) const;
+      double path(const std::string &text) const
+      {
+        const double      displacement = number(text, Dimension::length);
+        const std::string where        = "'" + present_item + "': ";
+        if (!(displacement > 0.))
+          fail(where + "the displacement must be above 0 mm");
+        if (pushes && whole_path > 0.)
+          fail(where + "how far a push moves the drive is known after the run "
+                       "only, so that no path of it can be named");
+        if (displacement > whole_path * (1. + 1e-9))
+          fail(where + (whole_path > 0. ?
+                          "the drive moves by " + short_text(whole_path, 6) +
+                            " mm in the whole programme" :
+                          "the programme does not slide"));
+        return std::min(displacement, whole_path);
+      }
 
-      double number(const std::string &text, const Dimension dimension) const;
+      double number(const std::string &text, const Dimension dimension) const
+      {
+        try
+          {
+            return parse_quantity(text,
+                                  dimension,
+                                  dimension != Dimension::number);
+          }
+        catch (const InputError &error)
+          {
+            fail("'" + present_item + "': " + error.what());
+          }
+      }
 
-      void add(const QuantityOfInterest &quantity);
+      void add(const QuantityOfInterest &quantity)
+      {
+        for (const QuantityOfInterest &other : quantities)
+          if (other.name == quantity.name)
+            fail("'" + quantity.name + "' is listed twice");
+        quantities.push_back(quantity);
+      }
 
       [[noreturn]] void fail(const std::string &why) const
       {
@@ -125,229 +294,6 @@ namespace SlipStep
       std::vector<QuantityOfInterest> quantities;
       std::string                     present_item, present_example;
     };
-
-
-
-    std::vector<QuantityOfInterest> Reader::read()
-    {
-      for (const std::string &item :
-           dealii::Utilities::split_string_list(parameters.text(quantities_key),
-                                                ';'))
-        if (!item.empty())
-          read_item(squeezed(item));
-      if (probes_among(quantities).size() > most_probes)
-        fail(
-          "there can be " + std::to_string(most_probes) +
-          " of what a run finds step by step at most (all but friction force, "
-          "peak and dissipated energy)");
-      return quantities;
-    }
-
-
-
-    const Form &Reader::find_form(const std::string &item) const
-    {
-      for (const Form &form : forms)
-        if (item == form.name || item.rfind(form.name + " ", 0) == 0)
-          return form;
-
-      // As many words as the name has may be misspelt.
-      const std::vector<std::string> words =
-        dealii::Utilities::split_string_list(item, ' ');
-      std::string known;
-      for (const Form &form : forms)
-        {
-          const std::size_t n =
-            1 + std::count(form.name.begin(), form.name.end(), ' ');
-          std::string beginning;
-          for (std::size_t i = 0; i < std::min(n, words.size()); ++i)
-            beginning += (i > 0 ? " " : "") + words[i];
-          if (!nearest_name(beginning, {form.name}).empty())
-            fail("'" + item + "' is no quantity of interest; did you mean '" +
-                 form.name + "'?");
-          known += (known.empty() ? "" : ", ") + form.name;
-        }
-      fail("'" + item + "' is no quantity of interest; there are " + known);
-    }
-
-
-
-    void Reader::read_item(const std::string &item)
-    {
-      const Form &form = find_form(item);
-      present_item     = item;
-      present_example  = form.example;
-      std::string rest = squeezed(item.substr(form.name.size()));
-
-      QuantityOfInterest quantity;
-      quantity.kind = form.kind;
-      quantity.name = item;
-      if (quantity.is_probe() || form.kind == Kind::dissipated_energy)
-        quantity.displacement = take_after(rest);
-      if (quantity.has_component())
-        quantity.component = take_component(rest);
-      if (form.kind == Kind::force || form.kind == Kind::moment)
-        {
-          read_face(rest, quantity);
-          return add(quantity);
-        }
-      const std::string place = words_after_at(rest);
-
-      if (form.kind == Kind::friction_force)
-        {
-          if (place.empty())
-            show_example();
-          for (const std::string &text :
-               dealii::Utilities::split_string_list(place, ','))
-            {
-              quantity.displacement = path(text);
-              quantity.name         = form.name + " at " + text;
-              add(quantity);
-            }
-          return;
-        }
-      if (form.kind == Kind::pressure)
-        read_point(place, 2, quantity);
-      else if (form.kind == Kind::displacement)
-        read_point(place, 3, quantity);
-      else if (form.kind == Kind::slip_front)
-        read_ratio(place, quantity);
-      else if (!rest.empty())
-        show_example();
-      add(quantity);
-    }
-
-
-
-    double Reader::take_after(std::string &rest) const
-    {
-      const std::string padded = " " + rest;
-      const auto        begin  = padded.find(" after ");
-      if (begin == std::string::npos)
-        return QuantityOfInterest::undefined;
-      const double displacement = path(padded.substr(begin + 7));
-      rest                      = squeezed(padded.substr(0, begin));
-      return displacement;
-    }
-
-
-
-    std::string Reader::words_after_at(const std::string &rest) const
-    {
-      if (rest.empty())
-        return "";
-      if (rest.rfind("at ", 0) != 0)
-        show_example();
-      return squeezed(rest.substr(3));
-    }
-
-
-
-    unsigned int Reader::take_component(std::string &rest) const
-    {
-      const std::string axes = "xyz";
-      if (rest.size() < 2 || axes.find(rest[0]) == std::string::npos ||
-          rest[1] != ' ')
-        show_example();
-      const unsigned int component = axes.find(rest[0]);
-      rest                         = rest.substr(2);
-      return component;
-    }
-
-
-
-    void Reader::read_face(const std::string  &text,
-                           QuantityOfInterest &quantity)
-    {
-      if (text.rfind("on ", 0) != 0)
-        show_example();
-      quantity.face = text.substr(3);
-      if (!holds(face_names, quantity.face))
-        fail("'" + present_item + "': '" + quantity.face +
-             "' is no face of the block; there are left, right, front, back, "
-             "bottom, top" +
-             did_you_mean(quantity.face, face_names));
-    }
-
-
-
-    // "(9.5 mm, 5 mm)", and "9.5 mm" for a single coordinate.
-    void Reader::read_point(const std::string  &text,
-                            const std::size_t   most_coordinates,
-                            QuantityOfInterest &quantity)
-    {
-      std::string inside = text;
-      if (!text.empty() && text.front() == '(' && text.back() == ')')
-        inside = text.substr(1, text.size() - 2);
-      const auto coordinates =
-        dealii::Utilities::split_string_list(inside, ',');
-      if (text.empty() || coordinates.empty() ||
-          coordinates.size() > most_coordinates)
-        show_example();
-      for (const std::string &coordinate : coordinates)
-        quantity.position.push_back(number(coordinate, Dimension::length));
-    }
-
-
-
-    void Reader::read_ratio(const std::string  &text,
-                            QuantityOfInterest &quantity)
-    {
-      if (text.empty())
-        return;
-      const auto sides = dealii::Utilities::split_string_list(text, '=');
-      if (sides.size() != 2 || sides[0] != "r")
-        show_example();
-      quantity.loading_ratio = number(sides[1], Dimension::number);
-      if (!(quantity.loading_ratio > 0.))
-        fail("'" + present_item + "': the loading ratio r must be above 0");
-    }
-
-
-
-    double Reader::number(const std::string &text,
-                          const Dimension    dimension) const
-    {
-      try
-        {
-          return parse_quantity(text,
-                                dimension,
-                                dimension != Dimension::number);
-        }
-      catch (const InputError &error)
-        {
-          fail("'" + present_item + "': " + error.what());
-        }
-    }
-
-
-
-    double Reader::path(const std::string &text) const
-    {
-      const double      displacement = number(text, Dimension::length);
-      const std::string where        = "'" + present_item + "': ";
-      if (!(displacement > 0.))
-        fail(where + "the displacement must be above 0 mm");
-      if (pushes && whole_path > 0.)
-        fail(where + "how far a push moves the drive is known after the run "
-                     "only, so that no path of it can be named");
-      if (displacement > whole_path * (1. + 1e-9))
-        fail(where + (whole_path > 0. ?
-                        "the drive moves by " + short_text(whole_path, 6) +
-                          " mm in the whole programme" :
-                        "the programme does not slide"));
-      return std::min(displacement, whole_path);
-    }
-
-
-
-    void Reader::add(const QuantityOfInterest &quantity)
-    {
-      for (const QuantityOfInterest &other : quantities)
-        if (other.name == quantity.name)
-          fail("'" + quantity.name + "' is listed twice");
-      quantities.push_back(quantity);
-    }
 
 
 
