@@ -13,22 +13,17 @@ namespace SlipStep
 
   namespace
   {
+    constexpr double push_accuracy = 1e-13;
+
     /// How much of a load the law holds at a multiple of its elastic trial.
     class PushedStage
     {
     public:
-      PushedStage(const FrictionLaw  &law,
-                  ContactPoint       &point,
-                  const Tensor<1, 2> &load,
-                  const double        normal_traction,
-                  const double        time_step)
-        : law(law)
-        , point(point)
+      PushedStage(const ContactStage &stage, const Tensor<1, 2> &load)
+        : stage(stage)
         , load(load)
-        , normal_traction(normal_traction)
-        , time_step(time_step)
-        , compliance(invert(law.elastic_tangent()))
-        , old(point.stage_traction())
+        , compliance(invert(stage.law.elastic_tangent()))
+        , old(stage.start())
       {}
 
       /// What is beyond the load, relative to it, with the trial (1 + more)
@@ -36,7 +31,7 @@ namespace SlipStep
       double excess(const double more)
       {
         slip     = compliance * ((1. + more) * load - old);
-        response = point.update(law, slip, normal_traction, time_step);
+        response = stage.update(slip);
         return (response.traction - load) * load / load.norm_square();
       }
 
@@ -47,108 +42,88 @@ namespace SlipStep
                load.norm_square();
       }
 
-      bool solve();
+      bool solve()
+      {
+        return excess(0.) >= -push_accuracy || solve_by_newton() ||
+               solve_by_bisection();
+      }
 
       Tensor<1, 2>    slip;
       ContactResponse response;
 
     private:
-      bool solve_by_newton();
-      bool solve_by_bisection();
+      // Traction that bends down as slip grows keeps Newton's method on this
+      // side of the first solution. Beyond a peak it is another one, if any.
+      bool solve_by_newton()
+      {
+        double more = 0.;
+        for (unsigned int n = 0; n < 50; ++n)
+          {
+            const double value = excess(more);
+            const double rate  = slope();
+            if (!std::isfinite(value) || !(rate > 0.) || value > push_accuracy)
+              return false;
+            if (std::abs(value) <= push_accuracy)
+              return true;
+            more -= value / rate;
+          }
+        return false;
+      }
 
-      const FrictionLaw &law;
-      ContactPoint      &point;
-      const Tensor<1, 2> load;
-      const double       normal_traction;
-      const double       time_step;
-      const Tensor<2, 2> compliance;
-      const Tensor<1, 2> old;
+      bool solve_by_bisection()
+      {
+        double lower = 0.;
+        for (int power = -120; power <= 120; ++power)
+          {
+            double       upper = std::exp2(power / 3.);
+            const double value = excess(upper);
+            if (!std::isfinite(value))
+              return false;
+            if (value >= 0.)
+              {
+                boost::uintmax_t iterations = 200;
+                const auto       bracket    = boost::math::tools::toms748_solve(
+                  [this](const double more) { return excess(more); },
+                  lower,
+                  upper,
+                  boost::math::tools::eps_tolerance<double>(51),
+                  iterations);
+                return std::abs(excess(bracket.second)) <= 1e-9;
+              }
+            lower = upper;
+          }
+        return false;
+      }
+
+      const ContactStage &stage;
+      const Tensor<1, 2>  load;
+      const Tensor<2, 2>  compliance;
+      const Tensor<1, 2>  old;
     };
-
-    constexpr double push_accuracy = 1e-13;
-
-
-
-    // Traction that bends down as slip grows keeps Newton's method on this side
-    // of the first solution. Beyond a peak it is another one, if any.
-    bool PushedStage::solve_by_newton()
-    {
-      double more = 0.;
-      for (unsigned int n = 0; n < 50; ++n)
-        {
-          const double value = excess(more);
-          const double rate  = slope();
-          if (!std::isfinite(value) || !(rate > 0.) || value > push_accuracy)
-            return false;
-          if (std::abs(value) <= push_accuracy)
-            return true;
-          more -= value / rate;
-        }
-      return false;
-    }
-
-
-
-    bool PushedStage::solve_by_bisection()
-    {
-      double lower = 0.;
-      for (int power = -120; power <= 120; ++power)
-        {
-          double       upper = std::exp2(power / 3.);
-          const double value = excess(upper);
-          if (!std::isfinite(value))
-            return false;
-          if (value >= 0.)
-            {
-              boost::uintmax_t iterations = 200;
-              const auto       bracket    = boost::math::tools::toms748_solve(
-                [this](const double more) { return excess(more); },
-                lower,
-                upper,
-                boost::math::tools::eps_tolerance<double>(51),
-                iterations);
-              return std::abs(excess(bracket.second)) <= 1e-9;
-            }
-          lower = upper;
-        }
-      return false;
-    }
-
-
-
-    bool PushedStage::solve()
-    {
-      return excess(0.) >= -push_accuracy || solve_by_newton() ||
-             solve_by_bisection();
-    }
   } // namespace
 
 
 
-  std::optional<ContactResponse> pull_contact(const FrictionLaw  &law,
-                                              ContactPoint       &point,
+  std::optional<ContactResponse> pull_contact(const ContactStage &stage,
                                               const double        stiffness,
                                               const Tensor<1, 2> &force,
-                                              const double  normal_traction,
-                                              const double  time_step,
-                                              Tensor<1, 2> &slip)
+                                              Tensor<1, 2>       &slip)
   {
     constexpr unsigned int most_iterations = 100;
     constexpr double       accuracy = 1e-13, good_enough = 1e-10;
 
     Tensor<2, 2> spring;
     spring[0][0] = spring[1][1] = stiffness;
-    const Tensor<1, 2> old =
-      normal_traction > 0. ? point.stage_traction() : Tensor<1, 2>();
-    ContactResponse response;
-    const auto      missing = [&](const Tensor<1, 2> &s) {
-      response = point.update(law, s, normal_traction, time_step);
+    const Tensor<1, 2> old      = stage.start();
+    ContactResponse    response;
+    const auto         missing = [&](const Tensor<1, 2> &s) {
+      response = stage.update(s);
       return force - response.traction - spring * s;
     };
     // If nothing slipped.
-    slip = invert(spring + law.elastic_tangent()) * (force - old);
-    const double scale =
-      force.norm() + old.norm() + law.static_coefficient() * normal_traction;
+    slip = invert(spring + stage.law.elastic_tangent()) * (force - old);
+    const double scale = force.norm() + old.norm() +
+                         stage.law.static_coefficient() * stage.normal_traction;
     Tensor<1, 2> left = missing(slip);
     for (unsigned int n = 0; n < most_iterations; ++n)
       {
@@ -176,30 +151,27 @@ namespace SlipStep
 
 
 
-  std::optional<ContactResponse> push_contact(const FrictionLaw  &law,
-                                              ContactPoint       &point,
+  std::optional<ContactResponse> push_contact(const ContactStage &stage,
                                               const Tensor<1, 2> &load,
-                                              const double  normal_traction,
-                                              const double  time_step,
-                                              Tensor<1, 2> &slip)
+                                              Tensor<1, 2>       &slip)
   {
-    if (law.has_core() && normal_traction > 0.)
-      return pull_contact(
-        law, point, 0., load, normal_traction, time_step, slip);
+    const bool is_closed = stage.normal_traction > 0.;
+    if (stage.law.has_core() && is_closed)
+      return pull_contact(stage, 0., load, slip);
     if (load.norm_square() == 0.)
       {
         slip = Tensor<1, 2>();
-        if (normal_traction > 0.)
-          slip -= invert(law.elastic_tangent()) * point.stage_traction();
-        return point.update(law, slip, normal_traction, time_step);
+        if (is_closed)
+          slip -= invert(stage.law.elastic_tangent()) * stage.start();
+        return stage.update(slip);
       }
-    if (!(normal_traction > 0.))
+    if (!is_closed)
       return {};
-    PushedStage stage(law, point, load, normal_traction, time_step);
-    if (!stage.solve())
+    PushedStage pushed(stage, load);
+    if (!pushed.solve())
       return {};
-    slip = stage.slip;
-    return stage.response;
+    slip = pushed.slip;
+    return pushed.response;
   }
 
 

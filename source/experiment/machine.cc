@@ -7,6 +7,7 @@
 #include <slipstep/utilities/units.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -82,198 +83,157 @@ namespace SlipStep
     class SpringStep
     {
     public:
-      SpringStep(const FrictionLaw  &law,
-                 ContactPoint       &point,
+      SpringStep(const ContactStage &stage,
                  const double        compliance,
-                 const Tensor<1, 2> &motion,
-                 const double        normal_traction,
-                 const double        time_step)
-        : law(law)
-        , point(point)
+                 const Tensor<1, 2> &motion)
+        : stage(stage)
         , compliance(compliance)
         , motion(motion)
-        , normal_traction(normal_traction)
-        , time_step(time_step)
-        , elastic(law.elastic_tangent())
-        , old(point.stage_traction())
+        , elastic(stage.law.elastic_tangent())
+        , old(stage.point.stage_traction())
         , unslipped(old + elastic * motion)
         , load(unslipped + compliance * (elastic * old))
       {}
 
-      ContactResponse solve();
+      ContactResponse solve()
+      {
+        if (stage.law.has_core())
+          {
+            // What cannot be found makes the step shorter.
+            Tensor<1, 2> slip;
+            const auto   found = pull_contact(stage,
+                                            1. / compliance,
+                                            old + motion / compliance,
+                                            slip);
+            if (found)
+              return *found;
+            response.traction[0] = std::numeric_limits<double>::quiet_NaN();
+            return response;
+          }
+        if (excess(1.) < -1e-14 && !solve_by_newton())
+          solve_by_bisection();
+        return response;
+      }
 
     private:
-      double excess(const double share);
+      // The law's share of the trial traction minus the one assumed.
+      double excess(const double share)
+      {
+        Tensor<2, 2> matrix = share * compliance * elastic;
+        matrix[0][0] += 1.;
+        matrix[1][1] += 1.;
+        trial               = invert(matrix) * load;
+        response            = stage.update(invert(elastic) * (trial - old));
+        const double square = trial.norm_square();
+        return square > 0. ? response.traction * trial / square - share : 0.;
+      }
 
-      double slope(const double share) const;
+      // Its derivative, after excess() of the same share.
+      double slope(const double share) const
+      {
+        Tensor<2, 2> matrix = share * compliance * elastic;
+        matrix[0][0] += 1.;
+        matrix[1][1] += 1.;
+        const Tensor<1, 2> d_trial =
+          -compliance * (invert(matrix) * (elastic * trial));
+        const Tensor<1, 2> d_traction =
+          response.d_slip * (invert(elastic) * d_trial);
+        const double square = trial.norm_square();
+        return (d_traction * trial + response.traction * d_trial) / square -
+               2. * (response.traction * trial) * (trial * d_trial) /
+                 (square * square) -
+               1.;
+      }
 
-      bool solve_by_newton();
+      // From where the traction stays as it was, which in sliding is close.
+      bool solve_by_newton()
+      {
+        const double square = unslipped.norm_square();
+        double       share  = square > 0. ? old * unslipped / square : 0.;
+        double       lower = 0., upper = 1.;
+        for (unsigned int n = 0; n < 20 && share > lower && share < upper; ++n)
+          {
+            const double value = excess(share);
+            if (std::abs(value) <= 2e-15 * share)
+              return true;
+            (value > 0. ? lower : upper) = share;
+            const double next            = share - value / slope(share);
+            if (std::abs(next - share) <= 1e-15 * share)
+              return true;
+            share = next;
+          }
+        return false;
+      }
 
-      void solve_by_bisection();
+      // On a weakening contact there may be several: the first, from sticking
+      // on, is next to where the contact was before.
+      void solve_by_bisection()
+      {
+        double upper = 1.;
+        // Closer and closer to 1, then to 0.
+        for (int power = -40; power <= 200; power += 3)
+          {
+            const double lower =
+              power < 0 ? 1. - std::exp2(power) : std::exp2(-1 - power);
+            if (excess(lower) > 0.)
+              {
+                const auto excess_at = [this](const double share) {
+                  return excess(share);
+                };
+                upper = root_between(excess_at, lower, upper, 51);
+                break;
+              }
+            upper = lower;
+          }
+        excess(upper);
+      }
 
-      const FrictionLaw &law;
-      ContactPoint      &point;
-      const double       compliance;
-      const Tensor<1, 2> motion;
-      const double       normal_traction;
-      const double       time_step;
-      const Tensor<2, 2> elastic;
-      const Tensor<1, 2> old;
-      const Tensor<1, 2> unslipped; ///< trial if the traction stayed
-      const Tensor<1, 2> load;
+      const ContactStage &stage;
+      const double        compliance;
+      const Tensor<1, 2>  motion;
+      const Tensor<2, 2>  elastic;
+      const Tensor<1, 2>  old;
+      const Tensor<1, 2>  unslipped; ///< trial if the traction stayed
+      const Tensor<1, 2>  load;
 
       Tensor<1, 2>    trial;
       ContactResponse response;
     };
-
-
-
-    // The law's share of the trial traction minus the one assumed.
-    double SpringStep::excess(const double share)
-    {
-      Tensor<2, 2> matrix = share * compliance * elastic;
-      matrix[0][0] += 1.;
-      matrix[1][1] += 1.;
-      trial               = invert(matrix) * load;
-      response            = point.update(law,
-                              invert(elastic) * (trial - old),
-                              normal_traction,
-                              time_step);
-      const double square = trial.norm_square();
-      return square > 0. ? response.traction * trial / square - share : 0.;
-    }
-
-
-
-    // Its derivative, after excess() of the same share.
-    double SpringStep::slope(const double share) const
-    {
-      Tensor<2, 2> matrix = share * compliance * elastic;
-      matrix[0][0] += 1.;
-      matrix[1][1] += 1.;
-      const Tensor<1, 2> d_trial =
-        -compliance * (invert(matrix) * (elastic * trial));
-      const Tensor<1, 2> d_traction =
-        response.d_slip * (invert(elastic) * d_trial);
-      const double square = trial.norm_square();
-      return (d_traction * trial + response.traction * d_trial) / square -
-             2. * (response.traction * trial) * (trial * d_trial) /
-               (square * square) -
-             1.;
-    }
-
-
-
-    // From where the traction stays as it was, which in sliding is close.
-    bool SpringStep::solve_by_newton()
-    {
-      const double square = unslipped.norm_square();
-      double       share  = square > 0. ? old * unslipped / square : 0.;
-      double       lower = 0., upper = 1.;
-      for (unsigned int n = 0; n < 20 && share > lower && share < upper; ++n)
-        {
-          const double value = excess(share);
-          if (std::abs(value) <= 2e-15 * share)
-            return true;
-          (value > 0. ? lower : upper) = share;
-          const double next            = share - value / slope(share);
-          if (std::abs(next - share) <= 1e-15 * share)
-            return true;
-          share = next;
-        }
-      return false;
-    }
-
-
-
-    // On a weakening contact there may be several: the first, from sticking
-    // on, is next to where the contact was before.
-    void SpringStep::solve_by_bisection()
-    {
-      double upper = 1.;
-      // Closer and closer to 1, then to 0.
-      for (int power = -40; power <= 200; power += 3)
-        {
-          const double lower =
-            power < 0 ? 1. - std::exp2(power) : std::exp2(-1 - power);
-          if (excess(lower) > 0.)
-            {
-              const auto excess_at = [this](const double share) {
-                return excess(share);
-              };
-              upper = root_between(excess_at, lower, upper, 51);
-              break;
-            }
-          upper = lower;
-        }
-      excess(upper);
-    }
-
-
-
-    ContactResponse SpringStep::solve()
-    {
-      if (law.has_core())
-        {
-          // What cannot be found makes the step shorter.
-          Tensor<1, 2> slip;
-          const auto   found = pull_contact(law,
-                                          point,
-                                          1. / compliance,
-                                          old + motion / compliance,
-                                          normal_traction,
-                                          time_step,
-                                          slip);
-          if (found)
-            return *found;
-          response.traction[0] = std::numeric_limits<double>::quiet_NaN();
-          return response;
-        }
-      if (excess(1.) < -1e-14 && !solve_by_newton())
-        solve_by_bisection();
-      return response;
-    }
   } // namespace
 
 
 
   // Of a mass, backward Euler makes a spring of stiffness K = k + m/dt^2: f_1 =
   // f_0 + K (motion - slip).
-  ContactResponse Machine::stage(const FrictionLaw  &law,
-                                 ContactPoint       &point,
-                                 const Slider       &start,
-                                 const Tensor<1, 2> &load_point_increment,
-                                 const double        normal_traction,
-                                 const double        time_step,
-                                 Slider             &slider) const
+  ContactResponse Machine::move(const ContactStage &stage,
+                                const Slider       &start,
+                                const Tensor<1, 2> &load_point_increment,
+                                Slider             &slider) const
   {
     ContactResponse response;
     Tensor<1, 2>    slip = load_point_increment;
     if (is_rigid())
-      response = point.update(law, slip, normal_traction, time_step);
+      response = stage.update(slip);
     else
       {
         const double k       = stiffness();
-        const double inertia = areal_mass / (time_step * time_step);
+        const double inertia = areal_mass / (stage.time_step * stage.time_step);
         // A contact that opens lets a mass go at once; what it stored is lost
         // to the law.
-        const bool         lets_go = areal_mass > 0. && normal_traction <= 0.;
         const Tensor<1, 2> old =
-          lets_go ? Tensor<1, 2>() : point.stage_traction();
+          areal_mass > 0. ? stage.start() : stage.point.stage_traction();
         const Tensor<1, 2> motion =
           areal_mass > 0. ? (start.load - old + k * load_point_increment +
-                             inertia * time_step * start.velocity) /
+                             inertia * stage.time_step * start.velocity) /
                               (k + inertia) :
                             load_point_increment;
         const double softness =
           areal_mass > 0. ? 1. / (k + inertia) : compliance;
-        response =
-          SpringStep(law, point, softness, motion, normal_traction, time_step)
-            .solve();
-        slip = motion - softness * (response.traction - old);
+        response = SpringStep(stage, softness, motion).solve();
+        slip     = motion - softness * (response.traction - old);
       }
     slider.slip     = start.slip + slip;
-    slider.velocity = slip / time_step;
+    slider.velocity = slip / stage.time_step;
     slider.load     = areal_mass > 0. ?
                         start.load + stiffness() * (load_point_increment - slip) :
                         response.traction;
@@ -283,39 +243,60 @@ namespace SlipStep
 
 
   // Here the spring of a mass is that of backward Euler alone.
-  std::optional<ContactResponse>
-  Machine::pushed_stage(const FrictionLaw  &law,
-                        ContactPoint       &point,
-                        const Slider       &start,
-                        const Tensor<1, 2> &load,
-                        const double        normal_traction,
-                        const double        time_step,
-                        Slider             &slider) const
+  std::optional<ContactResponse> Machine::pull(const ContactStage &stage,
+                                               const Slider       &start,
+                                               const Tensor<1, 2> &load,
+                                               Slider             &slider) const
   {
     std::optional<ContactResponse> response;
     Tensor<1, 2>                   slip;
     if (areal_mass == 0.)
       {
-        response =
-          push_contact(law, point, load, normal_traction, time_step, slip);
-        if (slip.norm() > fastest_slip * time_step)
+        response = push_contact(stage, load, slip);
+        if (slip.norm() > fastest_slip * stage.time_step)
           response.reset();
       }
     else
       {
-        const double       softness = time_step * time_step / areal_mass;
-        const Tensor<1, 2> old =
-          normal_traction > 0. ? point.stage_traction() : Tensor<1, 2>();
+        const double softness  = stage.time_step * stage.time_step / areal_mass;
+        const Tensor<1, 2> old = stage.start();
         const Tensor<1, 2> motion =
-          softness * (load - old) + time_step * start.velocity;
-        response =
-          SpringStep(law, point, softness, motion, normal_traction, time_step)
-            .solve();
-        slip = motion - softness * (response->traction - old);
+          softness * (load - old) + stage.time_step * start.velocity;
+        response = SpringStep(stage, softness, motion).solve();
+        slip     = motion - softness * (response->traction - old);
       }
-    slider = {start.slip + slip, slip / time_step, load};
+    slider = {start.slip + slip, slip / stage.time_step, load};
     return response;
   }
+
+
+
+  namespace
+  {
+    // The two of a step.
+    std::array<ContactStage, 2> stages_of(const FrictionLaw &law,
+                                          ContactPoint      &point,
+                                          const double       normal_traction,
+                                          const double       time_step)
+    {
+      constexpr double gamma      = TwoStages::gamma;
+      const double     old_normal = point.committed().normal_traction;
+      return {{{law,
+                point,
+                old_normal + gamma * (normal_traction - old_normal),
+                gamma * time_step},
+               {law, point, normal_traction, gamma * time_step}}};
+    }
+
+
+
+    Slider start_of_second(const Slider &start, const Slider &first)
+    {
+      return {TwoStages::carried(start.slip, first.slip),
+              TwoStages::carried(start.velocity, first.velocity),
+              TwoStages::carried(start.load, first.load)};
+    }
+  } // namespace
 
 
 
@@ -327,34 +308,20 @@ namespace SlipStep
                             const double        time_step,
                             const double        shortest_step) const
   {
-    constexpr double   gamma      = TwoStages::gamma;
-    const double       old_normal = point.committed().normal_traction;
-    const Tensor<1, 2> motion     = gamma * load_point_increment;
+    constexpr double gamma  = TwoStages::gamma;
+    const auto       stages = stages_of(law, point, normal_traction, time_step);
+    const Tensor<1, 2> motion = gamma * load_point_increment;
     MachineStep        result;
     result.start     = start;
     result.motion    = load_point_increment;
     result.time_step = time_step;
     point.revert();
-    stage(law,
-          point,
-          start,
-          motion,
-          old_normal + gamma * (normal_traction - old_normal),
-          gamma * time_step,
-          result.first);
+    move(stages[0], start, motion, result.first);
     point.begin_second_stage(law);
-    result.second  = {TwoStages::carried(start.slip, result.first.slip),
-                      TwoStages::carried(start.velocity, result.first.velocity),
-                     areal_mass > 0. ?
-                        TwoStages::carried(start.load, result.first.load) :
-                        point.stage_traction()};
-    result.contact = stage(law,
-                           point,
-                           result.second,
-                           motion,
-                           normal_traction,
-                           gamma * time_step,
-                           result.slider);
+    result.second = start_of_second(start, result.first);
+    if (areal_mass == 0.)
+      result.second.load = point.stage_traction();
+    result.contact = move(stages[1], result.second, motion, result.slider);
     result.work =
       ((1. - gamma) * result.first.load + gamma * result.slider.load) *
       load_point_increment;
@@ -363,13 +330,10 @@ namespace SlipStep
       return result;
     // What the first of two stages jumps, the second would go on with.
     point.revert();
-    result.contact = stage(law,
-                           point,
-                           start,
-                           load_point_increment,
-                           normal_traction,
-                           time_step,
-                           result.slider);
+    result.contact = move({law, point, normal_traction, time_step},
+                          start,
+                          load_point_increment,
+                          result.slider);
     result.work    = result.slider.load * load_point_increment;
     return result;
   }
@@ -400,34 +364,21 @@ namespace SlipStep
                             const double        normal_traction,
                             const double        time_step) const
   {
-    constexpr double gamma      = TwoStages::gamma;
-    const double     old_normal = point.committed().normal_traction;
-    MachineStep      result;
+    const auto  stages = stages_of(law, point, normal_traction, time_step);
+    MachineStep result;
     result.start     = start;
     result.time_step = time_step;
     point.revert();
-    const auto first =
-      pushed_stage(law,
-                   point,
-                   start,
-                   start.load + gamma * (load - start.load),
-                   old_normal + gamma * (normal_traction - old_normal),
-                   gamma * time_step,
-                   result.first);
-    result.holds = first.has_value();
+    result.holds = pull(stages[0],
+                        start,
+                        start.load + TwoStages::gamma * (load - start.load),
+                        result.first)
+                     .has_value();
     if (!result.holds)
       return result;
     point.begin_second_stage(law);
-    result.second   = {TwoStages::carried(start.slip, result.first.slip),
-                       TwoStages::carried(start.velocity, result.first.velocity),
-                       TwoStages::carried(start.load, result.first.load)};
-    const auto last = pushed_stage(law,
-                                   point,
-                                   result.second,
-                                   load,
-                                   normal_traction,
-                                   gamma * time_step,
-                                   result.slider);
+    result.second   = start_of_second(start, result.first);
+    const auto last = pull(stages[1], result.second, load, result.slider);
     result.holds    = last.has_value();
     if (!result.holds)
       return result;

@@ -319,7 +319,7 @@ TEST(Push, inverts_the_law)
                                     vector(std::cos(angle), std::sin(angle));
           const double dt = random.magnitude(-2., 2.);
           Tensor<1, 2> slip;
-          const auto   response = push_contact(*law, point, load, 5., dt, slip);
+          const auto response = push_contact({*law, point, 5., dt}, load, slip);
           if (!response)
             {
               point.revert();

@@ -9,40 +9,51 @@
 
 namespace SlipStep
 {
-  /// One stage of a contact point of which the traction is given: the law,
-  /// which gives the traction of a slip, is inverted.
+  /// One stage of a contact point, of which only the slip is left to find.
+  struct ContactStage
+  {
+    const FrictionLaw &law;
+    ContactPoint      &point;
+    const double       normal_traction; ///< at its end [MPa]
+    const double       time_step;       ///< [s]
+
+    ContactResponse update(const dealii::Tensor<1, 2> &slip) const
+    {
+      return point.update(law, slip, normal_traction, time_step);
+    }
+
+    /// Traction with which it starts, none of a contact that is open [MPa].
+    dealii::Tensor<1, 2> start() const
+    {
+      return normal_traction > 0. ? point.stage_traction() :
+                                    dealii::Tensor<1, 2>();
+    }
+  };
+
+  /// The stage under a given traction: the law, which gives the traction of a
+  /// slip, is inverted.
   ///
   /// Without a core, the law leaves the traction along its elastic trial, so
   /// that is s times the load with s of at least 1, at which nothing slips. The
   /// first s is taken from there at which the law holds the load.
   /// @param load tangential traction at the end of the stage [MPa]
-  /// @param normal_traction at its end [MPa]
-  /// @param time_step of the stage [s]
   /// @param[out] slip in the stage [mm]
   /// @return nothing if the contact holds no such load
-  std::optional<ContactResponse> push_contact(const FrictionLaw          &law,
-                                              ContactPoint               &point,
+  std::optional<ContactResponse> push_contact(const ContactStage         &stage,
                                               const dealii::Tensor<1, 2> &load,
-                                              const double normal_traction,
-                                              const double time_step,
-                                              dealii::Tensor<1, 2> &slip);
+                                              dealii::Tensor<1, 2>       &slip);
 
-  /// One stage of a contact point at the end of a spring, for any law: the slip
-  /// s for which f_t(s) + k s is a given force, by Newton's method in the
-  /// plane. It needs a law whose traction grows with slip.
+  /// The stage at the end of a spring, for any law: the slip s for which f_t(s)
+  /// + k s is a given force, by Newton's method in the plane. It needs a law
+  /// whose traction grows with slip.
   /// @param stiffness k of the spring [MPa/mm], 0 for none
   /// @param force [MPa]
-  /// @param normal_traction at the end of the stage [MPa]
-  /// @param time_step of the stage [s]
   /// @param[out] slip in the stage [mm]
   /// @return nothing if there is no such slip in sight
-  std::optional<ContactResponse> pull_contact(const FrictionLaw &law,
-                                              ContactPoint      &point,
-                                              const double       stiffness,
+  std::optional<ContactResponse> pull_contact(const ContactStage &stage,
+                                              const double        stiffness,
                                               const dealii::Tensor<1, 2> &force,
-                                              const double normal_traction,
-                                              const double time_step,
-                                              dealii::Tensor<1, 2> &slip);
+                                              dealii::Tensor<1, 2>       &slip);
 
   /// Slip [mm/s] at which a contact under a load, without any mass, has given
   /// way: no wave goes much faster through a solid.

@@ -10,6 +10,8 @@
 
 namespace SlipStep
 {
+  struct ContactStage;
+
   /// The moving part of a machine, at one instant.
   struct Slider
   {
@@ -145,26 +147,19 @@ namespace SlipStep
                const MachineStep &step,
                const double       shortest_step) const;
 
-    /// One stage.
+    /// Make a stage in which the load point moves.
     /// @param[out] slider at its end
-    ContactResponse stage(const FrictionLaw          &law,
-                          ContactPoint               &point,
-                          const Slider               &start,
-                          const dealii::Tensor<1, 2> &load_point_increment,
-                          const double                normal_traction,
-                          const double                time_step,
-                          Slider                     &slider) const;
+    ContactResponse move(const ContactStage         &stage,
+                         const Slider               &start,
+                         const dealii::Tensor<1, 2> &load_point_increment,
+                         Slider                     &slider) const;
 
-    /// One stage under a load.
+    /// Make a stage under a load.
     /// @return nothing if friction cannot hold it
-    std::optional<ContactResponse>
-    pushed_stage(const FrictionLaw          &law,
-                 ContactPoint               &point,
-                 const Slider               &start,
-                 const dealii::Tensor<1, 2> &load,
-                 const double                normal_traction,
-                 const double                time_step,
-                 Slider                     &slider) const;
+    std::optional<ContactResponse> pull(const ContactStage         &stage,
+                                        const Slider               &start,
+                                        const dealii::Tensor<1, 2> &load,
+                                        Slider &slider) const;
 
     double compliance = 0.; ///< c = 1 / k [mm/MPa]
     double areal_mass = 0.; ///< m [MPa s^2/mm]
