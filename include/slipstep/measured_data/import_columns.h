@@ -82,43 +82,10 @@ namespace SlipStep
       UnitConversion               conversion; ///< of what the formula gives
     };
 
-    std::size_t find_column(const std::string &path,
-                            const std::string &name) const;
-
-    Source find_source(const std::string             &path,
-                       const std::string             &text,
-                       const std::optional<Dimension> dimension);
-
-    /// "" if it says none.
-    std::string unit_in_file(const std::size_t position) const;
-
-    UnitConversion conversion_of_share(const std::string &path,
-                                       const std::string &name,
-                                       const std::string &told,
-                                       const Source      &source);
-
-    void add_contradiction(const std::size_t  position,
-                           const std::string &taken,
-                           const std::string &in_file);
-
-    void compare_units(const std::size_t  position,
-                       const std::string &unit,
-                       const Dimension    dimension);
-
-    Recipe read_formula(const ColumnKey &key);
-
-    static bool fits_units(const Recipe             &recipe,
-                           const std::vector<double> arguments,
-                           const Dimension           dimension);
-
-    /// @throws InputError if the result of a formula has units of another kind
-    void check_units(const Recipe      &recipe,
-                     const std::string &text,
-                     const ColumnKey   &key) const;
+    class RecipeReader;
 
     void find_clock();
 
-    const Parameters             &map;
     CsvTable                     &table;
     std::map<std::string, Recipe> recipes;
     double                        first_stamp = 0.; ///< in the file's unit
