@@ -130,6 +130,120 @@ namespace SlipStep
                         "write the kind of steps and a list, e.g. 'equal steps "
                         "50, 100, 200' or 'tolerance 1e-3, 1e-4, 1e-5'");
     }
+
+    StudySequence uniform_meshes(const Parameters &parameters)
+    {
+      const unsigned int n = parameters.integer(section + "Uniform meshes");
+      StudySequence      sequence{StudySequence::Kind::uniform, "uniform", {}};
+      for (unsigned int level = 0; level < n; ++level)
+        sequence.runs.push_back(uniform_mesh(std::to_string(level)));
+      return sequence;
+    }
+
+    StudySequence adaptive_meshes(const Parameters &parameters)
+    {
+      const std::string key = section + "Adaptive tolerances";
+      StudySequence     sequence{StudySequence::Kind::adaptive, "adaptive", {}};
+      for (const std::string &tolerance : parameters.list(key))
+        {
+          check_value(parameters, key, tolerance_key, tolerance);
+          sequence.runs.push_back(adaptive_mesh(parameters, tolerance));
+        }
+      check_order(parameters, key, parameters.list(key), false);
+      return sequence;
+    }
+
+    /// How many runs there are of a kind.
+    std::size_t n_runs(const std::vector<StudySequence> &sequences,
+                       const StudySequence::Kind         kind)
+    {
+      for (const StudySequence &sequence : sequences)
+        if (sequence.kind == kind)
+          return sequence.runs.size();
+      return 0;
+    }
+
+    /// The finer run that meshes are compared with, or none.
+    StudyRun mesh_reference_of(const Parameters                 &parameters,
+                               const std::vector<StudySequence> &sequences)
+    {
+      const std::size_t n_uniform =
+        n_runs(sequences, StudySequence::Kind::uniform);
+      const bool has_adaptive =
+        n_runs(sequences, StudySequence::Kind::adaptive) > 0;
+      if (n_uniform == 0 && !has_adaptive)
+        return {};
+      const std::string key  = section + "Mesh reference";
+      const std::string text = parameters.text(key);
+      if (text == "Richardson")
+        {
+          if (n_uniform < 3)
+            parameters.reject(section + "Uniform meshes",
+                              "the reference by Richardson extrapolation needs "
+                              "3 meshes");
+          return {};
+        }
+
+      const std::string kind = text.substr(0, text.find(' '));
+      const std::string rest =
+        text.substr(std::min(kind.size() + 1, text.size()));
+      if (kind == "uniform" && !rest.empty())
+        {
+          if (rest.find_first_not_of("0123456789") != std::string::npos ||
+              number_in(rest) > 10. || number_in(rest) < n_uniform)
+            parameters.reject(key,
+                              "take a mesh finer than those compared with it, "
+                              "from 'uniform " +
+                                std::to_string(n_uniform) +
+                                "' to 'uniform 10'");
+          return uniform_mesh(rest);
+        }
+      if (kind == "adaptive" && !rest.empty())
+        {
+          check_value(parameters, key, tolerance_key, rest);
+          if (has_adaptive)
+            {
+              std::vector<std::string> tolerances =
+                parameters.list(section + "Adaptive tolerances");
+              tolerances.push_back(rest);
+              check_order(parameters, key, tolerances, false);
+            }
+          return adaptive_mesh(parameters, rest);
+        }
+      parameters.reject(key,
+                        "allowed are 'Richardson', 'uniform <number>' and "
+                        "'adaptive <tolerance>'" +
+                          did_you_mean(text, {"Richardson"}));
+    }
+
+    /// The same for time steps.
+    StudyRun time_reference_of(const Parameters                 &parameters,
+                               const std::vector<StudySequence> &sequences)
+    {
+      if (n_runs(sequences, StudySequence::Kind::time_step) == 0)
+        return {};
+      const StudySequence &steps = sequences.back();
+      const std::string    key   = section + "Time reference";
+      if (parameters.text(key) == "Richardson")
+        {
+          if (steps.runs.size() < 3)
+            parameters.reject(
+              section + "Time steps",
+              "the reference by Richardson extrapolation needs 3 "
+              "steps");
+          return {};
+        }
+      const StudySequence reference = read_time_steps(parameters, key);
+      if (reference.runs.size() != 1)
+        parameters.reject(key, "this is one run: give one number");
+      if (reference.name == steps.name)
+        check_order(parameters,
+                    key,
+                    {steps.runs.back().settings.front().second,
+                     reference.runs.front().settings.front().second},
+                    reference.name == step_kinds[0].name);
+      return reference.runs.front();
+    }
   } // namespace
 
 
@@ -195,8 +309,10 @@ namespace SlipStep
                 section + "Adaptive goal",
                 goal_key,
                 parameters.text(section + "Adaptive goal"));
-    add_uniform(parameters);
-    add_adaptive(parameters);
+    for (const StudySequence &meshes :
+         {uniform_meshes(parameters), adaptive_meshes(parameters)})
+      if (!meshes.runs.empty())
+        sequence_list.push_back(meshes);
     const std::string steps_key = section + "Time steps";
     if (!parameters.text(steps_key).empty())
       sequence_list.push_back(read_time_steps(parameters, steps_key));
@@ -204,128 +320,8 @@ namespace SlipStep
       parameters.reject(section + "Uniform meshes",
                         "there is nothing to study: no meshes and no time "
                         "steps");
-    read_mesh_reference(parameters);
-    read_time_reference(parameters);
-  }
-
-
-
-  void RefinementStudy::add_uniform(const Parameters &parameters)
-  {
-    const unsigned int n = parameters.integer(section + "Uniform meshes");
-    StudySequence      sequence{StudySequence::Kind::uniform, "uniform", {}};
-    for (unsigned int level = 0; level < n; ++level)
-      sequence.runs.push_back(uniform_mesh(std::to_string(level)));
-    if (n > 0)
-      sequence_list.push_back(sequence);
-  }
-
-
-
-  void RefinementStudy::add_adaptive(const Parameters &parameters)
-  {
-    const std::string key = section + "Adaptive tolerances";
-    StudySequence     sequence{StudySequence::Kind::adaptive, "adaptive", {}};
-    for (const std::string &tolerance : parameters.list(key))
-      {
-        check_value(parameters, key, tolerance_key, tolerance);
-        sequence.runs.push_back(adaptive_mesh(parameters, tolerance));
-      }
-    check_order(parameters, key, parameters.list(key), false);
-    if (!sequence.runs.empty())
-      sequence_list.push_back(sequence);
-  }
-
-
-
-  const StudySequence *
-  RefinementStudy::sequence_of(const StudySequence::Kind kind) const
-  {
-    for (const StudySequence &sequence : sequence_list)
-      if (sequence.kind == kind)
-        return &sequence;
-    return nullptr;
-  }
-
-
-
-  void RefinementStudy::read_mesh_reference(const Parameters &parameters)
-  {
-    const StudySequence *uniform  = sequence_of(StudySequence::Kind::uniform);
-    const StudySequence *adaptive = sequence_of(StudySequence::Kind::adaptive);
-    if (uniform == nullptr && adaptive == nullptr)
-      return;
-    const std::string  key  = section + "Mesh reference";
-    const std::string  text = parameters.text(key);
-    const unsigned int n_uniform =
-      uniform == nullptr ? 0 : uniform->runs.size();
-    if (text == "Richardson")
-      {
-        if (n_uniform < 3)
-          parameters.reject(section + "Uniform meshes",
-                            "the reference by Richardson extrapolation needs "
-                            "3 meshes");
-        return;
-      }
-
-    const std::string kind = text.substr(0, text.find(' '));
-    const std::string rest =
-      text.substr(std::min(kind.size() + 1, text.size()));
-    if (kind == "uniform" && !rest.empty())
-      {
-        if (rest.find_first_not_of("0123456789") != std::string::npos ||
-            number_in(rest) > 10. || number_in(rest) < n_uniform)
-          parameters.reject(key,
-                            "take a mesh finer than those compared with it, "
-                            "from 'uniform " +
-                              std::to_string(n_uniform) + "' to 'uniform 10'");
-        mesh_reference_run = uniform_mesh(rest);
-      }
-    else if (kind == "adaptive" && !rest.empty())
-      {
-        check_value(parameters, key, tolerance_key, rest);
-        if (adaptive != nullptr)
-          {
-            std::vector<std::string> tolerances =
-              parameters.list(section + "Adaptive tolerances");
-            tolerances.push_back(rest);
-            check_order(parameters, key, tolerances, false);
-          }
-        mesh_reference_run = adaptive_mesh(parameters, rest);
-      }
-    else
-      parameters.reject(key,
-                        "allowed are 'Richardson', 'uniform <number>' and "
-                        "'adaptive <tolerance>'" +
-                          did_you_mean(text, {"Richardson"}));
-  }
-
-
-
-  void RefinementStudy::read_time_reference(const Parameters &parameters)
-  {
-    const StudySequence *steps = sequence_of(StudySequence::Kind::time_step);
-    if (steps == nullptr)
-      return;
-    const std::string key = section + "Time reference";
-    if (parameters.text(key) == "Richardson")
-      {
-        if (steps->runs.size() < 3)
-          parameters.reject(section + "Time steps",
-                            "the reference by Richardson extrapolation needs 3 "
-                            "steps");
-        return;
-      }
-    const StudySequence reference = read_time_steps(parameters, key);
-    if (reference.runs.size() != 1)
-      parameters.reject(key, "this is one run: give one number");
-    if (reference.name == steps->name)
-      check_order(parameters,
-                  key,
-                  {steps->runs.back().settings.front().second,
-                   reference.runs.front().settings.front().second},
-                  reference.name == step_kinds[0].name);
-    time_reference_run = reference.runs.front();
+    mesh_reference_run = mesh_reference_of(parameters, sequence_list);
+    time_reference_run = time_reference_of(parameters, sequence_list);
   }
 
 

@@ -66,14 +66,6 @@ namespace SlipStep
     std::vector<StudyRun> runs() const;
 
   private:
-    void add_uniform(const Parameters &parameters);
-    void add_adaptive(const Parameters &parameters);
-    void read_mesh_reference(const Parameters &parameters);
-    void read_time_reference(const Parameters &parameters);
-
-    /// Of a kind, or nullptr.
-    const StudySequence *sequence_of(const StudySequence::Kind kind) const;
-
     std::vector<StudySequence> sequence_list;
     StudyRun                   mesh_reference_run, time_reference_run;
   };
