@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/programme.h>
+#include <slipstep/experiment/sliding_path.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -7,17 +8,28 @@
 
 namespace SlipStep
 {
+  namespace
+  {
+    // The last one beyond the end.
+    std::size_t index_at(const std::vector<Segment> &segments,
+                         const double                time)
+    {
+      Assert(!segments.empty(), dealii::ExcNotInitialized());
+      return std::lower_bound(segments.begin(),
+                              segments.end() - 1,
+                              time,
+                              [](const Segment &segment, const double t) {
+                                return segment.end_time < t;
+                              }) -
+             segments.begin();
+    }
+  } // namespace
+
+
+
   const Segment &Programme::segment_at(const double time) const
   {
-    Assert(!segment_list.empty(), dealii::ExcNotInitialized());
-    const auto found =
-      std::lower_bound(segment_list.begin(),
-                       segment_list.end(),
-                       time,
-                       [](const Segment &segment, const double t) {
-                         return segment.end_time < t;
-                       });
-    return found == segment_list.end() ? segment_list.back() : *found;
+    return segment_list[index_at(segment_list, time)];
   }
 
 
@@ -56,5 +68,32 @@ namespace SlipStep
     for (const Segment &segment : segment_list)
       largest = std::max(largest, segment.end.pressure);
     return largest;
+  }
+
+
+
+  SlidingPath::SlidingPath(const Programme &programme)
+    : segments(programme.segments())
+  {
+    double path = 0.;
+    for (const Segment &segment : segments)
+      {
+        path += (segment.end.displacement - segment.start.displacement).norm();
+        path_after.push_back(path);
+      }
+  }
+
+
+
+  double SlidingPath::at(const double time) const
+  {
+    if (segments.empty() || time > segments.back().end_time)
+      return whole();
+    const std::size_t i      = index_at(segments, time);
+    const Segment    &now    = segments[i];
+    const double      before = i == 0 ? 0. : path_after[i - 1];
+    const double      share =
+      (time - now.start_time) / (now.end_time - now.start_time);
+    return before + std::min(share, 1.) * (path_after[i] - before);
   }
 } // namespace SlipStep
