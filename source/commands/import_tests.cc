@@ -3,7 +3,6 @@
 #include <slipstep/commands/outcome.h>
 #include <slipstep/commands/results_folder.h>
 
-#include <slipstep/measured_data/import_map.h>
 #include <slipstep/measured_data/import_proposal.h>
 #include <slipstep/measured_data/import_record.h>
 #include <slipstep/measured_data/test_set.h>

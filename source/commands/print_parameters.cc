@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/commands/commands.h>
-#include <slipstep/measured_data/import_map.h>
+#include <slipstep/measured_data/import_record.h>
 #include <slipstep/commands/case.h>
 #include <slipstep/report/page.h>
 #include <slipstep/utilities/pattern_words.h>

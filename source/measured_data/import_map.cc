@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/import_columns.h>
-#include <slipstep/measured_data/import_map.h>
+#include <slipstep/measured_data/import_record.h>
 
 namespace SlipStep
 {

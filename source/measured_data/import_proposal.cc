@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/column_words.h>
 #include <slipstep/measured_data/import_columns.h>
-#include <slipstep/measured_data/import_map.h>
 #include <slipstep/measured_data/import_proposal.h>
 #include <slipstep/measured_data/import_record.h>
 #include <slipstep/measured_data/measured_test.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/measured_data/import_map.h>
+#include <slipstep/measured_data/import_record.h>
 #include <slipstep/measured_data/import_proposal.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>

@@ -2,7 +2,6 @@
 
 // Files of instruments, converted by a map.
 
-#include <slipstep/measured_data/import_map.h>
 #include <slipstep/measured_data/import_record.h>
 #include <slipstep/measured_data/test_set.h>
 

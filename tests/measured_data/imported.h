@@ -2,7 +2,6 @@
 #ifndef tests_measured_data_imported_h
 #define tests_measured_data_imported_h
 
-#include <slipstep/measured_data/import_map.h>
 #include <slipstep/measured_data/import_record.h>
 
 #include <gtest/gtest.h>

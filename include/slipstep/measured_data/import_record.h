@@ -11,6 +11,11 @@
 
 namespace SlipStep
 {
+  /// The keys of a map, a .prm file that says how the file of an instrument is
+  /// to be read: its columns with their units, what it does not record, what
+  /// its signs mean. Variants or wildcards convert several files by one map.
+  void declare_import_parameters(Parameters &parameters);
+
   /// How a map says that its raw file is written.
   /// @throws InputError naming the place in the map
   CsvFormat raw_format(const Parameters &map);
