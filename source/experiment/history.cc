@@ -5,78 +5,66 @@
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
-#include <functional>
+#include <boost/algorithm/string/join.hpp>
+
 #include <string>
+#include <type_traits>
 
 namespace SlipStep
 {
   namespace
   {
-    /// One column of history.csv: the only place that ties names to members,
-    /// so that writing and reading cannot disagree.
-    struct Column
+    /// Call visit(name, member) for each column of history.csv, in their order:
+    /// the only place that ties names to members, so that writing and reading
+    /// cannot disagree.
+    template <typename Row, typename Visit>
+    void for_each_column(Row &row, const Visit &visit)
     {
-      const char *name;
-      /// The member, or null for a count.
-      std::function<double &(HistoryRow &)>       number;
-      std::function<unsigned int &(HistoryRow &)> count;
-    };
-
-    Column number(const char *name, double HistoryRow::*member)
-    {
-      return {name,
-              [member](HistoryRow &row) -> double & { return row.*member; },
-              nullptr};
+      const auto spread = [&](const std::string &name, auto &of_face) {
+        visit(name + "_mean", of_face.mean);
+        visit(name + "_min", of_face.minimum);
+        visit(name + "_max", of_face.maximum);
+      };
+      visit("time_s", row.time);
+      visit("displacement_mm", row.displacement);
+      visit("pressure_MPa", row.pressure);
+      visit("friction", row.friction);
+      visit("displacement_y_mm", row.displacement_y);
+      visit("friction_y", row.friction_y);
+      visit("normal_load_N", row.normal_load);
+      visit("tangential_load_N", row.tangential_load);
+      spread("r", row.loading_ratio);
+      spread("r_s", row.normal_ratio);
+      spread("mu", row.coefficient);
+      visit("slip_fraction", row.slip_fraction);
+      visit("dissipated_energy_Nmm", row.dissipated_energy);
+      visit("stored_energy_Nmm", row.stored_energy);
+      visit("external_work_Nmm", row.external_work);
+      visit("step_s", row.step_size);
+      visit("newton_iterations", row.newton_iterations);
+      visit("linear_iterations", row.linear_iterations);
+      visit("slip_mm", row.slip);
+      visit("kinetic_energy_Nmm", row.kinetic_energy);
     }
 
-    Column
-    spread(const char *name, Spread HistoryRow::*member, double Spread::*part)
+    std::vector<std::string> column_names()
     {
-      return {name,
-              [member, part](HistoryRow &row) -> double & {
-                return (row.*member).*part;
-              },
-              nullptr};
+      std::vector<std::string> names;
+      const HistoryRow         any;
+      for_each_column(any, [&](const std::string &name, const auto &) {
+        names.push_back(name);
+      });
+      return names;
     }
 
-    Column count(const char *name, unsigned int HistoryRow::*member)
+    std::string text_of(const double number)
     {
-      return {name, nullptr, [member](HistoryRow &row) -> unsigned int & {
-                return row.*member;
-              }};
+      return exact_text(number);
     }
 
-    const std::vector<Column> &columns()
+    std::string text_of(const unsigned int count)
     {
-      using Row                            = HistoryRow;
-      static const std::vector<Column> all = {
-        number("time_s", &Row::time),
-        number("displacement_mm", &Row::displacement),
-        number("pressure_MPa", &Row::pressure),
-        number("friction", &Row::friction),
-        number("displacement_y_mm", &Row::displacement_y),
-        number("friction_y", &Row::friction_y),
-        number("normal_load_N", &Row::normal_load),
-        number("tangential_load_N", &Row::tangential_load),
-        spread("r_mean", &Row::loading_ratio, &Spread::mean),
-        spread("r_min", &Row::loading_ratio, &Spread::minimum),
-        spread("r_max", &Row::loading_ratio, &Spread::maximum),
-        spread("r_s_mean", &Row::normal_ratio, &Spread::mean),
-        spread("r_s_min", &Row::normal_ratio, &Spread::minimum),
-        spread("r_s_max", &Row::normal_ratio, &Spread::maximum),
-        spread("mu_mean", &Row::coefficient, &Spread::mean),
-        spread("mu_min", &Row::coefficient, &Spread::minimum),
-        spread("mu_max", &Row::coefficient, &Spread::maximum),
-        number("slip_fraction", &Row::slip_fraction),
-        number("dissipated_energy_Nmm", &Row::dissipated_energy),
-        number("stored_energy_Nmm", &Row::stored_energy),
-        number("external_work_Nmm", &Row::external_work),
-        number("step_s", &Row::step_size),
-        count("newton_iterations", &Row::newton_iterations),
-        count("linear_iterations", &Row::linear_iterations),
-        number("slip_mm", &Row::slip),
-        number("kinetic_energy_Nmm", &Row::kinetic_energy)};
-      return all;
+      return std::to_string(count);
     }
   } // namespace
 
@@ -98,17 +86,12 @@ namespace SlipStep
   {
     if (!out)
       throw InputError(file.string() + ": this file cannot be written");
-    const char *separator = "";
-    for (const Column &column : columns())
-      {
-        out << separator << column.name;
-        separator = ",";
-      }
+    std::vector<std::string> names = column_names();
     for (const ContactMemory &memory : memories)
-      out << ',' << memory.name;
+      names.emplace_back(memory.name);
     for (std::size_t i = 0; i < n_probes; ++i)
-      out << ',' << probe_name(i);
-    out << '\n' << std::flush;
+      names.push_back(probe_name(i));
+    out << boost::algorithm::join(names, ",") << '\n' << std::flush;
     if (!out)
       throw write_failure(file);
     size = out.tellp();
@@ -134,19 +117,15 @@ namespace SlipStep
 
   void HistoryWriter::write(const HistoryRow &row)
   {
-    HistoryRow  values = row;
-    std::string line;
-    for (const Column &column : columns())
-      {
-        if (!line.empty())
-          line += ',';
-        line += column.number ? exact_text(column.number(values)) :
-                                std::to_string(column.count(values));
-      }
+    std::vector<std::string> cells;
+    for_each_column(row, [&](const std::string &, const auto &value) {
+      cells.push_back(text_of(value));
+    });
     for (const ContactMemory &memory : memories)
-      line += ',' + exact_text(row.memories[memory.slot]);
+      cells.push_back(exact_text(row.memories[memory.slot]));
     for (const double probe : row.probes)
-      line += ',' + exact_text(probe);
+      cells.push_back(exact_text(probe));
+    const std::string line = boost::algorithm::join(cells, ",");
     out << line << '\n' << std::flush;
     // A file that somebody deleted takes rows that nobody will see.
     std::error_code gone;
@@ -169,11 +148,10 @@ namespace SlipStep
   std::vector<HistoryRow> read_history(const std::filesystem::path &file)
   {
     // Older files have no kinetic energy.
-    std::vector<std::string> names, others;
-    for (const Column &column : columns())
-      (column.name == std::string("kinetic_energy_Nmm") ? others : names)
-        .emplace_back(column.name);
-    std::vector<std::string> probes;
+    const std::vector<std::string> all = column_names();
+    std::vector<std::string>       names(all.begin(), all.end() - 1);
+    std::vector<std::string>       others = {all.back()};
+    std::vector<std::string>       probes;
     for (std::size_t i = 0; i < most_probes; ++i)
       probes.push_back(probe_name(i));
     others.insert(others.end(), probes.begin(), probes.end());
@@ -183,6 +161,9 @@ namespace SlipStep
     format.may_be_cut = true;
     const CsvTable table(file, names, others, format);
 
+    std::vector<const std::vector<double> *> columns;
+    for (const std::string &name : all)
+      columns.push_back(&table[name]);
     std::vector<HistoryRow> history(table.size());
     for (const std::string &probe : probes)
       if (table.has(probe))
@@ -192,16 +173,14 @@ namespace SlipStep
       if (table.has(memory.name))
         for (std::size_t row = 0; row < history.size(); ++row)
           history[row].memories[memory.slot] = table[memory.name][row];
-    for (const Column &column : columns())
+    for (std::size_t row = 0; row < history.size(); ++row)
       {
-        if (!table.has(column.name))
-          continue;
-        const std::vector<double> &values = table[column.name];
-        for (std::size_t row = 0; row < values.size(); ++row)
-          if (column.number)
-            column.number(history[row]) = values[row];
-          else
-            column.count(history[row]) = static_cast<unsigned int>(values[row]);
+        std::size_t i = 0;
+        for_each_column(history[row], [&](const std::string &, auto &value) {
+          const std::vector<double> &column = *columns[i++];
+          if (!column.empty())
+            value = static_cast<std::decay_t<decltype(value)>>(column[row]);
+        });
       }
     return history;
   }
