@@ -105,15 +105,11 @@ namespace SlipStep
 
 
     /// What a history says between its rows.
-    class HistoryReader
+    struct HistoryReader
     {
-    public:
-      HistoryReader(const Programme               &programme,
-                    const std::vector<HistoryRow> &history)
-        : programme(programme)
-        , history(history)
-        , path(programme)
-      {}
+      const Programme               &programme;
+      const std::vector<HistoryRow> &history;
+      const SlidingPath              path;
 
       /// @param displacement path of the drive [mm]; NaN for the end
       template <typename Value>
@@ -196,7 +192,6 @@ namespace SlipStep
                 y1 - top.slope * top.slope / (4. * top.curvature)};
       }
 
-    private:
       double time_of(const double displacement, std::size_t &segment) const
       {
         const std::vector<double> &path_after = path.after_segments();
@@ -275,10 +270,6 @@ namespace SlipStep
           return values.back();
         return monotone_interpolation(times, values, time);
       }
-
-      const Programme              &programme;
-      const std::vector<HistoryRow> history;
-      const SlidingPath             path;
     };
 
 
@@ -321,7 +312,7 @@ namespace SlipStep
                       const std::vector<HistoryRow>         &history,
                       const unsigned int                     dimension)
   {
-    const HistoryReader        reader(programme, history);
+    const HistoryReader reader{programme, history, SlidingPath(programme)};
     std::vector<QuantityValue> values;
     std::size_t                n_probes = 0;
     for (const QuantityOfInterest &quantity : quantities)

@@ -189,15 +189,10 @@ namespace SlipStep
 
 
 
-    class OddRows
+    struct OddRows
     {
-    public:
-      using Warn = std::function<void(const std::string &, const std::size_t)>;
-
-      OddRows(const MeasuredTest &test, const Warn &warn)
-        : test(test)
-        , warn(warn)
-      {}
+      const MeasuredTest                                                &test;
+      const std::function<void(const std::string &, const std::size_t)> &warn;
 
       // What no laboratory measures is a unit, a scale or an offset that went
       // wrong. A few rows do not count: loads that open have any friction.
@@ -409,7 +404,6 @@ namespace SlipStep
         tell("the pressure goes to ", " MPa", test.pressure, rows);
       }
 
-    private:
       // Rows far from all others, under load.
       void warn_of_strays(const std::string         &name,
                           const std::vector<double> &values,
@@ -427,9 +421,6 @@ namespace SlipStep
                  std::to_string(n),
                first);
       }
-
-      const MeasuredTest &test;
-      const Warn         &warn;
     };
   } // namespace
 
@@ -439,7 +430,7 @@ namespace SlipStep
     const MeasuredTest                                                &test,
     const std::function<void(const std::string &, const std::size_t)> &warn)
   {
-    const OddRows rows(test, warn);
+    const OddRows rows{test, warn};
     rows.warn_of_scales();
     rows.warn_of_sensors();
     rows.warn_of_excursions();

@@ -51,16 +51,11 @@ namespace SlipStep
 
 
     /// Finds the motion between the stairs.
-    class StairMotion
+    struct StairMotion
     {
-    public:
-      StairMotion(const std::vector<double> &time,
-                  const std::vector<double> &values,
-                  const double               step)
-        : time(time)
-        , step(step)
-        , stairs(find_stairs(values))
-      {}
+      const std::vector<double> &time;
+      const double               step;
+      const std::vector<Stair>   stairs;
 
       std::vector<double> motion(std::vector<double> values) const
       {
@@ -69,7 +64,6 @@ namespace SlipStep
         return values;
       }
 
-    private:
       // Where stair s begins: the last half step towards its value takes its
       // share of the interval between the rows.
       double entry(const std::size_t s) const
@@ -147,10 +141,6 @@ namespace SlipStep
             values[i] = stair.value + std::clamp(off, -0.5 * step, 0.5 * step);
           }
       }
-
-      const std::vector<double> &time;
-      const double               step;
-      const std::vector<Stair>   stairs;
     };
 
 
@@ -170,19 +160,11 @@ namespace SlipStep
 
 
     /// Makes a motion even over as many rows as the rounding lets it be.
-    class Evener
+    struct Evener
     {
-    public:
-      // What was recorded, and the motion between its stairs.
-      Evener(const std::vector<double> &time,
-             const std::vector<double> &recorded,
-             const double               step,
-             const std::vector<double> &motion)
-        : time(time)
-        , recorded(recorded)
-        , step(step)
-        , motion(motion)
-      {}
+      const std::vector<double> &time, &recorded;
+      const double               step;
+      const std::vector<double> &motion; ///< between the stairs
 
       // One piece goes over into the next where they meet.
       std::vector<double> evened() const
@@ -216,7 +198,6 @@ namespace SlipStep
         return result;
       }
 
-    private:
       // By least squares.
       EvenMotion fit(const std::size_t begin, const std::size_t end) const
       {
@@ -335,10 +316,6 @@ namespace SlipStep
             pieces.push_back(fit_core(from, good));
           }
       }
-
-      const std::vector<double> &time, &recorded;
-      const double               step;
-      const std::vector<double> &motion;
     };
   } // namespace
 
@@ -387,8 +364,8 @@ namespace SlipStep
                                      const double               step)
   {
     const std::vector<double> motion =
-      StairMotion(time, values, step).motion(values);
-    return Evener(time, values, step, motion).evened();
+      StairMotion{time, step, find_stairs(values)}.motion(values);
+    return Evener{time, values, step, motion}.evened();
   }
 
 
@@ -454,7 +431,7 @@ namespace SlipStep
     std::vector<double> rows(test.time.size());
     std::iota(rows.begin(), rows.end(), 0.);
     const std::vector<double> even =
-      Evener(rows, test.time, rounding, test.time).evened();
+      Evener{rows, test.time, rounding, test.time}.evened();
     // Where the clock changes, two stamps might meet.
     if (std::adjacent_find(even.begin(),
                            even.end(),
