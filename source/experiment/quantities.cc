@@ -10,13 +10,6 @@
 
 namespace SlipStep
 {
-  namespace
-  {
-    using Kind = QuantityOfInterest::Kind;
-  } // namespace
-
-
-
   double monotone_interpolation(const std::vector<double> &abscissas,
                                 const std::vector<double> &values,
                                 const double               x)
@@ -84,6 +77,8 @@ namespace SlipStep
 
   namespace
   {
+    using Kind = QuantityOfInterest::Kind;
+
     /// A parabola through three points.
     struct Parabola
     {

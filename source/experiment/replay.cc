@@ -17,6 +17,11 @@ namespace SlipStep
 
   namespace
   {
+    // Least share of an interval: a jump of a soft machine takes no time.
+    constexpr double least_share = 1e-9;
+
+
+
     Tensor<1, 2> position(const MeasuredTest &test, const std::size_t row)
     {
       Tensor<1, 2> result;
@@ -47,6 +52,17 @@ namespace SlipStep
           return {length / moved.norm() * moved, length / speed};
         }
       return {Tensor<1, 2>(), 0.};
+    }
+
+
+
+    // Whether the contact has to stick anew, or to let go.
+    bool is_abrupt(const Tensor<1, 2> &before, const Tensor<1, 2> &now)
+    {
+      const double slow = std::min(before.norm(), now.norm());
+      const double fast = std::max(before.norm(), now.norm());
+      return fast > 0. &&
+             (slow < 0.2 * fast || before * now < 0.5 * slow * fast);
     }
   } // namespace
 
@@ -129,20 +145,6 @@ namespace SlipStep
 
 
 
-  namespace
-  {
-    // Whether the contact has to stick anew, or to let go.
-    bool is_abrupt(const Tensor<1, 2> &before, const Tensor<1, 2> &now)
-    {
-      const double slow = std::min(before.norm(), now.norm());
-      const double fast = std::max(before.norm(), now.norm());
-      return fast > 0. &&
-             (slow < 0.2 * fast || before * now < 0.5 * slow * fast);
-    }
-  } // namespace
-
-
-
   // What the load point moves before the contact slides, a small part of it.
   double Replay::first_step(const std::size_t  interval,
                             const FrictionLaw &law,
@@ -167,14 +169,6 @@ namespace SlipStep
     return first_slip * elastic_slip(traction, law, machine) /
            std::max(rate.norm(), rate_before.norm());
   }
-
-
-
-  namespace
-  {
-    // Least share of an interval: a jump of a soft machine takes no time.
-    constexpr double least_share = 1e-9;
-  } // namespace
 
 
 

@@ -76,10 +76,8 @@ namespace SlipStep
 
   const std::vector<std::string> &shear_words()
   {
-    static const std::vector<std::string> words = {"shear",
-                                                   "shr_",
-                                                   "tau",
-                                                   "schub"};
+    static const auto words =
+      dealii::Utilities::split_string_list("shear shr_ tau schub", ' ');
     return words;
   }
 
@@ -96,12 +94,10 @@ namespace SlipStep
 
   bool is_called_normal(const std::string &name)
   {
-    static const std::vector<std::string> words  = {"norm",
-                                                    "nor_",
-                                                    "anpress",
-                                                    "clamp"};
-    static const std::vector<std::string> labels = {
-      "fn", "fz", "f_n", "f_z", "n", "p", "sigma_n", "sn"};
+    using dealii::Utilities::split_string_list;
+    static const auto words = split_string_list("norm nor_ anpress clamp", ' ');
+    static const auto labels =
+      split_string_list("fn fz f_n f_z n p sigma_n sn", ' ');
     return has_word(name, words) || holds(labels, label_of(name));
   }
 

@@ -546,6 +546,19 @@ namespace SlipStep
                size :
                0.;
     }
+
+
+
+    // A sensor that is dead has no noise.
+    std::vector<double> without_dead_rows(std::vector<double> values,
+                                          const MeasuredTest &test)
+    {
+      const auto found = repeated_value(under_load(values, test));
+      if (found.has_value() && found->n_in_a_row > 0)
+        values.erase(values.begin() + found->first,
+                     values.begin() + found->first + found->n_in_a_row);
+      return values;
+    }
   } // namespace
 
 
@@ -610,22 +623,6 @@ namespace SlipStep
       }
     return 2 * n_next >= levels.size() - 1 ? step : 0.;
   }
-
-
-
-  namespace
-  {
-    // A sensor that is dead has no noise.
-    std::vector<double> without_dead_rows(std::vector<double> values,
-                                          const MeasuredTest &test)
-    {
-      const auto found = repeated_value(under_load(values, test));
-      if (found.has_value() && found->n_in_a_row > 0)
-        values.erase(values.begin() + found->first,
-                     values.begin() + found->first + found->n_in_a_row);
-      return values;
-    }
-  } // namespace
 
 
 
