@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "tests/file_text.h"
+#include "tests/message_of.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -20,35 +21,40 @@ namespace
     return test_folder() / "history.csv";
   }
 
+  std::vector<double *> numbers_of(HistoryRow &row)
+  {
+    return {&row.time,
+            &row.displacement,
+            &row.pressure,
+            &row.friction,
+            &row.displacement_y,
+            &row.friction_y,
+            &row.normal_load,
+            &row.tangential_load,
+            &row.loading_ratio.mean,
+            &row.loading_ratio.minimum,
+            &row.loading_ratio.maximum,
+            &row.normal_ratio.mean,
+            &row.normal_ratio.minimum,
+            &row.normal_ratio.maximum,
+            &row.coefficient.mean,
+            &row.coefficient.minimum,
+            &row.coefficient.maximum,
+            &row.slip_fraction,
+            &row.dissipated_energy,
+            &row.stored_energy,
+            &row.external_work,
+            &row.step_size,
+            &row.slip,
+            &row.kinetic_energy};
+  }
+
   /// A row in which every member has its own, not exactly printable value.
   HistoryRow sample_row()
   {
     HistoryRow row;
     double     value = 1. / 3.;
-    for (double *member : {&row.time,
-                           &row.displacement,
-                           &row.pressure,
-                           &row.friction,
-                           &row.displacement_y,
-                           &row.friction_y,
-                           &row.normal_load,
-                           &row.tangential_load,
-                           &row.loading_ratio.mean,
-                           &row.loading_ratio.minimum,
-                           &row.loading_ratio.maximum,
-                           &row.normal_ratio.mean,
-                           &row.normal_ratio.minimum,
-                           &row.normal_ratio.maximum,
-                           &row.coefficient.mean,
-                           &row.coefficient.minimum,
-                           &row.coefficient.maximum,
-                           &row.slip_fraction,
-                           &row.dissipated_energy,
-                           &row.stored_energy,
-                           &row.external_work,
-                           &row.step_size,
-                           &row.slip,
-                           &row.kinetic_energy})
+    for (double *member : numbers_of(row))
       *member = (value *= -1.7e-3 / 0.9e-3);
     row.newton_iterations = 3;
     row.linear_iterations = 4000000000u;
@@ -126,36 +132,18 @@ TEST(History, ARowThatAKillCutOffIsNone)
 
 TEST(History, RowsReadBackExactly)
 {
-  const HistoryRow row = sample_row();
-  HistoryWriter    writer(history_file());
+  HistoryRow    row = sample_row();
+  HistoryWriter writer(history_file());
   writer.write(row);
   writer.write(row);
 
-  const std::vector<HistoryRow> rows = read_history(history_file());
+  std::vector<HistoryRow> rows = read_history(history_file());
   ASSERT_EQ(rows.size(), 2u);
-  const HistoryRow &back = rows[1];
-  EXPECT_EQ(back.time, row.time);
-  EXPECT_EQ(back.displacement, row.displacement);
-  EXPECT_EQ(back.pressure, row.pressure);
-  EXPECT_EQ(back.friction, row.friction);
-  EXPECT_EQ(back.displacement_y, row.displacement_y);
-  EXPECT_EQ(back.friction_y, row.friction_y);
-  EXPECT_EQ(back.normal_load, row.normal_load);
-  EXPECT_EQ(back.tangential_load, row.tangential_load);
-  EXPECT_EQ(back.loading_ratio.mean, row.loading_ratio.mean);
-  EXPECT_EQ(back.loading_ratio.minimum, row.loading_ratio.minimum);
-  EXPECT_EQ(back.loading_ratio.maximum, row.loading_ratio.maximum);
-  EXPECT_EQ(back.normal_ratio.mean, row.normal_ratio.mean);
-  EXPECT_EQ(back.coefficient.maximum, row.coefficient.maximum);
-  EXPECT_EQ(back.slip_fraction, row.slip_fraction);
-  EXPECT_EQ(back.dissipated_energy, row.dissipated_energy);
-  EXPECT_EQ(back.stored_energy, row.stored_energy);
-  EXPECT_EQ(back.external_work, row.external_work);
-  EXPECT_EQ(back.step_size, row.step_size);
-  EXPECT_EQ(back.newton_iterations, row.newton_iterations);
-  EXPECT_EQ(back.linear_iterations, row.linear_iterations);
-  EXPECT_EQ(back.slip, row.slip);
-  EXPECT_EQ(back.kinetic_energy, row.kinetic_energy);
+  const auto wanted = numbers_of(row), read = numbers_of(rows[1]);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    EXPECT_EQ(*read[i], *wanted[i]) << i;
+  EXPECT_EQ(rows[1].newton_iterations, row.newton_iterations);
+  EXPECT_EQ(rows[1].linear_iterations, row.linear_iterations);
 }
 
 
@@ -210,16 +198,8 @@ TEST(History, ADamagedFileIsReported)
 {
   HistoryWriter(history_file()).write(sample_row());
   std::ofstream(history_file(), std::ios::app) << "1,2,3\n";
-  try
-    {
-      read_history(history_file());
-      FAIL() << "a short row is accepted";
-    }
-  catch (const InputError &error)
-    {
-      EXPECT_TRUE(contains(std::string(error.what()), ".csv:3:"))
-        << error.what();
-    }
+  EXPECT_TRUE(
+    contains(message_of([] { read_history(history_file()); }), ".csv:3:"));
 }
 
 

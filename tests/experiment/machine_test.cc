@@ -103,16 +103,12 @@ TEST(Machine, a_contact_with_a_core_feels_a_softer_stick)
         const auto a = drive(settings), b = drive(series);
         for (const double end : {2., 3., 4., 5., 6.})
           {
-            const auto at = [end](const std::vector<HistoryRow> &rows) {
-              return *std::find_if(rows.begin(),
-                                   rows.end(),
-                                   [end](const HistoryRow &row) {
-                                     return std::abs(row.time - end) < 1e-9;
-                                   });
-            };
-            EXPECT_NEAR(at(a).friction, at(b).friction, 2e-5)
+            const HistoryRow &of_a = row_at(a, end), &of_b = row_at(b, end);
+            EXPECT_NEAR(of_a.time, end, 1e-9);
+            EXPECT_NEAR(of_b.time, end, 1e-9);
+            EXPECT_NEAR(of_a.friction, of_b.friction, 2e-5)
               << effects << ", k = " << k << ", t = " << end;
-            EXPECT_NEAR(at(a).friction_y, at(b).friction_y, 2e-5)
+            EXPECT_NEAR(of_a.friction_y, of_b.friction_y, 2e-5)
               << effects << ", k = " << k << ", t = " << end;
           }
       }

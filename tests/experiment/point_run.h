@@ -21,19 +21,37 @@ namespace SlipStep::Testing
     return parameters;
   }
 
-  /// The rows of a run on one contact point.
-  inline std::vector<HistoryRow> point_history(const Parameters &parameters)
+  /// Run one contact point.
+  /// @param[out] history its rows, with those before a failure
+  inline StepControl run_point(const Parameters        &parameters,
+                               std::vector<HistoryRow> &history)
   {
-    const FrictionLaw       law(parameters);
-    const Programme         programme = parse_programme(parameters);
-    std::vector<HistoryRow> history;
-    drive_point(
+    const FrictionLaw law(parameters);
+    const Programme   programme = parse_programme(parameters);
+    return drive_point(
       law,
       programme,
       StepControl(parameters, programme, law),
       [&](const HistoryRow &row) { history.push_back(row); },
       Machine(parameters));
+  }
+
+  /// The rows of a run on one contact point.
+  inline std::vector<HistoryRow> point_history(const Parameters &parameters)
+  {
+    std::vector<HistoryRow> history;
+    run_point(parameters, history);
     return history;
+  }
+
+  /// The last row at or before a time.
+  inline const HistoryRow &row_at(const std::vector<HistoryRow> &rows,
+                                  const double                   time)
+  {
+    std::size_t i = rows.size() - 1;
+    while (i > 0 && rows[i].time > time + 1e-9)
+      --i;
+    return rows[i];
   }
 
   /// @param tolerance instead of the one of the case

@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "tests/file_text.h"
+#include "tests/message_of.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -27,15 +28,7 @@ namespace
   /// The message for a wrong programme, "" if it is accepted.
   std::string message_about_programme(const std::string &text)
   {
-    try
-      {
-        programme_of(text);
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
+    return message_of([&] { programme_of(text); });
   }
 
   /// The text that begins right above the caret of a message.
@@ -121,16 +114,9 @@ TEST(Programme, UnitsAreConverted)
 TEST(Programme, AMissingSemicolonIsNamed)
 {
   for (const std::string border : {",", ""})
-    try
-      {
-        programme_of("press 5 MPa in 1 s" + border + " slide 1 mm/s for 1 mm");
-        ADD_FAILURE();
-      }
-    catch (const InputError &error)
-      {
-        const std::string message = error.what();
-        EXPECT_TRUE(contains(message, "';': it is missing before 'slide'"));
-      }
+    EXPECT_TRUE(contains(message_about_programme("press 5 MPa in 1 s" + border +
+                                                 " slide 1 mm/s for 1 mm"),
+                         "';': it is missing before 'slide'"));
 }
 
 

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "tests/file_text.h"
+#include "tests/message_of.h"
 #include "../friction/law_test_tools.h"
 #include "point_run.h"
 
@@ -22,16 +23,6 @@ namespace
   std::vector<HistoryRow> drive_pushed(const Settings &settings)
   {
     return point_history(point_parameters(settings));
-  }
-
-  /// The last row at or before a time.
-  const HistoryRow &row_at(const std::vector<HistoryRow> &rows,
-                           const double                   time)
-  {
-    std::size_t i = rows.size() - 1;
-    while (i > 0 && rows[i].time > time + 1e-9)
-      --i;
-    return rows[i];
   }
 
   const double half_pi = std::acos(0.);
@@ -204,28 +195,15 @@ TEST(Push, beyond_friction_fails_at_that_load)
                         "press 5 MPa in 1 s; push 1 MPa in 1 s"}};
   for (const std::string effects : {"", "subloading", "subloading, softening"})
     {
-      settings[0].second           = effects;
-      const Parameters  parameters = point_parameters(settings);
-      const FrictionLaw law(parameters);
-      const Programme   programme = parse_programme(parameters);
-      HistoryRow        last;
-      std::string       reason;
-      try
-        {
-          drive_point(law,
-                      programme,
-                      StepControl(parameters, programme, law),
-                      [&](const HistoryRow &row) { last = row; });
-        }
-      catch (const RunError &error)
-        {
-          reason = error.what();
-        }
+      settings[0].second = effects;
+      std::vector<HistoryRow> rows;
+      const std::string       reason = message_of<RunError>(
+        [&] { run_point(point_parameters(settings), rows); });
       EXPECT_TRUE(contains(reason, "friction cannot hold the push"))
         << effects << ": " << reason;
       if (effects != "subloading, softening")
         {
-          EXPECT_NEAR(last.tangential_load, 0.575, 1e-3) << effects;
+          EXPECT_NEAR(rows.back().tangential_load, 0.575, 1e-3) << effects;
         }
     }
 
@@ -250,30 +228,14 @@ TEST(Push, beyond_the_largest_overstress_fails_at_once)
      {"Friction/overstress/Exponent", "50"},
      {"Friction/overstress/Maximum ratio", "1.8"},
      {"Loading/Programme", "press 5 MPa in 1 s; push 2 MPa in 1 s"}});
-  const FrictionLaw law(parameters);
-  const Programme   programme = parse_programme(parameters);
-  HistoryRow        last;
-  unsigned int      n_steps = 0;
-  std::string       reason;
-  try
-    {
-      drive_point(law,
-                  programme,
-                  StepControl(parameters, programme, law),
-                  [&](const HistoryRow &row) {
-                    last = row;
-                    ++n_steps;
-                  });
-    }
-  catch (const RunError &error)
-    {
-      reason = error.what();
-    }
+  std::vector<HistoryRow> rows;
+  const std::string       reason =
+    message_of<RunError>([&] { run_point(parameters, rows); });
   EXPECT_TRUE(contains(reason, "friction cannot hold the push")) << reason;
-  EXPECT_LT(n_steps, 20000u);
+  EXPECT_LT(rows.size(), 20000u);
   // mu p r_m of mu softened, or what slip at that speed holds of it.
-  EXPECT_LT(last.tangential_load, 1.8);
-  EXPECT_GT(last.tangential_load, 1.4);
+  EXPECT_LT(rows.back().tangential_load, 1.8);
+  EXPECT_GT(rows.back().tangential_load, 1.4);
 }
 
 

@@ -14,6 +14,7 @@
 #include <fstream>
 
 #include "tests/file_text.h"
+#include "tests/message_of.h"
 #include "../temporary_folder.h"
 #include "point_run.h"
 
@@ -39,16 +40,10 @@ namespace
 
   std::string why_it_ends(const Settings &settings)
   {
-    try
-      {
-        point_history(point_parameters(settings));
-      }
-    catch (const RunError &error)
-      {
-        return error.what();
-      }
-    ADD_FAILURE() << "it ended by itself";
-    return "";
+    const std::string reason =
+      message_of<RunError>([&] { point_history(point_parameters(settings)); });
+    EXPECT_NE(reason, "") << "it ended by itself";
+    return reason;
   }
 } // namespace
 
@@ -92,15 +87,9 @@ TEST(StepControl, WarnsOfStepsThatAreFarTooLong)
                 "press 5 MPa in 1 s; slide 1 mm/min for 0.5 mm; hold 10 s"},
                {"Friction/Effects", "subloading, overstress, softening"}} +
       more);
-    const FrictionLaw law(parameters);
-    const Programme   programme = parse_programme(parameters);
-    HistoryRow        last;
-    const StepControl control =
-      drive_point(law,
-                  programme,
-                  StepControl(parameters, programme, law),
-                  [&](const HistoryRow &row) { last = row; });
-    return std::pair(last.friction, control.warning());
+    std::vector<HistoryRow> rows;
+    const std::string       warning = run_point(parameters, rows).warning();
+    return std::pair(rows.back().friction, warning);
   };
   const auto [friction, none] = after({});
   EXPECT_EQ(none, "");

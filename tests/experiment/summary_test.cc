@@ -14,6 +14,7 @@
 #include <string>
 
 #include "point_run.h"
+#include "tests/file_text.h"
 #include "tests/temporary_folder.h"
 
 using namespace SlipStep;
@@ -187,39 +188,20 @@ TEST(Summary, ItReadsBack)
   summary.warnings   = {"one", "two"};
   write_summary(scratch_file(), summary);
 
-  const Summary back = read_summary(scratch_file());
+  // In the file is all of it.
+  const std::string text = content(scratch_file());
+  const Summary     back = read_summary(scratch_file());
+  write_summary(scratch_file(), back);
+  EXPECT_EQ(content(scratch_file()), text);
   EXPECT_EQ(back.case_name, summary.case_name);
-  EXPECT_EQ(back.label, summary.label);
-  EXPECT_EQ(back.command, summary.command);
-  EXPECT_EQ(back.effects, summary.effects);
-  EXPECT_EQ(back.status, summary.status);
-  EXPECT_EQ(back.reason, summary.reason);
-  EXPECT_EQ(back.dimension, summary.dimension);
   EXPECT_EQ(back.cells, summary.cells);
-  EXPECT_EQ(back.dofs, summary.dofs);
-  EXPECT_EQ(back.ranks, summary.ranks);
-  EXPECT_EQ(back.steps, summary.steps);
-  EXPECT_EQ(back.rejected_steps, summary.rejected_steps);
-  EXPECT_EQ(back.newton_iterations, summary.newton_iterations);
-  EXPECT_EQ(back.linear_iterations, summary.linear_iterations);
-  EXPECT_EQ(back.kinetic, summary.kinetic);
   EXPECT_EQ(back.wall_time, summary.wall_time);
-  EXPECT_EQ(back.cpu_time, summary.cpu_time);
-  EXPECT_EQ(back.peak_memory, summary.peak_memory);
-  EXPECT_EQ(back.peak_friction, summary.peak_friction);
-  EXPECT_EQ(back.peak_displacement, summary.peak_displacement);
   EXPECT_TRUE(std::isnan(back.final_friction));
-  EXPECT_EQ(back.balance_error, summary.balance_error);
   ASSERT_EQ(back.slides.size(), 1u);
   EXPECT_NEAR(back.slides[0].speed, 1. / 60., 1e-17);
   EXPECT_NEAR(back.slides[0].angle, pi, 1e-15);
-  EXPECT_EQ(back.slides[0].coefficient, 0.08);
   ASSERT_EQ(back.quantities.size(), 2u);
-  EXPECT_EQ(back.quantities[0].name, "peak coefficient");
-  EXPECT_EQ(back.quantities[0].value, 0.1 / 3.);
   EXPECT_TRUE(std::isnan(back.quantities[1].value));
-  EXPECT_EQ(back.quantities[1].unit, "mm");
-  EXPECT_EQ(back.warnings, summary.warnings);
 }
 
 

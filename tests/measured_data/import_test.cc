@@ -321,9 +321,8 @@ TEST(Import, ALoadCellAtItsLimitIsTold)
                                         {"Constants/Area", "50 mm^2"}}),
                                 raw);
   ASSERT_EQ(test.warnings.size(), 1u);
-  EXPECT_NE(test.warnings[0].find("tangential load [N] is exactly 16 in "),
-            std::string::npos)
-    << test.warnings[0];
+  EXPECT_TRUE(
+    contains(test.warnings[0], "tangential load [N] is exactly 16 in "));
 }
 
 
@@ -392,7 +391,7 @@ TEST(Import, RecordsAreCutAtReversalsAndCycles)
       EXPECT_NEAR(strokes[i].time.back(), i == 0 ? 9.9 : 12., 2.01) << i;
     }
   EXPECT_EQ(strokes[2].name, "a, part 3");
-  EXPECT_NE(strokes[2].notes.at("part").find("3 of 6"), std::string::npos);
+  EXPECT_TRUE(contains(strokes[2].notes.at("part"), "3 of 6"));
 
   const auto cycles = parts(and_also(of_strokes,
                                      {{"Selection/Cut", "every 2 cycles"},
@@ -489,11 +488,8 @@ TEST(Import, ZeroAndDriftOfASensorAreTakenOff)
                 raw);
   for (std::size_t i = 0; i < test.friction.size(); ++i)
     EXPECT_NEAR(std::abs(test.friction[i]), 0.2, 2e-5) << i;
-  EXPECT_NE(test.notes.at("corrected").find("drift of 0.004"),
-            std::string::npos)
-    << test.notes.at("corrected");
-  EXPECT_NE(test.notes.at("corrected").find("less 0.37"), std::string::npos)
-    << test.notes.at("corrected");
+  EXPECT_TRUE(contains(test.notes.at("corrected"), "drift of 0.004"));
+  EXPECT_TRUE(contains(test.notes.at("corrected"), "less 0.37"));
 
   const auto first =
     import_test(map_of(and_also(
@@ -532,11 +528,10 @@ TEST(Import, UnitsThatContradictTheFileAreTold)
   const auto wrong = read("Time [s] in min", "2*{F [N] in kN} + {F [N] in kN}");
   ASSERT_GE(wrong.warnings.size(), 2u);
   EXPECT_EQ(wrong.time.back(), 3600.);
-  EXPECT_NE(wrong.notes.at("units").find(
-              "column 1 is taken in min, the file says s; column 3 is taken in "
-              "kN, the file says N"),
-            std::string::npos)
-    << wrong.notes.at("units");
+  EXPECT_TRUE(
+    contains(wrong.notes.at("units"),
+             "column 1 is taken in min, the file says s; column 3 is taken in "
+             "kN, the file says N"));
 }
 
 
@@ -660,9 +655,9 @@ TEST(Import, WildcardsTellConditions)
   EXPECT_THROW(files_of_pattern(test_folder() / "runs" / "*.dat"), InputError);
   EXPECT_THROW(files_of_pattern(test_folder() / "r*" / "*.txt"), InputError);
   auto wrong = map_of(simple_with("Test/Condition", "{4}"));
-  EXPECT_NE(message(wrong, write("raw.csv", "t,x,mu\n0,0,0\n1,1,0.1\n"))
-              .find("nothing is known as {4}"),
-            std::string::npos);
+  EXPECT_TRUE(
+    contains(message(wrong, write("raw.csv", "t,x,mu\n0,0,0\n1,1,0.1\n")),
+             "nothing is known as {4}"));
 }
 
 

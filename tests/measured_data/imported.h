@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/file_text.h"
+#include "tests/message_of.h"
 #include "tests/temporary_folder.h"
 
 namespace SlipStep
@@ -56,15 +58,7 @@ namespace SlipStep
     inline std::string message(const Parameters            &map,
                                const std::filesystem::path &raw)
     {
-      try
-        {
-          import_test(map, raw);
-        }
-      catch (const InputError &error)
-        {
-          return error.what();
-        }
-      return "";
+      return message_of([&] { import_test(map, raw); });
     }
 
 
@@ -97,7 +91,7 @@ namespace SlipStep
                                const std::string           &words)
     {
       const std::string text = message(map_of(s), raw);
-      EXPECT_NE(text.find(words), std::string::npos) << text;
+      EXPECT_TRUE(contains(text, words));
       EXPECT_EQ(text.find("column1"), std::string::npos) << text;
     }
   } // namespace Testing

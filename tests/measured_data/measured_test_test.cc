@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/file_text.h"
+#include "tests/message_of.h"
 #include "tests/rows_header.h"
 #include "tests/temporary_folder.h"
 
@@ -26,18 +27,12 @@ namespace
   /// The message without the name of the file, "" if the file is accepted.
   std::string message(const std::string &content)
   {
-    const auto file = file_with(content);
-    try
-      {
-        read_measured_test(file);
-      }
-    catch (const InputError &error)
-      {
-        const std::string text = error.what();
-        EXPECT_EQ(text.find(file.string()), 0u) << text;
-        return text.substr(file.string().size());
-      }
-    return "";
+    const auto        file = file_with(content);
+    const std::string text = message_of([&] { read_measured_test(file); });
+    if (text.empty())
+      return "";
+    EXPECT_EQ(text.find(file.string()), 0u) << text;
+    return text.substr(file.string().size());
   }
 } // namespace
 

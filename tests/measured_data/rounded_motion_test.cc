@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "tests/file_text.h"
+
 using namespace SlipStep;
 
 namespace
@@ -161,7 +163,7 @@ TEST(RoundedMotion, IsTold)
   EXPECT_NEAR(rounding_of_motion(test), step, 1e-9);
   undo_rounding_of_motion(test);
   ASSERT_EQ(test.warnings.size(), 1u);
-  EXPECT_NE(test.warnings[0].find("rounded to 0.01 mm"), std::string::npos);
+  EXPECT_TRUE(contains(test.warnings[0], "rounded to 0.01 mm"));
 
   test.displacement = record.exact;
   test.warnings.clear();

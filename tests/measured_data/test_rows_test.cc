@@ -15,6 +15,7 @@
 #include <random>
 
 #include "tests/file_text.h"
+#include "tests/message_of.h"
 #include "tests/rows_header.h"
 #include "tests/temporary_folder.h"
 
@@ -31,16 +32,8 @@ namespace
 
   std::string message_about_rows(const std::string &rows)
   {
-    try
-      {
-        read(rows);
-      }
-    catch (const InputError &error)
-      {
-        const std::string text = error.what();
-        return text.substr(text.find("rows.csv") + 8);
-      }
-    return "";
+    const std::string text = message_of([&] { read(rows); });
+    return text.empty() ? "" : text.substr(text.find("rows.csv") + 8);
   }
 
   void expect_warning(const MeasuredTest &test, const std::string &words)

@@ -13,6 +13,7 @@
 #include <fstream>
 
 #include "tests/file_text.h"
+#include "tests/message_of.h"
 #include "tests/rows_header.h"
 #include "tests/temporary_folder.h"
 
@@ -33,15 +34,7 @@ namespace
 
   std::string message_of_set()
   {
-    try
-      {
-        read_test_set(test_folder());
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
+    return message_of([] { read_test_set(test_folder()); });
   }
 } // namespace
 
@@ -136,7 +129,7 @@ TEST(TestSet, TheNoiseThatIsNotedIsTold)
     }
   EXPECT_EQ(describe(test).find(", noise 0.00123"), std::string::npos);
   test.notes["noise"] = "0.00123";
-  EXPECT_NE(describe(test).find(", noise 0.00123"), std::string::npos);
+  EXPECT_TRUE(contains(describe(test), ", noise 0.00123"));
 }
 
 
