@@ -24,10 +24,9 @@ TEST_F(SharedFolder, ASecondRunIsTold)
   BackgroundRun first(process.folder(), arguments("output", {"--quiet"}));
   ASSERT_TRUE(first.wait_until([&]() { return lines("output") > 3; }));
   first.send(SIGSTOP);
-  for (const auto &more :
-       {std::vector<std::string>{},
-        std::vector<std::string>{"--resume"},
-        std::vector<std::string>{"--set", "Loading/Speed=2 mm/s"}})
+  for (const auto &more : {std::vector<std::string>{},
+                           std::vector<std::string>{"--resume"},
+                           std::vector<std::string>{"--set", "Block/Degree=2"}})
     {
       const auto second = run("output", more);
       EXPECT_EQ(second.exit_code, 2);
