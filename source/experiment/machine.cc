@@ -203,6 +203,15 @@ namespace SlipStep
 
 
 
+  double Machine::softness_in(const double stage_time) const
+  {
+    return areal_mass > 0. ?
+             1. / (stiffness() + areal_mass / (stage_time * stage_time)) :
+             compliance;
+  }
+
+
+
   // Of a mass, backward Euler makes a spring of stiffness K = k + m/dt^2: f_1 =
   // f_0 + K (motion - slip).
   ContactResponse Machine::move(const ContactStage &stage,
@@ -227,10 +236,9 @@ namespace SlipStep
                              inertia * stage.time_step * start.velocity) /
                               (k + inertia) :
                             load_point_increment;
-        const double softness =
-          areal_mass > 0. ? 1. / (k + inertia) : compliance;
-        response = SpringStep(stage, softness, motion).solve();
-        slip     = motion - softness * (response.traction - old);
+        const double softness = softness_in(stage.time_step);
+        response              = SpringStep(stage, softness, motion).solve();
+        slip                  = motion - softness * (response.traction - old);
       }
     slider.slip     = start.slip + slip;
     slider.velocity = slip / stage.time_step;
@@ -315,6 +323,7 @@ namespace SlipStep
     result.start     = start;
     result.motion    = load_point_increment;
     result.time_step = time_step;
+    result.softness  = softness_in(gamma * time_step);
     point.revert();
     move(stages[0], start, motion, result.first);
     point.begin_second_stage(law);
@@ -409,7 +418,7 @@ namespace SlipStep
       return unknown;
     if (step.jumps)
       return {};
-    StepError result = point.error(law);
+    StepError result = point.error(law, step.softness);
     if (areal_mass > 0.)
       result.at_end =
         std::max(result.at_end,

@@ -41,9 +41,10 @@ namespace SlipStep
 
 
 
-  StepError ContactPoint::error(const FrictionLaw &law) const
+  StepError ContactPoint::error(const FrictionLaw &law,
+                                const double       compliance) const
   {
-    return law.step_error(committed_state, first, start, last);
+    return law.step_error(committed_state, first, start, last, compliance);
   }
 
 

@@ -116,7 +116,8 @@ namespace SlipStep
   StepError FrictionLaw::step_error(const ContactState &start,
                                     const StageRecord  &first,
                                     const StageStart   &second,
-                                    const StageRecord  &last) const
+                                    const StageRecord  &last,
+                                    const double        compliance) const
   {
     StepError error;
     error.at_end = error_of_coefficient(start, first, second, last);
@@ -137,13 +138,13 @@ namespace SlipStep
         return error;
       }
 
-    error.at_end =
-      std::max({error.at_end,
-                error_of_traction(start, first, last) / end.strength,
-                error_of_memories(start, first, last),
-                error_of_core(start, last),
-                error_of_flow_rate(start, last),
-                error_of_normal_ratio(start, first, last)});
+    error.at_end = std::max(
+      {error.at_end,
+       error_of_traction(start, first, last, compliance) / end.strength,
+       error_of_memories(start, first, last),
+       error_of_core(start, last),
+       error_of_flow_rate(start, last),
+       error_of_normal_ratio(start, first, last)});
 
     // Off the plane nothing is felt of what a point passes over.
     if (start.normal_traction > 0.)
@@ -174,24 +175,34 @@ namespace SlipStep
 
 
   // Of what the rates of slip differ, stiffness and flow rule let a part
-  // through. A contact that slips when a step begins and sticks when its first
-  // stage ends has slipped in between, which no stage sees; without a rate
-  // effect slip stops at once.
+  // through, and a spring in series takes its share: (1 + c D)^-1 D. A contact
+  // that slips when a step begins and sticks when its first stage ends has
+  // slipped in between, which no stage sees; without a rate effect slip stops
+  // at once.
   double FrictionLaw::error_of_traction(const ContactState &start,
                                         const StageRecord  &first,
-                                        const StageRecord  &last) const
+                                        const StageRecord  &last,
+                                        const double        compliance) const
   {
     const auto slip = [&](const ContactState &state) {
       return inverse_cone * (state.slip_rate * slip_normal(state));
     };
-    const Tensor<1, 2> change = slip(last.end) - slip(first.end);
-    double             error =
-      share * last.time_step * (last.response.d_slip * change).norm();
+    const auto traction = [&](const StageRecord  &stage,
+                              const Tensor<1, 2> &change) {
+      const Tensor<1, 2> rigid = stage.response.d_slip * change;
+      Tensor<2, 2>       both  = compliance * stage.response.d_slip;
+      both[0][0] += 1.;
+      both[1][1] += 1.;
+      return determinant(both) > 0. ?
+               std::min(rigid.norm(), (invert(both) * rigid).norm()) :
+               rigid.norm();
+    };
+    double error =
+      share * last.time_step * traction(last, slip(last.end) - slip(first.end));
     if (is_rate_dependent() && start.normal_traction > 0.)
-      error = std::max(
-        error,
-        0.5 * first.time_step *
-          (first.response.d_slip * (slip(first.end) - slip(start))).norm());
+      error = std::max(error,
+                       0.5 * first.time_step *
+                         traction(first, slip(first.end) - slip(start)));
     return error;
   }
 

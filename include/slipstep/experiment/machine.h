@@ -24,16 +24,18 @@ namespace SlipStep
   /// One step of contact and machine.
   struct MachineStep
   {
-    ContactResponse      contact;      ///< of the second stage
-    Slider               start;        ///< of the step
-    Slider               first;        ///< at the end of the first stage
-    Slider               second;       ///< where the second starts
-    Slider               slider;       ///< at the end of the step
-    dealii::Tensor<1, 2> motion;       ///< of the load point [mm]
-    double               time_step;    ///< [s]
-    double               work  = 0.;   ///< of the load point, per area [MPa mm]
-    bool                 holds = true; ///< false if friction cannot hold a push
-    bool                 jumps = false; ///< see Machine::step()
+    ContactResponse      contact;   ///< of the second stage
+    Slider               start;     ///< of the step
+    Slider               first;     ///< at the end of the first stage
+    Slider               second;    ///< where the second starts
+    Slider               slider;    ///< at the end of the step
+    dealii::Tensor<1, 2> motion;    ///< of the load point [mm]
+    double               time_step; ///< [s]
+    /// of spring and inertia in a stage [mm/MPa], 0 under a given load
+    double softness = 0.;
+    double work     = 0.;    ///< of the load point, per area [MPa mm]
+    bool   holds    = true;  ///< false if friction cannot hold a push
+    bool   jumps    = false; ///< see Machine::step()
   };
 
   /// The machine that moves a contact point or a block: a spring in series, the
@@ -160,6 +162,9 @@ namespace SlipStep
                                         const Slider               &start,
                                         const dealii::Tensor<1, 2> &load,
                                         Slider &slider) const;
+
+    /// Of the spring, and of the inertia in a stage of that time [mm/MPa].
+    double softness_in(const double stage_time) const;
 
     double compliance = 0.; ///< c = 1 / k [mm/MPa]
     double areal_mass = 0.; ///< m [MPa s^2/mm]

@@ -38,7 +38,7 @@ namespace SlipStep
     void begin_second_stage(const FrictionLaw &law);
 
     /// Estimated error of a step of two stages, as FrictionLaw::step_error().
-    StepError error(const FrictionLaw &law) const;
+    StepError error(const FrictionLaw &law, const double compliance = 0.) const;
 
     void commit();
 

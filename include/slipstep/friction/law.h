@@ -75,10 +75,12 @@ namespace SlipStep
     /// they change the strength.
     /// @param start of the step
     /// @param second where its second stage started
+    /// @param compliance of a spring in series with the contact [mm/MPa]
     StepError step_error(const ContactState &start,
                          const StageRecord  &first,
                          const StageStart   &second,
-                         const StageRecord  &last) const;
+                         const StageRecord  &last,
+                         const double        compliance = 0.) const;
 
     /// Make a state consistent that comes from averaging or interpolating
     /// others: r follows from traction and strength, r_s obeys r_s <= r (and
@@ -286,7 +288,8 @@ namespace SlipStep
     // A step of two stages.
     double error_of_traction(const ContactState &start,
                              const StageRecord  &first,
-                             const StageRecord  &last) const;
+                             const StageRecord  &last,
+                             const double        compliance) const;
     double error_of_coefficient(const ContactState &start,
                                 const StageRecord  &first,
                                 const StageStart   &second,
