@@ -167,7 +167,7 @@ namespace SlipStep
       for (const Model &model : found)
         single = std::max(single, result.model.objective - model.objective);
       for (const CandidateView &seen : view.candidates)
-        if (seen.candidate.only_beside.empty())
+        if (seen.candidate.only_beside.empty() && seen.score.value > 0.)
           single =
             std::max(single,
                      std::pow(seen.score.strength * seen.score.free_length, 2));
@@ -324,10 +324,14 @@ namespace SlipStep
           if (workspace.is_late())
             return false;
           ++n_tried;
-          const std::optional<Model> tried = refit_with(workspace, less, seen);
+          std::optional<Model> tried = refit_with(workspace, less, seen);
           if (!tried.has_value() || is_at_bound(*tried) ||
               is_same_formula(tried->parts.back().formula, part.formula))
             continue;
+          // What is better only while its steps are another's would have to
+          // give way again.
+          if (penalised(*tried) < penalised(result.model) - sure_gain)
+            settle(workspace, *tried);
           const double distance = penalised(*tried) - penalised(result.model);
           if (distance >= rival_distance ||
               !is_needed(less.objective - tried->objective,
@@ -336,7 +340,6 @@ namespace SlipStep
           if (distance < -sure_gain)
             {
               result.model = *tried;
-              settle(workspace, result.model);
               return true;
             }
           if (!is_same)

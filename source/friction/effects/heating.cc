@@ -91,7 +91,7 @@ namespace SlipStep
                                  1e3 / (weakening * power * shortest),
                                  true},
                                 {"Cooling time",
-                                 0.03 * shortest,
+                                 0.003 * shortest,
                                  3. * now.range.longest_test,
                                  true,
                                  false,

@@ -171,6 +171,18 @@ INSTANTIATE_TEST_SUITE_P(
              Planting::NoiseKind::hum},
     // Heat takes away what the drag adds, a second later.
     Expected{CampaignClass::joint, 5, Verdict::named, {"heating", "viscous"}},
+    // Within a thirtieth of the shortest test.
+    Expected{CampaignClass::joint,
+             435,
+             Verdict::named,
+             {"heating", "viscous"},
+             Planting::NoiseKind::two_drifts},
+    // What shear_cap promises has the wrong sign: none of it does.
+    Expected{CampaignClass::joint,
+             411,
+             Verdict::named,
+             {"adhesion", "pressure"},
+             Planting::NoiseKind::two_drifts},
     // Squeezed oil, which leaves little trace.
     Expected{CampaignClass::outside, 14, Verdict::unnamed, {}},
     // Flattened asperities, which the catalogue has by now.
