@@ -88,14 +88,19 @@ namespace SlipStep
     class Best
     {
     public:
-      Best(const Model &base, const Model &found, const double excess)
-        : base(base)
+      Best(const Comparison &comparison,
+           const Model      &base,
+           const Model      &found,
+           const double      excess)
+        : comparison(comparison)
+        , base(base)
         , found(found)
         , excess(excess)
         , least(base.objective)
       {}
 
-      // What makes the gap has to go, too.
+      // What makes the gap has to go, too, and not by the weights of the fit
+      // alone.
       void consider(const LookAlike            &look_alike,
                     const std::optional<Model> &model)
       {
@@ -106,7 +111,8 @@ namespace SlipStep
         const double bound      = std::max(most * excess, as_well);
         const bool   is_as_good = found.parts.empty() ||
                                 penalised(*model) <= penalised(found) + as_well;
-        if (gain >= bound && is_as_good && model->objective < least)
+        if (gain >= bound && is_as_good && model->objective < least &&
+            relative_rms(comparison, *model) <= relative_rms(comparison, base))
           {
             least  = model->objective;
             result = look_alike;
@@ -116,9 +122,10 @@ namespace SlipStep
       std::optional<LookAlike> result;
 
     private:
-      const Model &base, &found;
-      const double excess;
-      double       least;
+      const Comparison &comparison;
+      const Model      &base, &found;
+      const double      excess;
+      double            least;
     };
 
 
@@ -206,7 +213,7 @@ namespace SlipStep
                                            const Model &found,
                                            const double excess)
   {
-    Best best(base, found, excess);
+    Best best(workspace.comparison, base, found, excess);
     for (const Kind kind : {Kind::friction_zero, Kind::load_zero})
       {
         if (workspace.is_late())

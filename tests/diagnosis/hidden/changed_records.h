@@ -75,6 +75,28 @@ namespace SlipStep::Testing
     return out.str();
   }
 
+  // Of a test with one axis, whose sensor moves by a share to what it sees.
+  inline std::string slowed(const double share, const std::string &text)
+  {
+    std::istringstream in(text);
+    std::ostringstream out;
+    std::string        line;
+    double             shown = 0.;
+    out.precision(10);
+    while (std::getline(in, line))
+      {
+        const std::size_t comma = line.rfind(',');
+        if (line[0] == '#' || line.find("time") != std::string::npos)
+          out << line << '\n';
+        else
+          {
+            shown += share * (std::stod(line.substr(comma + 1)) - shown);
+            out << line.substr(0, comma + 1) << shown << '\n';
+          }
+      }
+    return out.str();
+  }
+
   // Of a sensor that shows that much without any friction.
   inline std::string with_zero(const double zero, const std::string &text)
   {

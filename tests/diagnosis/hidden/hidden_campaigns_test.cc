@@ -571,6 +571,23 @@ TEST_F(CampaignFolder, TellsAZeroOfTheSensorThatExplainsAsMuch)
 
 
 
+// An amplifier so slow that steps of friction become ramps: a zero that halves
+// the weighted squares, with plain differences twice as large, is none.
+TEST_F(CampaignFolder, TellsNoZeroThatLeavesTheTestsFarther)
+{
+  plant(CampaignClass::none, 4);
+  rewrite([](const std::string &text) { return slowed(0.2, text); });
+  ingested                = ingest(parameters, {});
+  Workspace    &workspace = *ingested.workspace;
+  const Model  &base      = ingested.base;
+  const GapTest gap =
+    test_gap(workspace, base, score_candidates(workspace, base));
+  EXPECT_LE(gap.p, workspace.level);
+  EXPECT_FALSE(find_look_alike(workspace, base, base, gap.excess).has_value());
+}
+
+
+
 // The contact is led by where it was, not by what sensors made of that.
 TEST_F(CampaignFolder, IsNotLedByNoiseOfSensors)
 {
