@@ -45,20 +45,23 @@ namespace SlipStep
         return candidate.leave_to_model("the stiffness is fitted already");
       const double alpha   = now.number(stiffness);
       const double largest = now.friction() * now.range.highest;
-      // A flank longer by a thousandth of the path.
-      const double unit    = 1e-4 * now.range.longest_path / largest;
       const double softest = largest / (0.3 * now.range.longest_path);
       const double least   = std::min(softest, 0.1 * alpha);
       TrialFormula formula;
       formula.is_one_sided = true;
       formula.parameters   = {{stiffness, least, alpha, true}};
-      formula.shapes       = {{[=](const double strength) {
-        return Values{
-          {stiffness,
-           std::max(1. / (1. / alpha + unit * std::max(strength, 1e-3)),
-                    1.01 * least)}};
-      }}};
-      candidate.formulas   = {formula};
+      // A flank that grows by less than the distance of rows is not seen.
+      for (const double share : {1e-4, 1e-3, 1e-2})
+        {
+          const double unit = share * now.range.longest_path / largest;
+          formula.shapes.push_back([=](const double strength) {
+            return Values{
+              {stiffness,
+               std::max(1. / (1. / alpha + unit * std::max(strength, 1e-3)),
+                        1.01 * least)}};
+          });
+        }
+      candidate.formulas = {formula};
     }
 
 

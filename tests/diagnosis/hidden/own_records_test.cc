@@ -90,7 +90,15 @@ namespace
       });
     }
 
-    Judgement judged(const std::string &effects, const std::string &more)
+    Judgement judged(
+      const std::string &effects,
+      const std::string &more,
+      const std::string &contact =
+        "set Friction/Tangential stiffness = 100\n"
+        "set Friction/subloading/Rate = 500\n"
+        "set Calibration/Parameters = Friction/Static coefficient from 0.02 "
+        "to 0.6; Friction/Tangential stiffness from 5 to 2000 log; "
+        "Friction/subloading/Rate from 20 to 5000 log")
     {
       std::ofstream(folder.path() / "case.prm")
         << "set Loading/Programme = press 5 MPa in 1 s; slide 0.2 mm/s for "
@@ -99,13 +107,8 @@ namespace
         << effects
         << "\n"
            "set Friction/Static coefficient = 0.15\n"
-           "set Friction/Tangential stiffness = 100\n"
-           "set Friction/subloading/Rate = 500\n"
            "set Calibration/Tests = measured\n"
-           "set Calibration/Parameters = Friction/Static coefficient from 0.02 "
-           "to 0.6; Friction/Tangential stiffness from 5 to 2000 log; "
-           "Friction/subloading/Rate from 20 to 5000 log"
-        << more << '\n';
+        << contact << more << '\n';
       declare_loading_parameters(parameters);
       FrictionLaw::declare_parameters(parameters);
       declare_calibration_parameters(parameters);
@@ -118,10 +121,9 @@ namespace
     TemporaryFolder folder;
     Parameters      parameters;
     Ingested        ingested;
+    double          stiffness = 20.; // friction per mm
 
   private:
-    static constexpr double stiffness = 20.; // friction per mm
-
     // Every condition twice, each by a contact of its own.
     void write(const std::function<Contact()> &contact)
     {
@@ -190,6 +192,28 @@ TEST_F(OwnRecords, FrictionThatFallsWithSpeedIsFoundWhereTheModelCannotHoldIt)
   for (const Rival &rival : judgement.found.rivals)
     found.push_back(rival.name);
   EXPECT_EQ(std::count(found.begin(), found.end(), "slip_law"), 1);
+}
+
+
+
+// Of a rigid machine, flanks are far shorter than the distance of rows; so are
+// those of a spring a little softer.
+TEST_F(OwnRecords, ASoftSpringIsFoundBetweenDistantRows)
+{
+  stiffness = 2.;
+  write(0.);
+  const Judgement judgement = judged(
+    "subloading",
+    "",
+    "set Friction/Tangential stiffness = 1e4\n"
+    "set Friction/subloading/Rate = 2000\n"
+    "set Calibration/Parameters = Friction/Static coefficient from 0.02 to 0.6");
+  EXPECT_EQ(effect_names(judgement.found.model.parts),
+            std::vector<std::string>{"compliance"});
+  EXPECT_NEAR(judgement.found.model.values().at(
+                "Friction/Tangential stiffness"),
+              5. * stiffness,
+              0.05 * 5. * stiffness);
 }
 
 
