@@ -178,6 +178,7 @@ namespace SlipStep
                        the_case.variants.front().label + "\"");
     check_all(the_case);
     check_output(the_case, line);
+    print_warnings(warnings_of_face(the_case));
     return the_case;
   }
 
@@ -227,6 +228,21 @@ namespace SlipStep
         warn_of_order(parameters, programme, warnings);
         warn_of_idle_speed(parameters, programme, warnings);
       }
+    return {warnings.begin(), warnings.end()};
+  }
+
+
+
+  std::vector<std::string> warnings_of_face(const Case &the_case)
+  {
+    std::set<std::string> warnings;
+    for (const Parameters &parameters : the_case.complete)
+      for (const char *key : {"Contact/Gap", "Contact/Strength"})
+        if (parameters.text(key) != parameters.entry(key).default_value)
+          warnings.insert(parameters.origin(key) +
+                          " acts on the face of a block only: a contact point, "
+                          "what is fitted by points, and the law as it is "
+                          "written are without it");
     return {warnings.begin(), warnings.end()};
   }
 

@@ -107,11 +107,7 @@ namespace SlipStep
     write_over_own(folder / (name + ".prm"),
                    law_text(parameters, law),
                    "# The law of ");
-    for (const char *key : {"Contact/Gap", "Contact/Strength"})
-      if (parameters.is_set(key))
-        print_warnings({parameters.origin(key) +
-                        " is of the face of a block: it is not in the law "
-                        "that is written"});
+    print_warnings(warnings_of_face(the_case));
     std::string written = name + ".prm";
     if (is_abaqus)
       {

@@ -106,7 +106,10 @@ namespace SlipStep
         if (is_first_rank && !line.is_child)
           print_warnings(warnings_of_programmes(the_case));
         if (is_first_rank && !line.is_child && line.command == "point")
-          print_warnings_of_point(the_case);
+          {
+            print_warnings_of_point(the_case);
+            print_warnings(warnings_of_face(the_case));
+          }
         if (is_first_rank && !line.is_child && the_case.is_sweep())
           print_warning_of_twins(the_case, line.command);
         earlier.assign(the_case.complete.size(), EarlierRun::none);

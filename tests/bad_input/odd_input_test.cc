@@ -281,6 +281,51 @@ TEST(OddInput, ASpeedThatIsNotTakenIsTold)
 
 
 
+// What a block slides with half of is not what points were fitted to.
+TEST(OddInput, AStrengthOfTheFaceIsToldWherePointsStandForTheBlock)
+{
+  const SlipstepProcess process;
+  std::string           rows = "time_s,displacement_mm,pressure_MPa,friction\n";
+  for (unsigned int i = 0; i < 40; ++i)
+    rows += std::to_string(0.1 * i) + "," + std::to_string(0.1 * i) + ",1," +
+            (i == 0    ? "0\n" :
+             i % 2 > 0 ? "0.151\n" :
+                         "0.149\n");
+  process.write("test.csv", rows);
+  const std::string fit =
+    "set Friction/Effects =\nset Calibration/Tests = test.csv\nset "
+    "Calibration/Parameters = Friction/Static coefficient from 0.05 to 0.5\n";
+  const std::string map = "set Contact/Strength = ";
+  process.write("block.prm", right + map + "0.5\n");
+  process.write("whole.prm", right + fit + map + "1\n");
+  process.write("half.prm", right + fit + map + "1 - 0.5*(x < 0.005)\n");
+  const auto is_told = [&](const std::vector<std::string> &arguments) {
+    const auto result = process.run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return contains(result.err,
+                    "Contact/Strength acts on the face of a block only");
+  };
+  for (const char *command : {"point", "export", "calibrate"})
+    {
+      EXPECT_TRUE(is_told({command, "half.prm", "--output", command}))
+        << command;
+      EXPECT_FALSE(is_told(
+        {command, "whole.prm", "--output", std::string(command) + "_whole"}))
+        << command;
+    }
+  EXPECT_TRUE(is_told({"diagnose", "half.prm", "--output", "diagnose"}));
+  EXPECT_TRUE(is_told({"check", "half.prm"}));
+  EXPECT_FALSE(is_told({"check", "block.prm"}));
+  EXPECT_FALSE(is_told({"run",
+                        "block.prm",
+                        "--set",
+                        "Block/Subdivisions=1, 1, 1",
+                        "--output",
+                        "run"}));
+}
+
+
+
 TEST(OddInput, AnEmptyEnvironmentIsEnough)
 {
   const SlipstepProcess process;

@@ -54,6 +54,10 @@ namespace SlipStep
   /// What was done to the rows of tests that programmes follow, each once.
   std::vector<std::string> warnings_of_programmes(const Case &the_case);
 
+  /// That maps of the block's face do not act on contact points, which point,
+  /// calibrate and diagnose compute, and are no part of the law.
+  std::vector<std::string> warnings_of_face(const Case &the_case);
+
   /// Where the results of a case go; of one variant, its own folder.
   std::filesystem::path chosen_output(const Case        &the_case,
                                       const CommandLine &line);
