@@ -50,6 +50,12 @@ C
           TYPE(C_PTR),VALUE :: LAW
           REAL(C_DOUBLE) :: STATE(*)
         END SUBROUTINE
+        SUBROUTINE SLIPSTEP_TURN_STATE(LAW,STATE,TURN)
+     1   BIND(C,NAME='slipstep_turn_state')
+          IMPORT :: C_PTR,C_DOUBLE
+          TYPE(C_PTR),VALUE :: LAW
+          REAL(C_DOUBLE) :: STATE(*),TURN(2,2)
+        END SUBROUTINE
         REAL(C_DOUBLE) FUNCTION SLIPSTEP_TANGENTIAL_STIFFNESS(LAW)
      1   BIND(C,NAME='slipstep_tangential_stiffness')
           IMPORT :: C_PTR,C_DOUBLE
@@ -83,6 +89,10 @@ C     An untouched point has no coefficient of friction yet.
         CALL SLIPSTEP_INITIAL_STATE(LAW,FIRST)
       ELSE
         FIRST(1:N)=STATEV(1:N)
+C       Row by row in C. Angles of anisotropy, direction and texture are
+C       counted from the slip directions as they are.
+        IF (NFDIR.EQ.2) CALL SLIPSTEP_TURN_STATE(LAW,FIRST,
+     1   TRANSPOSE(DROT))
       END IF
 C     The stress of the start comes in the axes of today.
       FIRST(1:2)=0.D0
