@@ -127,6 +127,48 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    bool is_idle(const EffectInfo &info, const Parameters &parameters)
+    {
+      return parameters.text("Calibration/Parameters").find(info.section()) ==
+               std::string::npos &&
+             !info.neutral_settings.empty() &&
+             all_of(info.neutral_settings, [&](const auto &setting) {
+               const std::string path     = info.section() + setting.first;
+               const auto       *quantity = dynamic_cast<const Quantity *>(
+                 parameters.entry(path).pattern.get());
+               return quantity == nullptr ?
+                        parameters.text(path) == setting.second :
+                        parameters.number(path) ==
+                          quantity->value(setting.second);
+             });
+    }
+
+
+
+    // One member of a sweep may be the one without the effect.
+    void warn_of_idle_effects(const Case            &the_case,
+                              std::set<std::string> &warnings)
+    {
+      const FrictionLaw law(the_case.complete.front());
+      for (const std::string &name : law.effects())
+        {
+          const EffectInfo &info = effect_registry().at(name);
+          if (all_of(the_case.complete, [&](const Parameters &parameters) {
+                return is_idle(info, parameters);
+              }))
+            warnings.insert("effect " + name +
+                            " is on but does nothing: " + info.section() +
+                            info.neutral_settings[0].first + " is " +
+                            the_case.complete.front().text(
+                              info.section() + info.neutral_settings[0].first));
+        }
+    }
+  } // namespace
+
+
+
   Case read_case(const std::filesystem::path &file, const CommandLine &line)
   {
     Parameters as_written = declared_parameters();
@@ -228,6 +270,7 @@ namespace SlipStep
         warn_of_order(parameters, programme, warnings);
         warn_of_idle_speed(parameters, programme, warnings);
       }
+    warn_of_idle_effects(the_case, warnings);
     return {warnings.begin(), warnings.end()};
   }
 

@@ -281,6 +281,40 @@ TEST(OddInput, ASpeedThatIsNotTakenIsTold)
 
 
 
+// As most are by default; where a fit or a sweep moves it, it is meant.
+TEST(OddInput, AnEffectThatDoesNothingIsTold)
+{
+  const SlipstepProcess process;
+  const auto            errors = [&](const std::string              &more,
+                          const std::vector<std::string> &options = {}) {
+    process.write("case.prm", right + more);
+    std::vector<std::string> arguments = {"check", "case.prm"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const auto result = process.run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  const std::string healing = "set Friction/Effects = subloading, healing\n";
+  const std::string rate    = "Friction/healing/Rate";
+  EXPECT_EQ(errors(healing),
+            "warning: effect healing is on but does nothing: " + rate +
+              " is 0\n");
+  EXPECT_EQ(errors(healing + "set " + rate + " = 0.1 1/s\n"), "");
+  EXPECT_EQ(errors(healing, {"--sweep", rate + "=0|0.1"}), "");
+  process.write("test.csv",
+                "time_s,displacement_mm,pressure_MPa,friction\n0,0,1,0\n"
+                "1,1,1,0.1\n2,2,1,0.11\n3,3,1,0.1\n4,4,1,0.11\n");
+  EXPECT_EQ(errors(healing + "set Calibration/Parameters = " + rate +
+                   " from 0 to 1\nset Calibration/Tests = test.csv\n"),
+            "");
+  const std::string length = "set Friction/Effects = subloading, overstress, "
+                             "memory_length\n";
+  EXPECT_NE(errors(length), "");
+  EXPECT_EQ(errors(length + "set Friction/memory_length/Form = flow\n"), "");
+}
+
+
+
 // What a block slides with half of is not what points were fitted to.
 TEST(OddInput, AStrengthOfTheFaceIsToldWherePointsStandForTheBlock)
 {

@@ -43,7 +43,7 @@ namespace SlipStep
            "speed from which the strength grows with its logarithm"},
           {{"Slip length", "L", "0.1", positive(Dimension::length)},
            "slip over which friction follows the speed"}};
-        info.neutral_settings = {{"Growth", "0"}};
+        info.neutral_settings = {{"Growth", "0"}, {"Form", "factor"}};
         info.typical_settings = {{"Growth", "0.3"},
                                  {"Speed", "0.1 mm/s"},
                                  {"Slip length", "0.02 mm"}};
