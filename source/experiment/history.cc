@@ -7,6 +7,7 @@
 
 #include <boost/algorithm/string/join.hpp>
 
+#include <cmath>
 #include <string>
 #include <type_traits>
 
@@ -175,12 +176,22 @@ namespace SlipStep
           history[row].memories[memory.slot] = table[memory.name][row];
     for (std::size_t row = 0; row < history.size(); ++row)
       {
-        std::size_t i = 0;
+        std::size_t i           = 0;
+        bool        is_infinite = false;
         for_each_column(history[row], [&](const std::string &, auto &value) {
           const std::vector<double> &column = *columns[i++];
-          if (!column.empty())
-            value = static_cast<std::decay_t<decltype(value)>>(column[row]);
+          if (column.empty())
+            return;
+          value       = static_cast<std::decay_t<decltype(value)>>(column[row]);
+          is_infinite = is_infinite || std::isinf(column[row]);
         });
+        // A ratio may be undefined, but no curve begins or ends nowhere.
+        if (is_infinite ||
+            std::isnan(history[row].time + history[row].displacement))
+          throw InputError(file.string() + ": row " + std::to_string(row + 1) +
+                           " has an infinite number, or a time or "
+                           "displacement that is none: leave it out, or run "
+                           "the case again");
       }
     return history;
   }

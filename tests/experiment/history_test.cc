@@ -187,6 +187,25 @@ TEST(History, AnUndefinedRatioSurvives)
 
 
 
+TEST(History, ARowWithoutATimeOrWithAnInfiniteNumberIsRefused)
+{
+  for (const bool is_infinite : {false, true})
+    {
+      std::vector<HistoryRow> rows(3);
+      (is_infinite ? rows[1].friction : rows[1].time) =
+        is_infinite ? HUGE_VAL : std::nan("");
+      {
+        HistoryWriter writer(history_file());
+        for (const HistoryRow &row : rows)
+          writer.write(row);
+      }
+      EXPECT_TRUE(contains(message_of([]() { read_history(history_file()); }),
+                           "history.csv: row 2 has an infinite number, or"));
+    }
+}
+
+
+
 TEST(History, AFolderThatDoesNotExistIsReported)
 {
   EXPECT_THROW(HistoryWriter("no/such/folder/history.csv"), InputError);
