@@ -20,7 +20,12 @@ namespace SlipStep
   {
     using D                                 = Dimension;
     static const std::vector<ColumnKey> all = {
-      {"Time", D::time, "Time."},
+      {"Time",
+       D::time,
+       "Time. 'NAME in clock' is that of a clock, 23:59:59.5 or 2026-11-27 "
+       "23:59:59.5, counted from midnight; without a date it goes on at the "
+       "next one. 'NAME in clock d/m' and 'm/d' say which number of 3/4/2026 "
+       "is the month."},
       {"Displacement", D::length, "Displacement, or distance slid."},
       {"Speed",
        D::speed,
@@ -223,9 +228,16 @@ namespace SlipStep
       for (const std::string &heading : table.header())
         if (heading == text) // "Stroke in mm" is its name
           name = text;
-      Source source{"", find_column(name), {}, {}};
+      Source source{"", find_column(name), {}, {}, {}};
       if (is_bare)
         return source;
+      if (dimension == Dimension::time)
+        for (const std::string order : {"", "d/m", "m/d"})
+          if (unit == "clock" + (order.empty() ? "" : " " + order))
+            {
+              source.clock.emplace(order);
+              return source;
+            }
       if (dimension == Dimension::number)
         {
           source.conversion = conversion_of_share(name, unit, source);
@@ -389,10 +401,19 @@ namespace SlipStep
   void ImportColumns::read()
   {
     std::map<std::string, std::size_t> positions;
+    std::string                        clock_column;
+    Clock                              clock;
     for (const auto &recipe : recipes)
       for (const Source &source : recipe.second.sources)
-        positions[source.label] = source.position;
-    table.read(positions);
+        {
+          positions[source.label] = source.position;
+          if (source.clock.has_value())
+            {
+              clock_column = source.label;
+              clock        = *source.clock;
+            }
+        }
+    table.read(positions, clock_column, clock);
     find_clock();
   }
 

@@ -80,6 +80,8 @@ namespace SlipStep
             column.number = i + 1;
             if (is_named)
               split_name(header[i], column.name, column.unit);
+            else if (!proposal.layout.names.empty())
+              split_name(proposal.layout.names[i], column.name, column.unit);
             if (!table.units()[i].empty())
               column.unit = table.units()[i];
             const auto &numbers = proposal.layout.numbers;
@@ -226,11 +228,13 @@ namespace SlipStep
       std::string heading_behind(const std::string &reference,
                                  const std::size_t  column) const
       {
-        if (reference == header[column] ||
-            proposal.columns[column].name.empty())
+        const std::string &name = proposal.layout.names.empty() ?
+                                    header[column] :
+                                    proposal.layout.names[column];
+        if (reference == name || proposal.columns[column].name.empty())
           return "";
         std::string heading;
-        for (const char c : header[column])
+        for (const char c : name)
           if (c >= 0x20 && c < 0x7f)
             heading += c;
           else if (heading.empty() || heading.back() != '?')
@@ -445,6 +449,20 @@ namespace SlipStep
       // Where nothing that is called so grows from row to row.
       void guess_time()
       {
+        const RecordLayout &layout = proposal.layout;
+        if (layout.clock > 0)
+          {
+            const bool is_open = layout.date_orders.size() > 1;
+            guess("Columns/Time",
+                  reference(layout.clock - 1) + " in clock" +
+                    (layout.date_orders[0].empty() ?
+                       "" :
+                       " " + layout.date_orders[0]),
+                  std::string("times of a clock") +
+                    (is_open ? "; or is the month first, 'in clock m/d'?" : ""),
+                  is_open);
+            return;
+          }
         for (std::size_t i = 0; i < values.size(); ++i)
           {
             const SeenColumn          &seen = proposal.columns[i];
@@ -474,8 +492,7 @@ namespace SlipStep
         else
           guess("Columns/Time",
                 "column 1 in s",
-                "no column of increasing numbers is called like a time (clock "
-                "times have to be made seconds before)",
+                "no column of increasing numbers is called like a time",
                 true);
       }
 

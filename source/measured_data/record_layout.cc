@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/record_layout.h>
+#include <slipstep/utilities/clock.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <regex>
 #include <set>
 
 namespace SlipStep
@@ -242,13 +244,22 @@ namespace SlipStep
       return line;
     }
 
+    // "Cycle 1"
+    bool is_word_alone(const std::string_view line, const char delimiter)
+    {
+      return delimiter != ' ' &&
+             std::isalpha(static_cast<unsigned char>(line[0])) != 0 &&
+             n_filled_in(cells_of(line, delimiter)) == 1;
+    }
+
     void find_header(const std::vector<std::string> &lines,
                      const TableFound               &table,
                      RecordLayout                   &layout)
     {
       std::size_t line = layout.first_row - 1; // counted from 1: the one before
       const auto  go_up = [&]() {
-        while (line > 0 && without_blanks(lines[line - 1]).empty())
+        while (line > 0 && (without_blanks(lines[line - 1]).empty() ||
+                            is_word_alone(lines[line - 1], layout.delimiter)))
           --line;
       };
       const auto cells = [&]() {
@@ -274,6 +285,42 @@ namespace SlipStep
       layout.has_unclear_header = header.size() > layout.n_cells + n_comments ||
                                   header.size() < table.n_filled;
       layout.header_line = line;
+      if (!layout.has_unclear_header || layout.delimiter != ' ')
+        return;
+      // "Time [s]   Normal load [N]"
+      const std::string text(without_blanks(without_hash(lines[line - 1])));
+      const std::regex  between("\\s\\s+|\t");
+      layout.names = {
+        std::sregex_token_iterator(text.begin(), text.end(), between, -1), {}};
+      if (layout.names.size() != layout.n_cells)
+        layout.names.clear();
+    }
+
+
+
+    void find_clock_column(const std::vector<std::string> &lines,
+                           const TableFound               &table,
+                           RecordLayout                   &layout)
+    {
+      const Cells first = cells_of(lines[table.first], layout.delimiter);
+      for (std::size_t k = 0; k < layout.n_cells && layout.clock == 0; ++k)
+        for (const std::string order : {"", "d/m", "m/d"})
+          {
+            if (first[k].find(':') == std::string_view::npos)
+              continue;
+            Clock       clock(order);
+            std::size_t n_read = 0;
+            for (std::size_t i = table.first; i < lines.size(); ++i)
+              if (table.is_row[i])
+                n_read += clock.seconds(cells_of(lines[i], layout.delimiter)[k])
+                            .has_value();
+            if (2 * n_read <= table.n_rows)
+              continue;
+            layout.clock = k + 1;
+            layout.date_orders.push_back(order);
+            if (order.empty())
+              break;
+          }
     }
 
     // "Test completed at 17:10": the words that such a line begins with.
@@ -283,12 +330,15 @@ namespace SlipStep
     {
       constexpr std::size_t most_marks = 5;
       std::set<std::string> marks;
-      for (std::size_t i = table.first; i < lines.size(); ++i)
+      const std::size_t     begin =
+        layout.header_line > 0 ? layout.header_line : table.first;
+      for (std::size_t i = begin; i < lines.size(); ++i)
         {
           std::string_view line = without_blanks(lines[i]);
           line.remove_prefix(
             std::min(line.find_first_not_of('"'), line.size()));
-          if (table.is_row[i] || line.empty() || line[0] == '#' ||
+          if (table.is_row[i] || i + 1 == layout.units_line || line.empty() ||
+              line[0] == '#' ||
               std::isalpha(static_cast<unsigned char>(line[0])) == 0)
             continue;
           const std::string_view mark = without_blanks(
@@ -407,6 +457,7 @@ namespace SlipStep
     find_header(lines, best, layout);
     find_other_lines(lines, best, layout);
     find_numbers(lines, best, layout);
+    find_clock_column(lines, best, layout);
     return layout;
   }
 } // namespace SlipStep

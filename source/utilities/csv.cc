@@ -97,11 +97,14 @@ namespace SlipStep
   {
     bool is_gap(const std::string_view cell)
     {
-      // Most are numbers, but for those as Windows has them: "-1.#IND00".
-      const bool is_of_windows = cell.find(".#") != std::string_view::npos;
-      if (is_of_windows ||
+      // Most are numbers, but for those as Windows has them: "-1.#IND00"; and
+      // but for ">6.3", out of range.
+      const bool is_none =
+        cell.find(".#") != std::string_view::npos ||
+        (!cell.empty() && (cell[0] == '>' || cell[0] == '<'));
+      if (is_none || cell.empty() ||
           std::isdigit(static_cast<unsigned char>(cell.back())) != 0)
-        return is_of_windows;
+        return is_none || cell.empty();
       // "---", "**", "--.--"
       if (cell.find_first_not_of("-*.?#_~") == std::string_view::npos)
         return true;
@@ -109,11 +112,11 @@ namespace SlipStep
         return false;
       // As loggers and spreadsheets have them.
       static const std::set<std::string> gaps = {
-        "nan",    "na",      "n/a",      "null",     "none",
-        "nil",    "#n/a",    "#na",      "#nv",      "#value!",
-        "#num!",  "#div/0!", "overflow", "overload", "overrange",
-        "ovrflw", "ovld",    "ol",       "ovl",      "ovr",
-        "error",  "err",     "invalid",  "missing",  "bad"};
+        "nan",      "na",       "n/a",       "null",    "none",      "nil",
+        "#n/a",     "#na",      "#nv",       "#value!", "#num!",     "#div/0!",
+        "overflow", "overload", "overrange", "ovrflw",  "ovld",      "ol",
+        "ovl",      "ovr",      "over",      "under",   "underflow", "error",
+        "err",      "invalid",  "missing",   "bad"};
       return gaps.count(lower_case(cell)) > 0;
     }
 
@@ -379,10 +382,13 @@ namespace SlipStep
 
 
 
-  void CsvTable::read(const std::map<std::string, std::size_t> &wanted)
+  void CsvTable::read(const std::map<std::string, std::size_t> &wanted,
+                      const std::string                        &clock_column,
+                      const Clock                              &its_clock)
   {
+    clock = its_clock;
     for (const auto &[name, position] : wanted)
-      columns.push_back({name, position, {}});
+      columns.push_back({name, position, {}, name == clock_column});
     sort(columns, [](const Column &a, const Column &b) {
       return a.position < b.position;
     });
@@ -445,8 +451,8 @@ namespace SlipStep
                "file/Thousands mark";
     if (cell.find_first_of("0123456789") < cell.find(':') &&
         cell.find(':') != std::string_view::npos)
-      return "; clock times and dates are not read: write seconds from the "
-             "start instead";
+      return "; if these are times of a clock, a map of slipstep import says "
+             "so: Columns/Time = NAME in clock";
     const bool has_letter = any_of(cell, [](const char c) {
       return std::isalpha(static_cast<unsigned char>(c)) != 0;
     });
@@ -465,12 +471,26 @@ namespace SlipStep
 
 
   double CsvTable::read_cell(const std::string_view cell,
-                             const std::size_t      column) const
+                             const std::size_t      column)
   {
     double      value = 0.;
     const auto &name  = columns[column].name;
     if (format.may_have_gaps && is_gap(cell))
       return std::numeric_limits<double>::quiet_NaN();
+    if (columns[column].has_clock)
+      {
+        if (const auto seconds = clock.seconds(cell))
+          return *seconds;
+        fail(
+          cell.data(),
+          "'" + std::string(cell) +
+            "' is no time of a clock, as 23:59:59.5 "
+            "or 2026-11-27 23:59:59.5 (" +
+            name +
+            "); which number of a date "
+            "like 3/4/2026 is the month, a map of slipstep import says by 'in "
+            "clock d/m' or 'in clock m/d'");
+      }
 
     std::string_view number = cell;
     std::string      plain;

@@ -2,6 +2,8 @@
 
 // Which lines of a raw file are rows, and by which clock.
 
+#include <slipstep/measured_data/import_proposal.h>
+
 #include "imported.h"
 
 using namespace SlipStep;
@@ -59,4 +61,116 @@ TEST(Import, ABeginBehindTheEndIsRefusedWhereItStands)
   expect_refused(settings,
                  write("a.csv", "t,x,mu\n0,0,0\n1,1,0.1\n"),
                  "Selection/End = 0.5 s: this is before Selection/Begin");
+}
+
+
+
+// Over midnight, noon, the end of a month, a change of zone and long pauses.
+TEST(Import, TimesOfAClockAreRead)
+{
+  struct Times
+  {
+    std::string         clock, first, second, third;
+    std::vector<double> expected;
+  };
+  for (const Times &times : std::vector<Times>{
+         {"", "23:59:59.25", "23:59:59.75", "00:00:01", {0., 0.5, 1.75}},
+         {"", "06:00:00", "20:00:00,5", "02:00:00", {0., 50400.5, 72000.}},
+         {"", "9:59:59:500", "10:00:00:000", "10:00:02:125", {0., 0.5, 2.625}},
+         {"", "23:59:59", "24:00:00", "100:00:00", {0., 1., 273601.}},
+         {"", "11:59:59 AM", "12:00:01 PM", "12:00:00 am", {0., 2., 43201.}},
+         {"",
+          "2026-02-28T23:59:59Z",
+          "2026-03-01T00:00:01Z",
+          "2026-03-03 00:00:01Z",
+          {0., 2., 2. + 2. * 86400.}},
+         {"",
+          "2026-10-25 02:59:59.5+02:00",
+          "2026-10-25 02:00:00+01:00",
+          "2026-10-25 02:00:01+01:00",
+          {0., 0.5, 1.5}},
+         {"",
+          "31.12.2026 23:59:59",
+          "01.01.2027 00:00:00",
+          "1.1.27 00:00:01",
+          {0., 1., 2.}},
+         {" d/m",
+          "30/04/2026 23:59:59",
+          "01/05/2026 00:00:00",
+          "02/05/2026 00:00:00",
+          {0., 1., 86401.}},
+         {" m/d",
+          "4/30/26 11:59:59 p.m.",
+          "5/1/26 12:00:00 a.m.",
+          "5-1-2026, 12:00:01 a.m.",
+          {0., 1., 2.}}})
+    {
+      const fs::path raw =
+        write("clock.csv",
+              "t;x;mu\n" + times.first + ";0;0\n" + times.second + ";1;0\n" +
+                times.third + ";2;0\n");
+      EXPECT_EQ(import_test(map_of(simple_with("Columns/Time",
+                                               "t in clock" + times.clock)),
+                            raw)
+                  .time,
+                times.expected)
+        << times.first;
+    }
+}
+
+
+
+TEST(Import, WhatIsNoTimeOfAClockIsRefused)
+{
+  for (const std::string text : {"5",
+                                 "10:00",
+                                 "10:60:00",
+                                 "13:00:00 AM",
+                                 "30.02.2026 10:00:00",
+                                 "27.11.2026 24:00:00",
+                                 "3/4/2026 10:00:00",
+                                 "2026-11/27 10:00:00"})
+    EXPECT_TRUE(
+      contains(message(map_of(simple_with("Columns/Time", "t in clock")),
+                       write("a.csv", "t;x;mu\n" + text + ";0;0\n")),
+               "a.csv:2:1: '" + text + "' is no time of a clock"))
+      << text;
+  EXPECT_TRUE(
+    contains(message(map_of(simple_with("Columns/Displacement", "x in clock")),
+                     write("a.csv", "t;x;mu\n0;0;0\n")),
+             "unit"));
+}
+
+
+
+TEST(Import, ClocksAndHeadersOfSeveralWordsAreProposed)
+{
+  const auto proposal = [](const std::string &text) {
+    return propose_import(write("raw.txt", text)).text();
+  };
+  const auto clock = [&](const std::string &one, const std::string &other) {
+    return proposal("Uhrzeit;Weg [mm];Reibkraft [N];Last [N]\n" + one +
+                    ";0;0;5\n" + other + ";1;1;5\n" + other + ";2;1;5\n");
+  };
+  EXPECT_TRUE(contains(clock("10:00:00,5", "10:00:01,0"),
+                       "\n  set Time = Uhrzeit in clock\n"));
+  EXPECT_TRUE(contains(clock("11/27/2026 10:00:00", "11/27/2026 10:00:01"),
+                       "\n  set Time = Uhrzeit in clock m/d\n"));
+  EXPECT_TRUE(contains(clock("3/4/2026 10:00:00", "3/4/2026 10:00:01"),
+                       "\n  # set Time = Uhrzeit in clock d/m\n"));
+
+  const std::string tribometer =
+    proposal("Tribometer\n\nTime [s]   Sliding distance [mm]   Friction force "
+             "[N]   Load [N]\n 0.0  0.0  0.0  5\n 0.1  1.0  1.0  5\n");
+  EXPECT_TRUE(contains(tribometer, "\n  set Time = column 1 in s\n"));
+  EXPECT_TRUE(contains(tribometer, "\n  set Displacement = column 2 in mm\n"));
+  EXPECT_TRUE(
+    contains(tribometer, "\n  set Tangential load = column 3 in N\n"));
+  EXPECT_TRUE(contains(tribometer, "\n  set Normal load = column 4 in N\n"));
+
+  const std::string cycles =
+    proposal("t [s];x [mm];mu [-]\nCycle 1\n0;0;0\n1;1;0.1\nCycle 2\n"
+             "2;0;-0.1\n3;1;>0.2\n4;2;OVER\n5;3;0.1\n");
+  EXPECT_TRUE(contains(cycles, "\n  set Comment marks = Cycle\n"));
+  EXPECT_TRUE(contains(cycles, "\n  set Friction = mu [-]\n"));
 }

@@ -209,8 +209,8 @@ TEST(Import, FaultsOfTheRecordAreLocated)
              "a.csv:3:5: 'O.1' is not a number"));
   EXPECT_TRUE(contains(
     message(map_of(simple), write("a.csv", head + "09:59:30,1,0.1\n")),
-    "a.csv:3:1: '09:59:30' is not a number (Time); clock times and dates are "
-    "not read: write seconds from the start instead"));
+    "a.csv:3:1: '09:59:30' is not a number (Time); if these are times of a "
+    "clock, a map of slipstep import says so: Columns/Time = NAME in clock"));
   EXPECT_TRUE(
     contains(message(map_of(simple), write("a.csv", head + "1,1,-0.1\n")),
              "a.csv:3:5: friction drives the motion"));

@@ -72,6 +72,7 @@ namespace SlipStep
       std::size_t              position;
       UnitConversion           conversion;
       std::optional<Dimension> dimension; ///< none: the bare number
+      std::optional<Clock>     clock;     ///< whose times it has
     };
 
     /// What the values of a key are made of.

@@ -26,8 +26,15 @@ namespace SlipStep
     bool has_doubtful_marks = false;
     /// Whether names have blanks, so that there are more words than columns.
     bool has_unclear_header = false;
+    /// Of such a header the names of the columns, if two blanks or more part
+    /// as many as there are columns; else none.
+    std::vector<std::string> names;
     /// Columns with numbers, counted from 0.
     std::vector<std::size_t> numbers;
+    /// The first column with times of a clock, counted from 1, and the orders
+    /// of day and month that they may have, see Clock.
+    std::size_t              clock = 0;
+    std::vector<std::string> date_orders;
   };
 
   /// Look for the largest table of numbers in a text file.

@@ -2,6 +2,7 @@
 #ifndef slipstep_utilities_csv_h
 #define slipstep_utilities_csv_h
 
+#include <slipstep/utilities/clock.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <filesystem>
@@ -89,7 +90,11 @@ namespace SlipStep
     /// Read the rows.
     /// @param columns position in the header of each column wanted, by the name
     ///   that it is to have here
-    void read(const std::map<std::string, std::size_t> &columns);
+    /// @param clock_column the name here of one with times of a clock
+    /// @param clock reads them
+    void read(const std::map<std::string, std::size_t> &columns,
+              const std::string                        &clock_column = "",
+              const Clock                              &clock        = Clock());
 
     /// Of the file.
     std::string name() const
@@ -159,8 +164,7 @@ namespace SlipStep
 
     void read_row(const std::vector<std::string_view> &cells);
 
-    double read_cell(const std::string_view cell,
-                     const std::size_t      column) const;
+    double read_cell(const std::string_view cell, const std::size_t column);
 
     std::string why_no_number(const std::string_view cell) const;
 
@@ -205,7 +209,9 @@ namespace SlipStep
       std::string         name;
       std::size_t         position;
       std::vector<double> values;
+      bool                has_clock = false;
     };
+    Clock                      clock;
     std::vector<Column>        columns;
     std::map<std::string, int> index_of_column;
 
