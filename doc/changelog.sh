@@ -14,5 +14,6 @@ for file in $(ls -r [0-9]*.md); do
     day=${file%%-*}
     printf '\n## %s\n\n' "$(echo "$day" | sed 's/\(....\)\(..\)/\1-\2-/')"
   fi
-  sed -e '1s/^/- /' -e '2,$s/^\(.\)/  \1/' "$file"
+  # One item, or a list of them.
+  sed -E -e '1s/^(- )?/- /' -e '2,$s/^([^- ]|-[^ ])/  \1/' "$file"
 done
