@@ -55,9 +55,9 @@ namespace SlipStep::Testing
     return out.str();
   }
 
-  // Of a test with one axis.
-  inline std::string with_friction_times(const double       factor,
-                                         const std::string &text)
+  // Of a test with one axis, row by row.
+  inline std::string with_friction(const std::function<double(double)> &changed,
+                                   const std::string                   &text)
   {
     std::istringstream in(text);
     std::ostringstream out;
@@ -70,31 +70,27 @@ namespace SlipStep::Testing
           out << line << '\n';
         else
           out << line.substr(0, comma + 1)
-              << factor * std::stod(line.substr(comma + 1)) << '\n';
+              << changed(std::stod(line.substr(comma + 1))) << '\n';
       }
     return out.str();
   }
 
-  // Of a test with one axis, whose sensor moves by a share to what it sees.
+  inline std::string with_friction_times(const double       factor,
+                                         const std::string &text)
+  {
+    return with_friction(
+      [=](const double friction) { return factor * friction; }, text);
+  }
+
+  // Of a sensor that moves by a share to what it sees.
   inline std::string slowed(const double share, const std::string &text)
   {
-    std::istringstream in(text);
-    std::ostringstream out;
-    std::string        line;
-    double             shown = 0.;
-    out.precision(10);
-    while (std::getline(in, line))
-      {
-        const std::size_t comma = line.rfind(',');
-        if (line[0] == '#' || line.find("time") != std::string::npos)
-          out << line << '\n';
-        else
-          {
-            shown += share * (std::stod(line.substr(comma + 1)) - shown);
-            out << line.substr(0, comma + 1) << shown << '\n';
-          }
-      }
-    return out.str();
+    double shown = 0.;
+    return with_friction(
+      [&](const double friction) {
+        return shown += share * (friction - shown);
+      },
+      text);
   }
 
   // Of a sensor that shows that much without any friction.
