@@ -190,7 +190,9 @@ namespace SlipStep
     const auto traction = [&](const StageRecord  &stage,
                               const Tensor<1, 2> &change) {
       const Tensor<1, 2> rigid = stage.response.d_slip * change;
-      Tensor<2, 2>       both  = compliance * stage.response.d_slip;
+      if (compliance == 0.)
+        return rigid.norm();
+      Tensor<2, 2> both = compliance * stage.response.d_slip;
       both[0][0] += 1.;
       both[1][1] += 1.;
       return determinant(both) > 0. ?
