@@ -434,8 +434,9 @@ void slipstep_turn_state(const slipstep_law *const law,
   };
   SlipStep::ContactState result = law->numbers.read(state);
   turned(result.traction[0], result.traction[1]);
-  turned(result[SlipStep::contact_memory("core_1")],
-         result[SlipStep::contact_memory("core_2")]);
+  for (const SlipStep::ContactMemory &memory : law->law.memories())
+    if (memory.across != nullptr)
+      turned(result[memory], result[SlipStep::contact_memory(memory.across)]);
   law->numbers.write(result, state);
 }
 
