@@ -123,12 +123,9 @@ namespace SlipStep
         warnings.insert(origin + " is not used: Loading/Programme has no "
                                  "'slide' without a speed of its own");
     }
-  } // namespace
 
 
 
-  namespace
-  {
     bool is_idle(const EffectInfo &info, const Parameters &parameters)
     {
       return parameters.text("Calibration/Parameters").find(info.section()) ==

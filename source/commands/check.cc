@@ -123,7 +123,7 @@ namespace SlipStep
       std::set<std::string> campaigns;
       for (const Parameters &parameters : the_case.complete)
         campaigns.insert(check_campaign(parameters));
-      if (campaigns.size() > 1 || !campaigns.begin()->empty())
+      if (campaigns != std::set<std::string>{""})
         print_warnings(warnings_of_face(the_case));
       if (line.quiet)
         return;

@@ -42,8 +42,9 @@ namespace SlipStep
   /// @throws InputError
   Case read_case(const std::filesystem::path &file, const CommandLine &line);
 
-  /// The same for a command that takes one case: checked, with a folder for
-  /// its results that may be written.
+  /// The same for a command that takes one case and fits points to it: checked,
+  /// with a folder for its results that may be written, and with a warning of
+  /// what points do not have.
   /// @throws InputError, also for a sweep
   Case read_single_case(const CommandLine &line);
 
