@@ -419,8 +419,16 @@ TEST(Machine, is_checked_when_read)
 // extrapolated, 1e-8).
 TEST(Machine, an_event_that_friction_bounds_is_no_jump)
 {
-  for (const auto &[tolerance, most_rows] :
-       {std::make_pair("2e-4", 600), std::make_pair("2e-5", 2000)})
+  struct Run
+  {
+    const char *tolerance;
+    unsigned    most_rows;
+    double      balance, time;
+  };
+  for (const auto &[tolerance, most_rows, balance, time] :
+       {Run{"1e-3", 300, 1e-5, 2.},
+        Run{"2e-4", 600, 4e-6, 0.5},
+        Run{"2e-5", 2000, 4e-7, 0.5}})
     {
       const auto history =
         drive({{"Friction/Effects", "subloading, overstress, ageing"},
@@ -450,11 +458,11 @@ TEST(Machine, an_event_that_friction_bounds_is_no_jump)
             }
         }
       EXPECT_NEAR(least, 0.62835, 1e-4) << tolerance;
-      EXPECT_NEAR(time_of_peak, 1629., 0.5) << tolerance;
+      EXPECT_NEAR(time_of_peak, 1629., time) << tolerance;
       EXPECT_LT(history.size(), most_rows) << tolerance;
       const HistoryRow &end = history.back();
       EXPECT_NEAR(end.external_work,
                   end.stored_energy + end.dissipated_energy,
-                  5e-6 * end.external_work);
+                  balance * end.external_work);
     }
 }

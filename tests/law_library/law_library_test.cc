@@ -206,7 +206,7 @@ TEST_P(LawLibrary, TheUserSubroutineRepeatsThePoint)
               std::max(largest, std::abs(row[i] - increment.traction[i]));
           EXPECT_GE(row[8], 0.);
         }
-      EXPECT_LT(largest, turn > 0. ? 1e-6 : 1e-10);
+      EXPECT_LT(largest, 1e-10);
       std::cout << "largest difference " << largest << " MPa" << std::endl;
     }
 
