@@ -473,7 +473,7 @@ namespace SlipStep
     for (std::size_t i = 0; i < runs.size(); ++i)
       {
         const std::size_t size =
-          runs[i].contact_face ? runs[i].contact_face->size() : 0;
+          runs[i].contact_face ? runs[i].contact_face->cells.size() : 0;
         if (size == 0 || (n_cells > 0 && n_cells + size > most_cells))
           continue;
         (n_cells > 0 ? figures.folded : figures.shown) += draw_face(figures, i);

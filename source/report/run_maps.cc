@@ -175,19 +175,21 @@ namespace SlipStep
     }
 
     /// A line per cell: its centre, half its size, and the fields.
-    Rows cells_of(const CsvTable             &face,
+    Rows cells_of(const FaceTable            &table,
                   const std::array<Field, 2> &fields,
                   const bool                  is_line)
     {
+      const CsvTable &face = table.cells;
+      const auto &[x, y]   = table.axes;
       Rows rows;
       for (std::size_t i = 0; i < face.size(); ++i)
         {
-          std::vector<double> row = {face["x_mm"][i]};
+          std::vector<double> row = {face[x + "_mm"][i]};
           if (!is_line)
             row.insert(row.end(),
-                       {face["y_mm"][i],
-                        0.5 * face["cell_size_x_mm"][i],
-                        0.5 * face["cell_size_y_mm"][i]});
+                       {face[y + "_mm"][i],
+                        0.5 * face["cell_size_" + x + "_mm"][i],
+                        0.5 * face["cell_size_" + y + "_mm"][i]});
           for (const Field &field : fields)
             row.push_back(field.factor *
                           (face[field.column][i] - field.offset));
@@ -199,19 +201,32 @@ namespace SlipStep
     }
 
     /// Along an axis, with the whole of the outer cells.
-    Range extent_of(const Rows &cells, const unsigned int axis)
+    Range extent_of(const FaceTable &face, const unsigned int axis)
     {
-      Range range;
-      for (const auto &cell : cells)
-        for (const double sign : {-1., 1.})
-          range.add(cell[axis] + sign * cell[axis + 2]);
+      const auto &centres = face.cells[face.axes[axis] + "_mm"];
+      const auto &sizes   = face.cells["cell_size_" + face.axes[axis] + "_mm"];
+      Range       range;
+      for (std::size_t i = 0; i < centres.size(); ++i)
+        for (const double sign : {-0.5, 0.5})
+          range.add(centres[i] + sign * sizes[i]);
       return range;
+    }
+
+    /// The x axis of a picture, with texts that keep apart.
+    std::string x_axis_of(const FaceTable &face)
+    {
+      const Range        x = extent_of(face, 0);
+      std::ostringstream text;
+      text << "set xlabel '" << face.axes[0] << "  [mm]'\nset xrange " << x
+           << '\n'
+           << few_tics('x', x.lower, x.upper, false);
+      return text.str();
     }
 
     /// Two maps side by side, in the proportions of the face.
     void draw_maps(std::ostream               &script,
                    const std::string          &data,
-                   const Rows                 &cells,
+                   const FaceTable            &face,
                    const std::array<Field, 2> &fields,
                    const double                height)
     {
@@ -219,10 +234,9 @@ namespace SlipStep
                 "3 '#22a884', 4 '#7ad151', 5 '#fde725')\n"
                 "set border 15 lw 1 lc rgb '#444444'\nunset key\n"
                 "set tics out nomirror scale 0.6\nset size ratio -1\n"
-                "set xlabel 'x  [mm]'\nset ylabel 'y  [mm]' offset 1.5\n"
-                "set multiplot\n"
-             << "set xrange " << extent_of(cells, 0) << "\nset yrange "
-             << extent_of(cells, 1) << '\n';
+             << "set ylabel '" << face.axes[1] << "  [mm]' offset 1.5\n"
+             << "set multiplot\n"
+             << x_axis_of(face) << "set yrange " << extent_of(face, 1) << '\n';
       for (unsigned int k = 0; k < 2; ++k)
         script << "set lmargin at screen " << 0.085 + 0.5 * k
                << "\nset rmargin at screen " << 0.41 + 0.5 * k
@@ -237,10 +251,11 @@ namespace SlipStep
     /// In two dimensions the face is a line.
     void draw_lines(std::ostream               &script,
                     const std::string          &data,
+                    const FaceTable            &face,
                     const std::array<Field, 2> &fields)
     {
-      script << axes_style
-             << "unset key\nset multiplot layout 1,2\nset xlabel 'x  [mm]'\n";
+      script << axes_style << "unset key\nset multiplot layout 1,2\n"
+             << x_axis_of(face);
       for (unsigned int k = 0; k < 2; ++k)
         script << "set ylabel " << gnuplot_text(fields[k].label)
                << "\nset yrange " << with_margin(fields[k].range, 0.05)
@@ -282,21 +297,24 @@ namespace SlipStep
 
   std::string draw_face(const RunFigures &figures, const std::size_t run)
   {
-    const CsvTable            &face   = *figures.runs[run].contact_face;
+    const FaceTable &face             = *figures.runs[run].contact_face;
+    const auto &[x, y]                = face.axes;
     const std::array<Field, 2> fields = {
-      field_of(face, "pressure_MPa", "Pressure", "MPa"),
-      field_of(face, "slip_mm", "Slip", "mm")};
-    const auto &sizes   = face["cell_size_y_mm"];
+      field_of(face.cells, "pressure_MPa", "Pressure", "MPa"),
+      field_of(face.cells, "slip_mm", "Slip", "mm")};
+    const auto &sizes   = face.cells["cell_size_" + y + "_mm"];
     const bool  is_line = *std::max_element(sizes.begin(), sizes.end()) <= 0.;
     const Rows  cells   = cells_of(face, fields, is_line);
-    std::vector<std::string> columns = {"x_mm"};
+    std::vector<std::string> columns = {x + "_mm"};
     double                   height  = 320.;
     if (!is_line)
       {
         columns.insert(columns.end(),
-                       {"y_mm", "half_size_x_mm", "half_size_y_mm"});
-        height = std::clamp(280. * extent_of(cells, 1).width() /
-                              extent_of(cells, 0).width(),
+                       {y + "_mm",
+                        "half_size_" + x + "_mm",
+                        "half_size_" + y + "_mm"});
+        height = std::clamp(280. * extent_of(face, 1).width() /
+                              extent_of(face, 0).width(),
                             60.,
                             400.) +
                  130.;
@@ -310,9 +328,9 @@ namespace SlipStep
     const std::string data =
       figure.add_data("contact face of " + name, columns, cells);
     if (is_line)
-      draw_lines(figure.script(), data, fields);
+      draw_lines(figure.script(), data, face, fields);
     else
-      draw_maps(figure.script(), data, cells, fields, height);
+      draw_maps(figure.script(), data, face, fields, height);
     figure.script() << "unset multiplot\n";
     return figures.page.draw(figure,
                              "Contact face, " + name,

@@ -22,13 +22,26 @@ namespace SlipStep
   {
     constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-    const std::vector<std::string> face_columns = {"x_mm",
-                                                   "y_mm",
-                                                   "cell_size_x_mm",
-                                                   "cell_size_y_mm",
-                                                   "area_mm2",
-                                                   "pressure_MPa",
-                                                   "slip_mm"};
+    FaceTable read_face(const std::filesystem::path &file)
+    {
+      // Its columns tell which face it is: y and z of the left one.
+      const auto                 names = CsvTable(file, CsvFormat()).header();
+      std::array<std::string, 2> axes  = {{"x", "y"}};
+      for (unsigned int i = 0; i < 2 && i < names.size(); ++i)
+        if (names[i] == "y_mm" || names[i] == "z_mm")
+          axes[i] = names[i].substr(0, 1);
+      return {CsvTable(file,
+                       {axes[0] + "_mm",
+                        axes[1] + "_mm",
+                        "cell_size_" + axes[0] + "_mm",
+                        "cell_size_" + axes[1] + "_mm",
+                        "area_mm2",
+                        "pressure_MPa",
+                        "slip_mm"}),
+              axes};
+    }
+
+
 
     /// A bare number is in mm/min, as in the formula.
     double read_speed(const std::string &text)
@@ -444,7 +457,7 @@ namespace SlipStep
               " rows that it had when summary.json was written");
           const auto face = run.folder / "contact_face.csv";
           if (std::filesystem::exists(face))
-            result.contact_face.emplace(face, face_columns);
+            result.contact_face = read_face(face);
           results.push_back(std::move(result));
         }
       catch (const InputError &error)

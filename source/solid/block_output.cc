@@ -99,16 +99,30 @@ namespace SlipStep
       std::function<double(const ContactState &, const double)> value;
     };
 
-    std::vector<FaceField> face_fields(const FrictionLaw    &law,
-                                       const GapAndStrength &surface)
+    // Of the contact face, as the block calls them. In 2-D the second one is
+    // across the face, and all along it is zero.
+    std::array<std::string, 2> face_axes(const BlockParameters &parameters)
+    {
+      const unsigned int first = parameters.tangential_axis(0);
+      const unsigned int second =
+        parameters.dimension == 2 ? first + 1 : parameters.tangential_axis(1);
+      return {{std::string(1, "xyz"[first]), std::string(1, "xyz"[second])}};
+    }
+
+
+
+    std::vector<FaceField> face_fields(const FrictionLaw     &law,
+                                       const BlockParameters &parameters)
     {
       using State                   = ContactState;
+      const GapAndStrength &surface = parameters.surface;
+      const auto [first, second]    = face_axes(parameters);
       std::vector<FaceField> fields = {
         {"pressure_MPa",
          [](const State &s, const double) { return s.normal_traction; }},
-        {"traction_x_MPa",
+        {"traction_" + first + "_MPa",
          [](const State &s, const double) { return s.traction[0]; }},
-        {"traction_y_MPa",
+        {"traction_" + second + "_MPa",
          [](const State &s, const double) { return s.traction[1]; }},
         {"slip_mm", [](const State &s, const double) { return s.slip_path; }},
         {"r", [](const State &s, const double) { return s.loading_ratio; }},
@@ -146,11 +160,11 @@ namespace SlipStep
     {
     public:
       ContactPatches(const ContactFace<dim>       &contact,
-                     const GapAndStrength         &surface,
+                     const BlockParameters        &parameters,
                      const dealii::Vector<double> &squared_errors)
         : names({"slips", squared_error})
       {
-        const auto fields = face_fields(contact.friction_law(), surface);
+        const auto fields = face_fields(contact.friction_law(), parameters);
         for (const FaceField &field : fields)
           names.push_back(field.name);
         const FE_DGQ<dim - 1> corners(1);
@@ -336,9 +350,7 @@ namespace SlipStep
                                   const dealii::Vector<double> &squared_errors,
                                   const double                  time)
   {
-    const ContactPatches<dim> patches(contact,
-                                      parameters.surface,
-                                      squared_errors);
+    const ContactPatches<dim> patches(contact, parameters, squared_errors);
     const bool                has_cells = !contact.cell_faces().empty();
     write_patches("contact", patches, has_cells, contact_files, time);
   }
@@ -427,8 +439,8 @@ namespace SlipStep
   BlockOutput<dim>::write_contact_table(const ContactFace<dim> &contact) const
   {
     // Position, sizes and area of a cell, then its averages.
-    using Row         = std::vector<double>;
-    const auto fields = face_fields(contact.friction_law(), parameters.surface);
+    using Row               = std::vector<double>;
+    const auto       fields = face_fields(contact.friction_law(), parameters);
     std::vector<Row> rows;
     for (const auto &cell_face : contact.cell_faces())
       {
@@ -462,7 +474,9 @@ namespace SlipStep
     });
 
     std::ostringstream out;
-    out << "x_mm,y_mm,cell_size_x_mm,cell_size_y_mm,area_mm2";
+    const auto [first, second] = face_axes(parameters);
+    out << first << "_mm," << second << "_mm,cell_size_" << first
+        << "_mm,cell_size_" << second << "_mm,area_mm2";
     for (const FaceField &field : fields)
       out << ',' << field.name;
     out << '\n';

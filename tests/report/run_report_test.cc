@@ -128,6 +128,29 @@ TEST(Report, ThePageIsCompleteInItself)
 
 
 
+// Of a block on its side, and 2 m long.
+TEST(Report, TheContactFaceHasTheAxesOfTheBlock)
+{
+  const ReportedRun run = make_run(1., "on its side");
+  write_face(run, "y", "z", 500.);
+  EXPECT_TRUE(none_of(write_report(test_folder(), parameters_with({}), {run}),
+                      [](const std::string &warning) {
+                        return contains(warning, "contact_face");
+                      }));
+  const std::string script =
+    content(test_folder() / "report" / "contact_face_1.gp");
+  has_all(script,
+          {"set xlabel 'y  [mm]'",
+           "set ylabel 'z  [mm]'",
+           "set xrange [0:2000]",
+           "set xtics 500\n",
+           "set yrange [0:1500]"});
+  EXPECT_TRUE(contains(content(test_folder() / "report" / "contact_face_1.dat"),
+                       "half_size_z_mm"));
+}
+
+
+
 TEST(Report, NamesOfRunsSayWhatDiffersAndFindRoom)
 {
   const auto page_and_script = [](const std::vector<std::string> &labels) {

@@ -82,15 +82,21 @@ namespace SyntheticRuns
     return {label, folder};
   }
 
-  inline void write_face(const ReportedRun &run)
+  /// Of cells as wide as that [mm] along the axes of the face.
+  inline void write_face(const ReportedRun &run,
+                         const std::string &x     = "x",
+                         const std::string &y     = "y",
+                         const double       width = 1.)
   {
     std::ofstream out(run.folder / "contact_face.csv");
-    out << "x_mm,y_mm,cell_size_x_mm,cell_size_y_mm,area_mm2,pressure_MPa,"
-           "traction_x_MPa,traction_y_MPa,slip_mm,r,r_s,mu\n";
+    out << x << "_mm," << y << "_mm,cell_size_" << x << "_mm,cell_size_" << y
+        << "_mm,area_mm2,pressure_MPa,traction_" << x << "_MPa,traction_" << y
+        << "_MPa,slip_mm,r,r_s,mu\n";
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 3; ++j)
-        out << i + 0.5 << "," << j + 0.5 << ",1,1,1," << 5.8 + 0.1 * i
-            << ",0,0," << 20 - 0.001 * j << ",1,1,0.078\n";
+        out << width * (i + 0.5) << "," << width * (j + 0.5) << "," << width
+            << "," << width << ",1," << 5.8 + 0.1 * i << ",0,0,"
+            << 20 - 0.001 * j << ",1,1,0.078\n";
   }
 
   /// A run that has slid so.

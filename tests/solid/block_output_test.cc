@@ -32,18 +32,19 @@ namespace
   }
 
   /// The header of contact_face.csv, and what of it is in the VTU.
+  template <int dim = 3>
   std::string run(const Parameters &parameters, HistoryRow &last)
   {
     const auto            folder = test_folder();
     const FrictionLaw     law(parameters);
     const Programme       programme = parse_programme(parameters);
     const BlockParameters block_parameters(parameters, programme);
-    BlockOutput<3>        output(block_parameters, folder, MPI_COMM_SELF);
-    Block<3>              block(block_parameters,
-                   law,
-                   programme,
-                   StepControl(parameters, programme, law),
-                   MPI_COMM_SELF);
+    BlockOutput<dim>      output(block_parameters, folder, MPI_COMM_SELF);
+    Block<dim>            block(block_parameters,
+                     law,
+                     programme,
+                     StepControl(parameters, programme, law),
+                     MPI_COMM_SELF);
     block.run(&output, [&](const HistoryRow &row) { last = row; });
     output.write_end(block.state().unknowns,
                      block.state().displacements,
@@ -59,8 +60,7 @@ namespace
         vtu << std::ifstream(file.path()).rdbuf();
     std::istringstream names(header);
     for (std::string name; std::getline(names, name, ',');)
-      if (name.find("x_mm") == std::string::npos &&
-          name.find("y_mm") == std::string::npos && name != "area_mm2")
+      if (name.find("_mm") == std::string::npos || name == "slip_mm")
         {
           EXPECT_NE(vtu.str().find('"' + name + '"'), std::string::npos)
             << name;
@@ -118,6 +118,51 @@ TEST(BlockOutput, shows_what_effects_remember)
   EXPECT_GT(last.slip, 0.03);
   EXPECT_GT(memory("temperature_rise_degC"), 0.);
   EXPECT_GT(memory("contact_age_s"), 0.);
+}
+
+
+
+// What presses on the back of a block slides over it along z at 90 deg: that
+// is where it is held, by the coefficient times the pressure.
+TEST(BlockOutput, columns_bear_the_axes_of_the_block)
+{
+  const auto on_side = [](const std::string &contact,
+                          const std::string &opposite) {
+    return settings("subloading") +
+           Settings{{"Block/Faces/bottom", "free"},
+                    {"Block/Faces/top", "free"},
+                    {"Block/Faces/" + contact, "contact"},
+                    {"Block/Faces/" + opposite, "pressure programme; drive"}};
+  };
+  HistoryRow last;
+  EXPECT_EQ(run(make_parameters(on_side("back", "front") +
+                                Settings{{"Block/Size", "8 mm, 4 mm, 6 mm"},
+                                         {"Loading/Programme",
+                                          "press 5.8 MPa in 1 s; slide 1 mm/s "
+                                          "for 0.05 mm at 90 deg"}}),
+                last)
+              .substr(0, 100),
+            "x_mm,z_mm,cell_size_x_mm,cell_size_z_mm,area_mm2,pressure_MPa,"
+            "traction_x_MPa,traction_z_MPa,slip_mm,");
+  const CsvTable face(test_folder() / "contact_face.csv",
+                      {"x_mm", "z_mm", "cell_size_z_mm", "traction_z_MPa"});
+  EXPECT_EQ(face["x_mm"], (std::vector<double>{2., 6., 2., 6.}));
+  EXPECT_EQ(face["z_mm"], (std::vector<double>{1.5, 1.5, 4.5, 4.5}));
+  EXPECT_EQ(face["cell_size_z_mm"], std::vector<double>(4, 3.));
+  double mean = 0.;
+  for (const double traction : face["traction_z_MPa"])
+    mean += 0.25 * traction;
+  EXPECT_NEAR(mean, 5.8 * last.friction_y, 1e-3);
+  EXPECT_GT(mean, 0.5);
+
+  const Settings flat = {{"Block/Dimension", "2"},
+                         {"Block/Size", "4 mm, 6 mm"},
+                         {"Block/Subdivisions", "2, 2"}};
+  EXPECT_EQ(run<2>(make_parameters(on_side("left", "right") + flat), last)
+              .substr(0, 40),
+            "y_mm,z_mm,cell_size_y_mm,cell_size_z_mm,");
+  EXPECT_EQ(run<2>(make_parameters(settings("subloading") + flat), last),
+            always);
 }
 
 

@@ -9,6 +9,7 @@
 #include <slipstep/utilities/formula.h>
 #include <slipstep/utilities/parameters.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -17,6 +18,16 @@
 
 namespace SlipStep
 {
+  /// State of every contact cell at the end.
+  struct FaceTable
+  {
+    CsvTable cells;
+    /// Of the block, as its columns are called: "x", "y" or "z".
+    std::array<std::string, 2> axes;
+  };
+
+
+
   /// What a run left in its folder.
   struct RunResults
   {
@@ -26,8 +37,8 @@ namespace SlipStep
     std::filesystem::path   folder;
     Summary                 summary;
     std::vector<HistoryRow> history;
-    /// State of every contact cell at the end; absent for a contact point.
-    std::optional<CsvTable> contact_face;
+    /// Absent for a contact point.
+    std::optional<FaceTable> contact_face;
   };
 
   using Runs = std::vector<RunResults>;
