@@ -493,6 +493,8 @@ namespace SlipStep
         const char *begin = piece.text.data();
         const char *end   = begin + piece.text.size();
         const auto  stop = std::from_chars(begin + (*begin == '+'), end, value);
+        if (const std::string hint = minus_hint(piece.text); !hint.empty())
+          fail(piece.column, hint);
         if (stop.ec == std::errc::invalid_argument)
           fail(piece.column, "a number is missing before '" + piece.text + "'");
         const std::size_t comma = piece.text.find(',');

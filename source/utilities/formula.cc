@@ -3,6 +3,7 @@
 
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/formula.h>
+#include <slipstep/utilities/text.h>
 
 #include <muParser.h>
 
@@ -141,6 +142,8 @@ namespace SlipStep
         std::string why = error.GetMsg();
         while (!why.empty() && (why.back() == '.' || why.back() == ' '))
           why.pop_back();
+        if (const std::string hint = minus_hint(text); !hint.empty())
+          why = hint;
         if (error.GetCode() == mu::ecTOO_MANY_PARAMS)
           why += "; decimals begin with a point";
         throw InputError(why);

@@ -199,6 +199,17 @@ namespace SlipStep
 
 
 
+  std::string minus_hint(const std::string &text)
+  {
+    // The typographer's minus, and an en dash.
+    for (const char *const dash : {"\u2212", "\u2013"})
+      if (text.find(dash) != std::string::npos)
+        return "'" + std::string(dash) + "' is no minus sign: write -";
+    return "";
+  }
+
+
+
   std::string decimal_comma_hint(const std::string &text)
   {
     const auto is_digit = [&](const std::size_t i) {

@@ -279,6 +279,8 @@ namespace SlipStep
                                 "separates thousands" :
                                 hint;
         }
+      if (const std::string hint = minus_hint(text); !hint.empty())
+        return hint;
       if (parsed.ec != std::errc())
         return "not a number" + std::string(dimension == Dimension::number ?
                                               "" :

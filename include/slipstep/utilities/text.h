@@ -77,6 +77,10 @@ namespace SlipStep
   /// text; "" if there is none. Commas in a list of more numbers without blanks
   /// (4,4,4), and one alone in parentheses, are no decimals.
   std::string decimal_comma_hint(const std::string &text);
+
+  /// What to write instead of a dash that looks like a minus sign; "" without
+  /// one.
+  std::string minus_hint(const std::string &text);
   ///@}
 } // namespace SlipStep
 
