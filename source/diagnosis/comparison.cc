@@ -137,6 +137,7 @@ namespace SlipStep
       }
     find_durations(campaign_tests);
     measured.resize(n);
+    counts.setOnes(n);
     for (std::size_t i = 0; i < tests.size(); ++i)
       {
         const MeasuredTest &rows = campaign_tests[i].rows;
@@ -199,6 +200,7 @@ namespace SlipStep
 
   void Comparison::weaken_row(const Eigen::Index row, const double factor)
   {
+    counts(row) = 0.;
     for (ComparedTest &test : tests)
       if (row >= test.begin && row < test.begin + test.size)
         {
@@ -516,13 +518,15 @@ namespace SlipStep
   double relative_rms(const Comparison      &comparison,
                       const Eigen::VectorXd &difference)
   {
-    double       sum = 0.;
-    Eigen::Index n   = 0;
+    double sum = 0., n = 0.;
     for (const ComparedTest &test : comparison.tests)
       {
-        sum += difference.segment(test.begin, test.size).squaredNorm() /
+        const auto counts = comparison.counts.segment(test.begin, test.size);
+        sum += difference.segment(test.begin, test.size)
+                 .cwiseProduct(counts)
+                 .squaredNorm() /
                (test.level * test.level);
-        n += test.n_bins();
+        n += counts.sum() / test.series.size();
       }
     return std::sqrt(sum / n);
   }

@@ -53,11 +53,24 @@ namespace SlipStep
 
 
 
-    double root_mean_square(const Eigen::VectorXd &values,
+    // How many rows of a test count, of each axis.
+    double n_counted(const Comparison &comparison, const ComparedTest &test)
+    {
+      return std::max(1.,
+                      comparison.counts.segment(test.begin, test.size).sum() /
+                        test.series.size());
+    }
+
+
+
+    double root_mean_square(const Comparison      &comparison,
+                            const Eigen::VectorXd &values,
                             const ComparedTest    &test)
     {
-      return values.segment(test.begin, test.size).norm() /
-             std::sqrt(test.n_bins()) / test.level;
+      return values.segment(test.begin, test.size)
+               .cwiseProduct(comparison.counts.segment(test.begin, test.size))
+               .norm() /
+             std::sqrt(n_counted(comparison, test)) / test.level;
     }
 
 
@@ -71,17 +84,19 @@ namespace SlipStep
       Noise noise = comparison.noise();
       if (comparison.tests.size() == 1)
         noise.gain = noise.offset = noise.slope = 0.;
-      double      own = 0., gain = 0.;
-      std::size_t n = 0;
+      double        own = 0., gain = 0.;
+      const double *counts = comparison.counts.data() + test.begin;
       for (const Series &series : test.series)
-        for (std::size_t i = 0; i < series.row_noise.size(); ++i, ++n)
+        for (std::size_t i = 0; i < series.row_noise.size(); ++i, ++counts)
           {
-            own += std::pow(noise.white * series.row_noise[i] / test.level, 2);
-            gain += std::pow(noise.gain * series.friction[i] / test.level, 2);
+            own += *counts *
+                   std::pow(noise.white * series.row_noise[i] / test.level, 2);
+            gain += *counts *
+                    std::pow(noise.gain * series.friction[i] / test.level, 2);
           }
       // By the number of axes: a test with two has the noise of both.
-      const double n_rows = test.n_bins();
-      const double n_axes = n / n_rows;
+      const double n_rows = n_counted(comparison, test);
+      const double n_axes = test.series.size();
       return {own / n_rows,
               gain / n_rows + n_axes * (noise.drift * noise.drift +
                                         noise.offset * noise.offset +
@@ -207,7 +222,7 @@ namespace SlipStep
       test.noise =
         compared.level * std::sqrt(variances.first + variances.second);
       const auto rms = [&](const Eigen::VectorXd &values) {
-        return root_mean_square(values, compared);
+        return root_mean_square(comparison, values, compared);
       };
       test.rms_before      = rms(differences.before);
       test.rms_after       = rms(differences.after);

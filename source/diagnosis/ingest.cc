@@ -582,10 +582,14 @@ namespace SlipStep
 
   void weigh_start(Ingested &ingested)
   {
-    const Comparison &comparison = ingested.workspace->comparison;
-    RowMatrix         whitened =
+    const Comparison     &comparison = ingested.workspace->comparison;
+    const Eigen::VectorXd difference =
       comparison.difference(*ingested.base.simulator,
                             ingested.base.campaign->scaled_start());
+    if (difference.size() == 0)
+      return;
+    ingested.start_rms = relative_rms(comparison, difference);
+    RowMatrix whitened = difference;
     comparison.whiten(whitened);
     ingested.start_objective = whitened.squaredNorm();
   }

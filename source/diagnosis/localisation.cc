@@ -211,8 +211,8 @@ namespace SlipStep
 
   namespace
   {
-    // Borders of bins with about as many rows each, or equally wide where most
-    // rows would be in one of these.
+    // Borders of bins with about as many rows each, but none with two levels
+    // that tests were made at; or equally wide where most rows would be in one.
     std::vector<double> bin_borders(std::vector<double> values,
                                     const bool          equally_wide)
     {
@@ -226,11 +226,17 @@ namespace SlipStep
                               (values.back() - values.front()) * i / most_bins);
           return borders;
         }
-      for (std::size_t i = 0; i < most_bins; ++i)
+      const double gap = (values.back() - values.front()) / most_bins;
+      for (std::size_t i = 0, begun = 0; i < values.size(); ++i)
         {
-          const double border = values[i * (values.size() - 1) / most_bins];
-          if (borders.empty() || border > borders.back() * (1. + 1e-3) + 1e-12)
-            borders.push_back(border);
+          bool begins = i > 0 && values[i] > values[i - 1] + gap;
+          for (; begun < most_bins &&
+                 begun * (values.size() - 1) / most_bins <= i;
+               ++begun)
+            begins = true;
+          if (begins && (borders.empty() ||
+                         values[i] > borders.back() * (1. + 1e-3) + 1e-12))
+            borders.push_back(values[i]);
         }
       return borders;
     }

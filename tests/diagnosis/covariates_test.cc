@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/basis.h>
+#include <slipstep/diagnosis/localisation.h>
 
 #include <gtest/gtest.h>
 
@@ -111,6 +112,31 @@ TEST(Covariates, TellLinesOfMotionApart)
   EXPECT_NEAR(widest_angle(0., 0.), 0., 1e-6);
   EXPECT_NEAR(widest_angle(0.7, 0.7), 0., 1e-6);
   EXPECT_NEAR(widest_angle(0.2, 0.7), 0.5, 1e-6);
+}
+
+
+
+// Few rows at one level have a bin of their own: those at 0 and at 180 deg were
+// taken for some at 45.
+TEST(CovariatePanel, DoesNotMixLevels)
+{
+  Workspace workspace{
+    Parameters(), {}, Comparison({}), {}, {}, {}, RowMatrix()};
+  workspace.comparison.tests.resize(1);
+  ComparedTest &test               = workspace.comparison.tests[0];
+  test.size                        = 100;
+  Covariates &at                   = workspace.covariates;
+  workspace.range.typical_friction = 0.2;
+  at.speed = at.friction = Eigen::VectorXd::Constant(100, 0.2);
+  at.angle               = Eigen::VectorXd::Zero(100);
+  at.angle.tail(6).setConstant(std::acos(-1.));
+  const CovariatePanel panel = covariate_panel(workspace,
+                                               Eigen::VectorXd::Zero(100),
+                                               {},
+                                               covariate_called("angle"));
+  ASSERT_EQ(panel.x.size(), 2u);
+  EXPECT_NEAR(panel.x[0], 0., 1e-12);
+  EXPECT_NEAR(panel.x[1], 180., 1e-9);
 }
 
 

@@ -104,6 +104,9 @@ namespace SlipStep
     std::vector<std::string>  conditions; ///< their names
     Eigen::VectorXd           measured;   ///< averaged, all tests in a row
     double                    usual_duration = 1.; ///< of tests [s]
+    /// 1 of every number, 0 of those that weaken_row() made count for less:
+    /// they are in no mean that is told.
+    Eigen::VectorXd counts;
     /// When fit() ends with the best that it has.
     std::chrono::steady_clock::time_point deadline =
       std::chrono::steady_clock::time_point::max();
@@ -111,7 +114,8 @@ namespace SlipStep
     /// Take this for the noise of the rows of a test.
     void set_row_noise(const std::size_t test, const RowNoise &noise);
 
-    /// Multiply the noise of one of the numbers compared.
+    /// Multiply the noise of one of the numbers compared, which nothing
+    /// explains.
     /// It is felt after set_noise().
     void weaken_row(const Eigen::Index row, const double factor);
 

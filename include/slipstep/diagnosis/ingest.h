@@ -42,7 +42,7 @@ namespace SlipStep
   /// Add to the warnings what the records and their noise are not fit for.
   void warn_of_records(Ingested &ingested);
 
-  /// Compute the objective of the start by the weights that rows have now.
+  /// Compute what is told of the start by the weights that rows have now.
   void weigh_start(Ingested &ingested);
 
   /// The case with everything that is to be calibrated listed: that which

@@ -374,6 +374,10 @@ TEST_F(CampaignFolder, HasNoGapThatAFewBadRowsMake)
   EXPECT_EQ(name_of(judgement.verdict), name_of(Verdict::no_gap));
   EXPECT_FALSE(judgement.outlying.empty());
   EXPECT_TRUE(judgement.found.model.parts.empty());
+  Diagnosis told;
+  describe_shrink(ingested, judgement.base, told);
+  // Rows, drift, gain and offset of the planted noise, bad rows aside.
+  EXPECT_NEAR(told.shrink.noise_floor, 0.0128, 0.005);
 }
 
 
