@@ -92,6 +92,8 @@ namespace SlipStep
 
       void name();
 
+      void tell_lone_tests(const std::size_t part);
+
       void suspect_look_alikes();
 
       void suspect_condition();
@@ -143,7 +145,10 @@ namespace SlipStep
         });
       for (const std::size_t part : order)
         if (final_model.parts[part].corrects.empty())
-          result.effects.push_back(final_model.parts[part].name);
+          {
+            result.effects.push_back(final_model.parts[part].name);
+            tell_lone_tests(part);
+          }
       result.is_incomplete = judgement.is_incomplete;
       for (const Outlier &outlier :
            outlying_rows_words(*ingested.workspace, judgement.outlying))
@@ -158,6 +163,26 @@ namespace SlipStep
           ": should their records be right, this verdict is not.");
       for (const Rival &rival : judgement.found.rivals)
         result.rivals.push_back({rival.name, rival.instead_of});
+    }
+
+
+
+    // By one test alone it may be that test that went wrong.
+    void Diagnostician::tell_lone_tests(const std::size_t part)
+    {
+      if (part >= judgement.found.told_by.size())
+        return;
+      const Comparison &comparison = ingested.workspace->comparison;
+      for (const std::size_t condition : judgement.found.told_by[part])
+        {
+          std::vector<std::string> tests;
+          for (std::size_t t = 0; t < comparison.tests.size(); ++t)
+            if (comparison.tests[t].condition == condition)
+              tests.push_back(ingested.workspace->tests[t].rows.name);
+          if (tests.size() == 1 && comparison.conditions.size() > 1)
+            result.lone_tests.emplace_back(final_model.parts[part].name,
+                                           tests[0]);
+        }
     }
 
 

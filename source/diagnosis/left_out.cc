@@ -114,16 +114,30 @@ namespace SlipStep
 
 
 
+  std::vector<std::size_t> conditions_that_tell(const Workspace &workspace,
+                                                const Model     &less,
+                                                const Model     &more)
+  {
+    const std::vector<double> a = left_out(workspace, less).of_others;
+    const std::vector<double> b = left_out(workspace, more).of_others;
+    std::vector<std::size_t>  result;
+    for (std::size_t c = 0; c < a.size(); ++c)
+      if (a[c] - b[c] < least_cost)
+        result.push_back(c);
+    return result;
+  }
+
+
+
   std::vector<bool> conditions_that_judge(const Workspace &workspace,
                                           const Model     &less,
                                           const Model     &more)
   {
     const LeftOut     a = left_out(workspace, less);
     const LeftOut     b = left_out(workspace, more);
-    std::vector<bool> result;
-    for (std::size_t c = 0; c < a.squares.size(); ++c)
-      result.push_back(!(a.of_others[c] - b.of_others[c] < least_cost &&
-                         a.squares[c] < b.squares[c]));
+    std::vector<bool> result(a.squares.size(), true);
+    for (const std::size_t c : conditions_that_tell(workspace, less, more))
+      result[c] = a.squares[c] >= b.squares[c];
     return result;
   }
 

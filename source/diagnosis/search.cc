@@ -266,6 +266,7 @@ namespace SlipStep
         {
           result.costs.push_back(std::numeric_limits<double>::infinity());
           result.left_out_gains.push_back(0.);
+          result.told_by.emplace_back();
           return false;
         }
       const double cost = less->objective - result.model.objective;
@@ -277,6 +278,8 @@ namespace SlipStep
         }
       result.costs.push_back(cost);
       result.left_out_gains.push_back(gain);
+      result.told_by.push_back(
+        conditions_that_tell(workspace, *less, result.model));
       return result.model.parts[part].corrects.empty() &&
              try_rivals(*less, result.model.parts[part], cost);
     }
@@ -356,6 +359,7 @@ namespace SlipStep
       result.rivals.clear();
       result.costs.clear();
       result.left_out_gains.clear();
+      result.told_by.clear();
       for (std::size_t part = 0; part < result.model.parts.size(); ++part)
         if (workspace.is_late())
           return false;

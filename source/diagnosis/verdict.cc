@@ -24,6 +24,7 @@ namespace SlipStep
       judgement.found.rivals.clear();
       judgement.found.costs.clear();
       judgement.found.left_out_gains.clear();
+      judgement.found.told_by.clear();
       judgement.remainder       = judgement.gap;
       judgement.explained_share = 0.;
       judgement.verdict         = Verdict::unnamed;

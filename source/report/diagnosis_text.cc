@@ -189,6 +189,25 @@ namespace SlipStep
                  " completes it, and its parameters hold with that factor only";
     }
 
+    /// "; without 't11', which has no replicate, ..."
+    std::string lone_words(const Diagnosis &diagnosis)
+    {
+      std::vector<std::string> names, tests;
+      for (const auto &[name, test] : diagnosis.lone_tests)
+        {
+          if (!holds(names, name))
+            names.push_back(name);
+          if (!holds(tests, in_quotes(test)))
+            tests.push_back(in_quotes(test));
+        }
+      return names.empty() ?
+               "" :
+               "; without " + list_text(tests, "or") + ", which " +
+                 (tests.size() > 1 ? "have" : "has") +
+                 " no replicate, the other tests would not ask for " +
+                 list_text(names, "or");
+    }
+
     /// "; not all of it is explained, most of the rest is ..."
     std::string remainder_words(const Diagnosis &diagnosis)
     {
@@ -338,8 +357,9 @@ namespace SlipStep
       text += std::string(is_doubted ? "and if" : "If") +
               " the stated noise is right (there are no replicates), ";
     return text + (is_doubted || is_stated ? words : capitalised(words)) +
-           completed_words(diagnosis) + remainder_words(diagnosis) +
-           untried_words(diagnosis) + outlier_words(diagnosis.outliers) + ".";
+           completed_words(diagnosis) + lone_words(diagnosis) +
+           remainder_words(diagnosis) + untried_words(diagnosis) +
+           outlier_words(diagnosis.outliers) + ".";
   }
 
 

@@ -219,6 +219,18 @@ TEST(DiagnosisHeadline, WhatRisesOrStaysIsNotSaidToFall)
 
 
 
+// What rests on one test.
+TEST(DiagnosisHeadline, ItTellsWhatRestsOnOneTest)
+{
+  Diagnosis diagnosis  = SyntheticDiagnosis::named();
+  diagnosis.lone_tests = {{"overstress", "t11"}};
+  EXPECT_TRUE(contains(headline(diagnosis),
+                       "; without 't11', which has no replicate, the other "
+                       "tests would not ask for overstress."));
+}
+
+
+
 // Names and remainders that noise hides in size.
 TEST(DiagnosisHeadline, WhatIsSmallerThanNoiseIsSaidToBe)
 {

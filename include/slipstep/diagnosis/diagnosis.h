@@ -280,8 +280,11 @@ namespace SlipStep
     Verdict                  verdict = Verdict::no_gap;
     std::vector<std::string> effects; ///< strongest first
     std::vector<RivalEffect> rivals;
-    double                   explained_share = 0.;
-    double                   remainder_p     = 1.;
+    /// Names that the tests would not ask for without one that has no
+    /// replicate, and that test.
+    std::vector<std::pair<std::string, std::string>> lone_tests;
+    double                                           explained_share = 0.;
+    double                                           remainder_p     = 1.;
     /// Names that explained too little and were taken back.
     std::vector<std::string> withdrawn;
     /// Whether names explain what is there but for a remainder, and where it

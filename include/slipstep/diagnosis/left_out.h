@@ -13,6 +13,11 @@ namespace SlipStep
                    const Model     &model,
                    Eigen::VectorXd *differences = nullptr);
 
+  /// Those without which the others do not ask for what a model has more.
+  std::vector<std::size_t> conditions_that_tell(const Workspace &workspace,
+                                                const Model     &less,
+                                                const Model     &more);
+
   /// Those without which the others tell of what a model has more. Where one
   /// alone tells of an effect, that has any size when it is left out.
   std::vector<bool> conditions_that_judge(const Workspace &workspace,

@@ -42,6 +42,8 @@ namespace SlipStep
     std::vector<Rival> rivals;
     /// Cost of removing each part, and what left-out conditions gain by it.
     std::vector<double> costs, left_out_gains;
+    /// Without which of the conditions the others do not ask for it.
+    std::vector<std::vector<std::size_t>> told_by;
     /// The objective of single additions to the starting model, for those that
     /// were fitted.
     std::vector<std::pair<std::string, double>> gains;

@@ -90,15 +90,14 @@ namespace
       });
     }
 
-    Judgement judged(
-      const std::string &effects,
-      const std::string &more,
-      const std::string &contact =
-        "set Friction/Tangential stiffness = 100\n"
-        "set Friction/subloading/Rate = 500\n"
-        "set Calibration/Parameters = Friction/Static coefficient from 0.02 "
-        "to 0.6; Friction/Tangential stiffness from 5 to 2000 log; "
-        "Friction/subloading/Rate from 20 to 5000 log")
+    static inline const std::string usual_contact =
+      "set Friction/Tangential stiffness = 100\n"
+      "set Friction/subloading/Rate = 500\n"
+      "set Calibration/Parameters = Friction/Static coefficient from 0.02 "
+      "to 0.6; Friction/Tangential stiffness from 5 to 2000 log; "
+      "Friction/subloading/Rate from 20 to 5000 log";
+
+    void read(const std::string &effects, const std::string &contact)
     {
       std::ofstream(folder.path() / "case.prm")
         << "set Loading/Programme = press 5 MPa in 1 s; slide 0.2 mm/s for "
@@ -108,13 +107,20 @@ namespace
         << "\n"
            "set Friction/Static coefficient = 0.15\n"
            "set Calibration/Tests = measured\n"
-        << contact << more << '\n';
+        << contact << '\n';
       declare_loading_parameters(parameters);
       FrictionLaw::declare_parameters(parameters);
       declare_calibration_parameters(parameters);
       declare_diagnosis_parameters(parameters);
       parameters.read(folder.path() / "case.prm");
       ingested = ingest(parameters, {});
+    }
+
+    Judgement judged(const std::string &effects,
+                     const std::string &more,
+                     const std::string &contact = usual_contact)
+    {
+      read(effects, contact + more);
       return judge(*ingested.workspace, ingested.base);
     }
 
@@ -123,7 +129,6 @@ namespace
     Ingested        ingested;
     double          stiffness = 20.; // friction per mm
 
-  private:
     // Every condition twice, each by a contact of its own.
     void write(const std::function<Contact()> &contact)
     {
@@ -296,4 +301,38 @@ TEST_F(OwnRecords, ASecondWaveAlongTheTrackIsNotDamage)
   for (const std::string &name : effect_names(judgement.found.model.parts))
     EXPECT_EQ(name, "texture");
   EXPECT_TRUE(judgement.verdict != Verdict::named || judgement.is_incomplete);
+}
+
+
+
+// A peak after rests: without the tests that rest, the others do not ask for
+// it.
+TEST_F(OwnRecords, TheConditionThatTellsOfANameIsKnown)
+{
+  write([this]() {
+    return [this, rest = 0., slip = 1.](const double friction,
+                                        const double speed,
+                                        const double,
+                                        const double step) mutable {
+      if (speed == 0.)
+        {
+          rest += step;
+          slip = 0.;
+          return friction;
+        }
+      slip += std::abs(speed) * step;
+      if (slip > 1.)
+        rest = 0.;
+      const double strength =
+        0.2 * (1. + 0.04 * std::log10(1. + rest) * std::exp(-slip / 0.2));
+      return std::clamp(friction + stiffness * speed * step,
+                        -strength,
+                        strength);
+    };
+  });
+  const Judgement judgement = judged("subloading", "");
+  ASSERT_FALSE(judgement.found.told_by.empty());
+  const std::vector<std::size_t> told_by = judgement.found.told_by[0];
+  ASSERT_EQ(told_by.size(), 1u);
+  EXPECT_EQ(ingested.workspace->comparison.conditions[told_by[0]], "6");
 }
