@@ -120,7 +120,8 @@ namespace SlipStep
           is_any_at_bound = is_any_at_bound || parameter.is_at_bound;
         }
       return table_paragraph(lines) +
-             (is_any_at_bound ? "  * at a bound\n" : "");
+             (is_any_at_bound ? "  * at a bound\n" : "") +
+             wrapped_text(interval_reservation(diagnosis));
     }
 
     std::string blocks(const Diagnosis &diagnosis)

@@ -334,6 +334,8 @@ namespace SlipStep
         "Parameters",
         lines,
         "≥, ≤, open: the tests do not limit the value on the other side." +
+          (diagnosis.is_incomplete ? " " + interval_reservation(diagnosis) :
+                                     "") +
           (diagnosis.improved_case.empty() ?
              "" :
              " The case with these values: " + diagnosis.improved_case + "."),

@@ -517,6 +517,16 @@ namespace SlipStep
 
 
 
+  std::string interval_reservation(const Diagnosis &diagnosis)
+  {
+    return diagnosis.is_incomplete ?
+             "The intervals are those of noise alone: what remains unexplained "
+             "may move the values by more." :
+             "";
+  }
+
+
+
   std::string interval_text(const DiagnosedParameter &parameter)
   {
     return interval_text(as_fitted(parameter));

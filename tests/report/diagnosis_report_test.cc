@@ -231,6 +231,18 @@ TEST(DiagnosisHeadline, ItTellsWhatRestsOnOneTest)
 
 
 
+// Intervals do not know what remains.
+TEST(DiagnosisReport, ItTellsThatIntervalsAreThoseOfNoise)
+{
+  const std::string reservation = "The intervals are those of noise alone";
+  EXPECT_FALSE(contains(page_of(SyntheticDiagnosis::named()), reservation));
+  const Diagnosis diagnosis = SyntheticDiagnosis::incomplete();
+  EXPECT_TRUE(contains(page_of(diagnosis), reservation));
+  EXPECT_TRUE(contains(diagnosis_table(diagnosis), reservation));
+}
+
+
+
 // Names and remainders that noise hides in size.
 TEST(DiagnosisHeadline, WhatIsSmallerThanNoiseIsSaidToBe)
 {

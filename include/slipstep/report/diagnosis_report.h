@@ -76,6 +76,9 @@ namespace SlipStep
   /// "0.041 … 0.049"; "≥ 0.041", "≤ 0.049" or "open" where it has no end.
   std::string interval_text(const DiagnosedParameter &parameter);
 
+  /// What the intervals do not hold, as a sentence; "" if nothing remains.
+  std::string interval_reservation(const Diagnosis &diagnosis);
+
   /// Test, gap of the block before and after, of the point before and after,
   /// difference of block and point.
   TableLine element_line(const ElementCheck &check);
