@@ -322,8 +322,12 @@ namespace SlipStep
     diagnosis.improved_case = "improved.prm";
     write_results(diagnosed, parameters, options);
     print_warnings(diagnosis.warnings);
+    SignalGuard::recall();
     if (SignalGuard::caught() != 0)
-      throw RunError(SignalGuard::in_words() + "; what was found is kept");
+      {
+        print_results(diagnosis, options);
+        throw RunError(SignalGuard::in_words() + "; what was found is kept");
+      }
     if (!tests.empty())
       {
         progress.update(0.9, "simulating the block");

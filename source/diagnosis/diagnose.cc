@@ -90,6 +90,10 @@ namespace SlipStep
     private:
       void judge_tests();
 
+      void tell_all();
+
+      void tell_limits();
+
       void name();
 
       void tell_lone_tests(const std::size_t part);
@@ -129,6 +133,7 @@ namespace SlipStep
     // The strongest first.
     void Diagnostician::name()
     {
+      result.was_stopped     = ingested.workspace->was_stopped;
       result.has_gap         = judgement.gap.p <= ingested.workspace->level;
       result.gap             = judgement.gap;
       result.verdict         = judgement.verdict;
@@ -307,7 +312,8 @@ namespace SlipStep
     {
       Workspace &workspace = *ingested.workspace;
       stage("intervals");
-      workspace.comparison.deadline = deadline_of(parameters, 0.5);
+      if (!workspace.was_stopped)
+        workspace.comparison.deadline = deadline_of(parameters, 0.5);
       found_parameters =
         find_intervals(workspace, final_model, result.confidence);
       stage("what these tests can tell");
@@ -377,10 +383,9 @@ namespace SlipStep
 
 
 
-    void Diagnostician::run()
+    // What follows from the judgement.
+    void Diagnostician::tell_all()
     {
-      const ResourceUsage begin = ResourceUsage::now();
-      judge_tests();
       describe_data(ingested, result);
       describe_noise(*ingested.workspace, result);
       name();
@@ -405,6 +410,14 @@ namespace SlipStep
         }
       prove();
       show();
+      tell_limits();
+    }
+
+
+
+    void Diagnostician::tell_limits()
+    {
+      result.is_cut_short = ingested.workspace->was_late;
       const bool has_wave = any_of(result.where,
                                    [](const Localisation &place) {
                                      return place.covariate == "position";
@@ -418,19 +431,40 @@ namespace SlipStep
         if (!parameter.effect.empty() && parameter.profile.empty())
           {
             result.warnings.push_back(
-              "Half of Diagnosis/Most time was over before the interval of " +
-              parameter.name +
+              (result.was_stopped ? "Ctrl-C came" :
+                                    "Half of Diagnosis/Most time was over") +
+              std::string(" before the interval of ") + parameter.name +
               " was followed, and of those that have no profile: they are as "
               "the curvature has them");
             break;
           }
-      result.is_cut_short = ingested.workspace->was_late;
       if (result.is_cut_short)
         result.warnings.push_back(
-          "Diagnosis/Most time = " + parameters.text("Diagnosis/Most time") +
-          " was over before the search was: this is the best answer so far, "
-          "which was not tried against all others; with more time it may be "
-          "another one");
+          (result.was_stopped ?
+             std::string("Ctrl-C came") :
+             "Diagnosis/Most time = " + parameters.text("Diagnosis/Most time") +
+               " was over") +
+          " before all was tried: this is the best answer so far, which was not "
+          "held against all others; with more time it may be another one");
+    }
+
+
+
+    void Diagnostician::run()
+    {
+      const ResourceUsage begin = ResourceUsage::now();
+      judge_tests();
+      const Diagnosis judged = result;
+      try
+        {
+          tell_all();
+        }
+      catch (const RunError &)
+        {
+          ingested.workspace->end_by_signal();
+          result = judged;
+          tell_all();
+        }
       const ResourceUsage end = ResourceUsage::now();
       result.wall_time        = end.wall_time - begin.wall_time;
       result.cpu_time         = end.cpu_time - begin.cpu_time;

@@ -5,6 +5,7 @@
 #include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/rules.h>
+#include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
 
 #include <algorithm>
@@ -57,6 +58,8 @@ namespace SlipStep
       SearchResult run();
 
     private:
+      void extend(SearchResult &proven);
+
       bool add();
 
       void leave_wave(const TrackWave &wave, View &view) const;
@@ -428,11 +431,9 @@ namespace SlipStep
 
 
 
-    SearchResult Searcher::run()
+    // One name after the other.
+    void Searcher::extend(SearchResult &proven)
     {
-      if (!result.model.parts.empty())
-        prove();
-      SearchResult proven = result;
       // One more, to complete a formula.
       for (unsigned int round = 0; round <= workspace.most_effects; ++round)
         {
@@ -460,7 +461,27 @@ namespace SlipStep
       if (!workspace.was_late)
         {
           refit_final();
-          return result;
+          proven = result;
+        }
+    }
+
+
+
+    SearchResult Searcher::run()
+    {
+      if (!result.model.parts.empty())
+        prove();
+      SearchResult proven = result;
+      try
+        {
+          extend(proven);
+        }
+      catch (const RunError &)
+        {
+          // Ctrl-C leaves what is proven, if anything is.
+          if (proven.model.parts.empty())
+            throw;
+          workspace.end_by_signal();
         }
       proven.gains = result.gains;
       proven.lost  = result.lost;

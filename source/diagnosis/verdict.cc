@@ -6,6 +6,7 @@
 #include <slipstep/diagnosis/localisation.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/rules.h>
+#include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
 
 #include <algorithm>
@@ -335,8 +336,9 @@ namespace SlipStep
           again.verdict           = without_gap(again.view);
           again.named_by_outliers = effect_names(judgement.found.model.parts);
         }
-      workspace.was_late = weakened.was_late;
-      workspace.n_refits = weakened.n_refits;
+      workspace.was_late    = weakened.was_late;
+      workspace.was_stopped = weakened.was_stopped;
+      workspace.n_refits    = weakened.n_refits;
       // Rows far from what explains nothing are no fault of theirs.
       if (judgement.found.model.parts.empty() &&
           again.verdict == Verdict::unnamed)
@@ -363,9 +365,21 @@ namespace SlipStep
     workspace.tell("looking for its name");
     look_for_names(workspace, result, result.base);
     workspace.tell("looking for rows that nothing explains");
-    judge_without_outliers(workspace, result);
-    if (!result.found.model.parts.empty() && !are_sufficient(workspace, result))
-      withdraw(result);
+    const auto finish = [&]() {
+      judge_without_outliers(workspace, result);
+      if (!result.found.model.parts.empty() &&
+          !are_sufficient(workspace, result))
+        withdraw(result);
+    };
+    try
+      {
+        finish();
+      }
+    catch (const RunError &)
+      {
+        workspace.end_by_signal();
+        finish();
+      }
     return result;
   }
 } // namespace SlipStep

@@ -343,8 +343,9 @@ namespace SlipStep
     const std::string words     = verdict_words(diagnosis);
     std::string       text;
     if (diagnosis.is_cut_short)
-      text = "Not decided, the search was cut short (Diagnosis/Most time). So "
-             "far: ";
+      text = std::string("Not decided, the search was cut short (") +
+             (diagnosis.was_stopped ? "Ctrl-C" : "Diagnosis/Most time") +
+             "). So far: ";
     const bool is_doubted = diagnosis.look_alike.has_value();
     if (is_doubted)
       text += capitalised(look_alike_words(*diagnosis.look_alike)) +
@@ -367,7 +368,7 @@ namespace SlipStep
   std::string short_verdict(const Diagnosis &diagnosis)
   {
     if (diagnosis.is_cut_short)
-      return "not decided, time was over";
+      return "not decided, the search was cut short";
     switch (diagnosis.verdict)
       {
         case Verdict::named:

@@ -20,8 +20,9 @@ namespace SlipStep
 {
   namespace
   {
-    volatile std::sig_atomic_t caught_signal = 0;
-    unsigned int               n_guards      = 0;
+    volatile std::sig_atomic_t caught_signal  = 0;
+    int                        put_off_signal = 0;
+    unsigned int               n_guards       = 0;
 
     struct timespec time_of_signal; // written before caught_signal
 
@@ -170,7 +171,7 @@ namespace SlipStep
   SignalGuard::SignalGuard(const bool is_patient)
   {
     if (n_guards++ == 0)
-      caught_signal = 0;
+      caught_signal = put_off_signal = 0;
     struct sigaction action
     {};
     action.sa_handler = remember_signal;
@@ -219,6 +220,22 @@ namespace SlipStep
   {
     if (caught_signal != 0)
       throw RunError(in_words());
+  }
+
+
+
+  void SignalGuard::put_off()
+  {
+    put_off_signal = caught_signal;
+    caught_signal  = 0;
+  }
+
+
+
+  void SignalGuard::recall()
+  {
+    if (put_off_signal != 0)
+      caught_signal = put_off_signal;
   }
 
 

@@ -194,8 +194,12 @@ TEST(DiagnosisHeadline, WhatWasCutShortIsNotDecided)
                 "Not decided, the search was cut short (Diagnosis/Most time). "
                 "So far: " +
                   decided);
-      EXPECT_TRUE(
-        contains(first_screen_of(diagnosis), "not decided, time was over"));
+      EXPECT_TRUE(contains(first_screen_of(diagnosis),
+                           "not decided, the search was cut short"));
+      diagnosis.was_stopped = true;
+      EXPECT_EQ(headline(diagnosis),
+                "Not decided, the search was cut short (Ctrl-C). So far: " +
+                  decided);
     }
 }
 

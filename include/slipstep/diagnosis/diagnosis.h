@@ -309,8 +309,9 @@ namespace SlipStep
     bool         is_restricted = false;
     unsigned int n_refits      = 0;
     unsigned int n_draws       = 0;
-    /// Whether Diagnosis/Most time was over before all was tried.
-    bool                     is_cut_short = false;
+    /// Whether Diagnosis/Most time was over, or Ctrl-C came, before all was
+    /// tried.
+    bool                     is_cut_short = false, was_stopped = false;
     std::vector<std::string> would_overturn; ///< sentences
     std::vector<std::string> warnings;
     double                   wall_time = 0.; ///< [s]

@@ -5,8 +5,10 @@
 #include <slipstep/diagnosis/comparison.h>
 #include <slipstep/diagnosis/covariates.h>
 #include <slipstep/diagnosis/score_test.h>
+#include <slipstep/utilities/process.h>
 
 #include <chrono>
+#include <csignal>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -65,8 +67,21 @@ namespace SlipStep
     mutable std::deque<std::pair<ModelKey, LeftOut>> left_out    = {};
     ///@}
 
-    /// Whether something was, or is to be, left undone since time is over.
-    bool was_late = false;
+    /// Whether something was, or is to be, left undone since time is over, and
+    /// whether Ctrl-C ended it.
+    bool was_late = false, was_stopped = false;
+
+    /// In a handler: what Ctrl-C stopped ends with what is at hand, as when
+    /// time is over; other exceptions go on, and so do other signals, after
+    /// which a process may be killed within seconds.
+    void end_by_signal()
+    {
+      if (SignalGuard::caught() != SIGINT)
+        throw;
+      SignalGuard::put_off();
+      was_late = was_stopped = true;
+      deadline = comparison.deadline = std::chrono::steady_clock::now();
+    }
 
     /// To be asked before work that an answer can do without.
     bool is_late()

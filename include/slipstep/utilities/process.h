@@ -69,6 +69,12 @@ namespace SlipStep
     /// @throws RunError if there was one
     static void throw_if_caught();
 
+    /// Answer the signal that was caught by telling what is at hand: caught()
+    /// is 0 until recall(). The same signal again ends the process at once.
+    static void put_off();
+
+    static void recall();
+
     /// Stop as if @p signal had been caught: another rank has.
     static void share(const int signal);
 

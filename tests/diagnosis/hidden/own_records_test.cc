@@ -336,3 +336,38 @@ TEST_F(OwnRecords, TheConditionThatTellsOfANameIsKnown)
   ASSERT_EQ(told_by.size(), 1u);
   EXPECT_EQ(ingested.workspace->comparison.conditions[told_by[0]], "6");
 }
+
+
+
+// The name that is proven when Ctrl-C comes stays; before, and by other
+// signals, nothing does.
+TEST_F(OwnRecords, CtrlCLeavesWhatIsProven)
+{
+  write(0.03, [](const double x) { return 1. + 0.03 * std::sin(2. * x); });
+  read("subloading", usual_contact);
+  Workspace &workspace = *ingested.workspace;
+  for (const auto &[signal, last] :
+       {std::pair(SIGINT, 1u), std::pair(SIGTERM, 2u), std::pair(SIGINT, 2u)})
+    {
+      const SignalGuard guard;
+      unsigned int      n_added = 0;
+      const bool        is_told = signal == SIGINT && last == 2;
+      workspace.progress =
+        [&, which = signal, when = last](const std::string &text) {
+          if (text.rfind("added ", 0) == 0 && ++n_added == when)
+            std::raise(which);
+        };
+      if (!is_told)
+        EXPECT_THROW(judge(workspace, ingested.base), RunError);
+      else
+        {
+          const Judgement judgement = judge(workspace, ingested.base);
+          EXPECT_EQ(effect_names(judgement.found.model.parts).size(), 1u);
+          EXPECT_EQ(SignalGuard::caught(), 0);
+          SignalGuard::recall();
+          EXPECT_EQ(SignalGuard::caught(), SIGINT);
+        }
+      EXPECT_EQ(workspace.was_stopped, is_told);
+    }
+  const SignalGuard forgets_it;
+}
