@@ -177,8 +177,9 @@ namespace SlipStep
 
 
 
-    // The starting model with one more parameter fitted, if that ends between
-    // its bounds.
+    // The model with one more parameter of the starting model fitted, if that
+    // ends between its bounds. In the place of a name, which is a small part of
+    // the gap, it may end at one: farther off is as well then.
     std::optional<Model> fit_with(const Workspace   &workspace,
                                   const Model       &base,
                                   const std::string &path,
@@ -188,14 +189,16 @@ namespace SlipStep
 
       const CandidateParameter parameter =
         range_of_parameter(workspace.start, path);
-      Part part{"held", {}};
-      part.formula.parameters = {parameter};
-      Values values           = base.values();
-      values[path]            = workspace.start.number(path);
+      std::vector<Part> parts = base.parts;
+      parts.push_back({"held", {}});
+      parts.back().formula.parameters = {parameter};
+      Values values                   = base.values();
+      values[path]                    = workspace.start.number(path);
       const std::optional<Model> model =
-        fitted_model(workspace, {part}, values, base, 0.01);
-      if (!model.has_value() || model->scaled.back() < at_bound ||
-          model->scaled.back() > 1. - at_bound)
+        fitted_model(workspace, parts, values, base, 0.01);
+      if (!model.has_value() || (look_alike.instead_of.empty() &&
+                                 (model->scaled.back() < at_bound ||
+                                  model->scaled.back() > 1. - at_bound)))
         return {};
       look_alike.value = model->values().at(path);
       look_alike.path  = path;
@@ -203,6 +206,29 @@ namespace SlipStep
         quantity_text(workspace.start, path, look_alike.value, 3);
       look_alike.held_text = workspace.start.text(path);
       return model;
+    }
+
+
+
+    // One of several names.
+    void consider_instead(Workspace        &workspace,
+                          const Model      &found,
+                          const std::size_t part,
+                          Best             &best)
+    {
+      if (!found.parts[part].corrects.empty() || workspace.is_late())
+        return;
+      const std::optional<Model> less = refit_without(workspace, found, part);
+      if (!less.has_value())
+        return;
+      for (const std::string &path :
+           held_parameters(workspace.start, *less->campaign))
+        {
+          LookAlike look_alike{Kind::held_parameter};
+          look_alike.instead_of = found.parts[part].name;
+          const auto model      = fit_with(workspace, *less, path, look_alike);
+          best.consider(look_alike, model);
+        }
     }
   } // namespace
 
@@ -231,6 +257,11 @@ namespace SlipStep
         const auto model = fit_with(workspace, base, path, look_alike);
         best.consider(look_alike, model);
       }
+    // Before a second name.
+    const std::vector<Part> &parts = found.parts;
+    if (effect_names(parts).size() > 1)
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        consider_instead(workspace, found, i, best);
     return best.result;
   }
 } // namespace SlipStep

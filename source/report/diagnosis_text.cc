@@ -330,7 +330,10 @@ namespace SlipStep
         case LookAlike::Kind::held_parameter:
           return look_alike.path + " = " + look_alike.text +
                  " instead of the " + look_alike.held_text +
-                 " that the case holds";
+                 " that the case holds" +
+                 (look_alike.instead_of.empty() ?
+                    "" :
+                    ", in the place of " + look_alike.instead_of + ",");
       }
     return "";
   }

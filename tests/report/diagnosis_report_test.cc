@@ -235,6 +235,21 @@ TEST(DiagnosisHeadline, ItTellsWhatRestsOnOneTest)
 
 
 
+TEST(DiagnosisHeadline, ItBeginsWithANumberThatIsHeldInThePlaceOfAName)
+{
+  Diagnosis diagnosis  = SyntheticDiagnosis::named();
+  diagnosis.look_alike = {
+    LookAlike::Kind::held_parameter, 1e4, "subloading/Rate", "2000", "1e4"};
+  diagnosis.look_alike->instead_of = "healing";
+  EXPECT_EQ(headline(diagnosis).find(
+              "Subloading/Rate = 1e4 instead of the 2000 that the case holds, "
+              "in the place of healing, explains these tests as well: "),
+            0u)
+    << headline(diagnosis);
+}
+
+
+
 // Intervals do not know what remains.
 TEST(DiagnosisReport, ItTellsThatIntervalsAreThoseOfNoise)
 {

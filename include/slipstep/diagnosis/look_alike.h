@@ -26,6 +26,9 @@ namespace SlipStep
     /// @name Of a parameter: its path, and values as they stand in a case.
     ///@{
     std::string path = "", held_text = "", text = "";
+    /// The name in whose place it explains the tests beside the others, "" if
+    /// it needs none of them.
+    std::string instead_of = "";
     ///@}
   };
 

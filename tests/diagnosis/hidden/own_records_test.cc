@@ -305,6 +305,40 @@ TEST_F(OwnRecords, ASecondWaveAlongTheTrackIsNotDamage)
 
 
 
+// Waves, and a flank that the case holds too round: beside the texture it is no
+// softening but that number.
+TEST_F(OwnRecords, AHeldNumberIsTriedInThePlaceOfASecondName)
+{
+  write(0., [](const double x) { return 1. + 0.03 * std::sin(2. * x); });
+  read("subloading",
+       "set Friction/Tangential stiffness = 100\n"
+       "set Friction/subloading/Rate = 15\n"
+       "set Calibration/Parameters = Friction/Static coefficient from 0.02 to "
+       "0.6");
+  Workspace  &workspace = *ingested.workspace;
+  const Model base      = ingested.base;
+  const auto  view      = score_candidates(workspace, base);
+  const auto  with      = [&](const Model &model, const std::string &name) {
+    const auto tried = score_candidates(workspace, model);
+    return *refit_with(workspace,
+                       model,
+                       *std::find_if(tried.candidates.begin(),
+                                     tried.candidates.end(),
+                                     [&](const CandidateView &one) {
+                                       return one.candidate.name == name;
+                                     }));
+  };
+  const Model found = with(with(base, "texture"), "softening");
+  ASSERT_EQ(found.parts.size(), 2u);
+  const std::optional<LookAlike> other = find_look_alike(
+    workspace, base, found, test_gap(workspace, base, view).excess);
+  ASSERT_TRUE(other.has_value());
+  EXPECT_EQ(other->instead_of, "softening");
+  EXPECT_EQ(other->path.rfind("Friction/subloading/", 0), 0u) << other->path;
+}
+
+
+
 // A peak after rests: without the tests that rest, the others do not ask for
 // it.
 TEST_F(OwnRecords, TheConditionThatTellsOfANameIsKnown)
