@@ -68,13 +68,20 @@ namespace SlipStep
       text << "** Into the input file; units are mm, s, N, MPa.\n"
               "** The tangent is unsymmetric: *STEP, UNSYMM=YES.\n"
            << "*SURFACE INTERACTION, NAME=" << name
-           << "\n*FRICTION, USER, DEPVAR=" << StateNumbers(law).size()
+           << "\n*FRICTION, USER, DEPVAR=" << StateNumbers(law).size() + 1
            << "\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n "
            << law.normal_stiffness() << ",\n** Numbers of the state:\n";
       for (std::size_t i = 0; i < StateNumbers(law).size(); ++i)
         text << "**   " << i + 1 << "  " << StateNumbers(law).name(i) << '\n';
+      text << "**   " << StateNumbers(law).size() + 1
+           << "  turn_rad: of the surface in the slip directions since the "
+              "point first touched;\n**      angles of the law and vectors "
+              "above are measured in the directions of then\n";
       return text.str();
     }
+
+
+
     /// Write a file, unless something else is lost by it.
     /// @param mark what files of its kind begin with
     void write_over_own(const std::filesystem::path &file,

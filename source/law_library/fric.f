@@ -50,12 +50,6 @@ C
           TYPE(C_PTR),VALUE :: LAW
           REAL(C_DOUBLE) :: STATE(*)
         END SUBROUTINE
-        SUBROUTINE SLIPSTEP_TURN_STATE(LAW,STATE,TURN)
-     1   BIND(C,NAME='slipstep_turn_state')
-          IMPORT :: C_PTR,C_DOUBLE
-          TYPE(C_PTR),VALUE :: LAW
-          REAL(C_DOUBLE) :: STATE(*),TURN(2,2)
-        END SUBROUTINE
         REAL(C_DOUBLE) FUNCTION SLIPSTEP_TANGENTIAL_STIFFNESS(LAW)
      1   BIND(C,NAME='slipstep_tangential_stiffness')
           IMPORT :: C_PTR,C_DOUBLE
@@ -67,10 +61,10 @@ C     As many numbers as a law may have; where they stand.
       INTEGER, PARAMETER :: MOST=64, NORMAL=3, DISSIPATION=10, MU=7
       TYPE(C_PTR) :: LAW
       REAL*8 FIRST(MOST),LAST(MOST),MOTION(2),TRACTION(2),D_SLIP(2,2),
-     1 D_PRESSURE(2),STIFFNESS
+     1 D_PRESSURE(2),STIFFNESS,ANGLE,AXES(2,2),START(2),PLANE(2,2)
       CHARACTER*256 FOLDER
       CHARACTER*512 MESSAGE
-      INTEGER I,J,N,LENGTH,FAILED
+      INTEGER N,LENGTH,FAILED
 
       CALL GETOUTDIR(FOLDER,LENGTH)
       MESSAGE=' '
@@ -78,34 +72,40 @@ C     As many numbers as a law may have; where they stand.
      1 TRIM(CINAME)//C_NULL_CHAR,MESSAGE,INT(512,C_SIZE_T))
       IF (.NOT.C_ASSOCIATED(LAW)) CALL FRIC_STOP(MESSAGE)
       N=SLIPSTEP_STATE_SIZE(LAW)
-      IF (N.GT.NSTATV) THEN
+      IF (N+1.GT.NSTATV) THEN
         WRITE(MESSAGE,'(A,I3,A,I3)')
-     1   'slipstep: the law needs DEPVAR=',N,', given are ',NSTATV
+     1   'slipstep: the law needs DEPVAR=',N+1,', given are ',NSTATV
         CALL FRIC_STOP(TRIM(MESSAGE)//C_NULL_CHAR)
       END IF
 
 C     An untouched point has no coefficient of friction yet.
+      ANGLE=0.D0
       IF (STATEV(MU).EQ.0.D0) THEN
         CALL SLIPSTEP_INITIAL_STATE(LAW,FIRST)
       ELSE
         FIRST(1:N)=STATEV(1:N)
-C       Row by row in C. Angles of anisotropy, direction and texture are
-C       counted from the slip directions as they are.
-        IF (NFDIR.EQ.2) CALL SLIPSTEP_TURN_STATE(LAW,FIRST,
-     1   TRANSPOSE(DROT))
+        ANGLE=STATEV(N+1)
+        IF (NFDIR.EQ.2) ANGLE=ANGLE+
+     1   ATAN2(DROT(2,1)-DROT(1,2),DROT(1,1)+DROT(2,2))
       END IF
-C     The stress of the start comes in the axes of today.
-      FIRST(1:2)=0.D0
+C     The law is asked in the slip directions that the point had when it first
+C     touched: so all vectors that it remembers, and the angles of its effects,
+C     turn with the surface. AXES leads to the directions of today, in which
+C     motion and the stress of the start come.
+      AXES(:,1)=(/COS(ANGLE),SIN(ANGLE)/)
+      AXES(:,2)=(/-SIN(ANGLE),COS(ANGLE)/)
       MOTION=0.D0
       MOTION(1:NFDIR)=DGAM(1:NFDIR)
+      START=0.D0
       IF (LM.EQ.2) THEN
         FIRST(NORMAL)=0.D0
       ELSE
-        FIRST(1:NFDIR)=TAU(1:NFDIR)
+        START(1:NFDIR)=TAU(1:NFDIR)
       END IF
+      FIRST(1:2)=MATMUL(START,AXES)
 
-      FAILED=SLIPSTEP_STEP(LAW,FIRST,MOTION,PRESS,DTIME,LAST,TRACTION,
-     1 D_SLIP,D_PRESSURE,MESSAGE,INT(512,C_SIZE_T))
+      FAILED=SLIPSTEP_STEP(LAW,FIRST,MATMUL(MOTION,AXES),PRESS,DTIME,
+     1 LAST,TRACTION,D_SLIP,D_PRESSURE,MESSAGE,INT(512,C_SIZE_T))
       IF (FAILED.NE.0) THEN
 C       A shorter increment may have a solution.
         WRITE(7,'(A)') 'slipstep: '//
@@ -114,19 +114,20 @@ C       A shorter increment may have a solution.
         RETURN
       END IF
 
+      TRACTION=MATMUL(AXES,TRACTION)
+      D_PRESSURE=MATMUL(AXES,D_PRESSURE)
+C     Row by row in C, column by column here.
+      PLANE=MATMUL(MATMUL(AXES,TRANSPOSE(D_SLIP)),TRANSPOSE(AXES))
       STIFFNESS=SLIPSTEP_TANGENTIAL_STIFFNESS(LAW)
-      DO I=1,NFDIR
-        DSLIP(I)=MOTION(I)-(TRACTION(I)-FIRST(I))/STIFFNESS
-        TAU(I)=TRACTION(I)
-        DDTDDP(I)=D_PRESSURE(I)
-C       Row by row in C, column by column here.
-        DO J=1,NFDIR
-          DDTDDG(I,J)=D_SLIP(J,I)
-        END DO
-      END DO
+      DSLIP(1:NFDIR)=MOTION(1:NFDIR)-
+     1 (TRACTION(1:NFDIR)-START(1:NFDIR))/STIFFNESS
+      TAU(1:NFDIR)=TRACTION(1:NFDIR)
+      DDTDDP(1:NFDIR)=D_PRESSURE(1:NFDIR)
+      DDTDDG(1:NFDIR,1:NFDIR)=PLANE(1:NFDIR,1:NFDIR)
       SED=DOT_PRODUCT(TRACTION,TRACTION)/(2.D0*STIFFNESS)
       SFD=LAST(DISSIPATION)-FIRST(DISSIPATION)
       STATEV(1:N)=LAST(1:N)
+      STATEV(N+1)=ANGLE
       LM=0
       RETURN
       END

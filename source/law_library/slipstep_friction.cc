@@ -423,25 +423,6 @@ void slipstep_initial_state(const slipstep_law *const law, double *const state)
 
 
 
-void slipstep_turn_state(const slipstep_law *const law,
-                         double *const             state,
-                         const double              turn[4])
-{
-  const auto turned = [&](double &first, double &second) {
-    const double before = first;
-    first               = turn[0] * before + turn[1] * second;
-    second              = turn[2] * before + turn[3] * second;
-  };
-  SlipStep::ContactState result = law->numbers.read(state);
-  turned(result.traction[0], result.traction[1]);
-  for (const SlipStep::ContactMemory &memory : law->law.memories())
-    if (memory.across != nullptr)
-      turned(result[memory], result[SlipStep::contact_memory(memory.across)]);
-  law->numbers.write(result, state);
-}
-
-
-
 double slipstep_tangential_stiffness(const slipstep_law *const law)
 {
   return law->law.tangential_stiffness();

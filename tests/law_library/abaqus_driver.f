@@ -1,11 +1,10 @@
 C     SPDX-License-Identifier: LGPL-2.1-or-later
 C     Calls FRIC as ABAQUS/Standard does: several iterations per increment, of
 C     which only the last is kept.
-C       abaqus_driver FOLDER NAME DEPVAR NFDIR TURN < INCREMENTS > STRESSES
-C     A line of increments: time, slip in both directions, pressure at the end.
+C       abaqus_driver FOLDER NAME DEPVAR NFDIR < INCREMENTS > STRESSES
+C     A line of increments: time, slip in both directions, pressure at the end,
+C     angle by which vectors of the surface turn in the slip directions.
 C     A line of stresses: TAU, DDTDDG column by column, DDTDDP, SFD.
-C     In every increment the slip directions turn by TURN [rad]; increments and
-C     TAU are along those of the start, DDTDDG and DDTDDP along those of FRIC.
       PROGRAM DRIVER
       IMPLICIT NONE
       INTEGER, PARAMETER :: MOST=64
@@ -15,35 +14,27 @@ C     TAU are along those of the start, DDTDDG and DDTDDP along those of FRIC.
       INTEGER NFDIR,NSTATV,LM,BEFORE,KINC,ITERATION,STATUS
       REAL*8 STATEV(MOST),KEPT(MOST),TAU(2),START(2),DDTDDG(4),
      1 DDTDDP(2),DSLIP(2),DDTDDT(4),DGAM(2),TAULM(2),SLIP(2),TIME(2),
-     2 COORDS(3),RCOORD(3),DROT(2,2),TEMP(2),PREDEF(2),PROPS(1),
-     3 READ_SLIP(2),SED,SFD,PNEWDT,PRESS,LAST_PRESS,DTIME,SHARE,
-     4 TURN,DROT_ALL(2,2),SHOWN(2)
+     2 COORDS(3),RCOORD(3),DROT(4),TEMP(2),PREDEF(2),PROPS(1),
+     3 READ_SLIP(2),SED,SFD,PNEWDT,PRESS,LAST_PRESS,DTIME,SHARE,TURN
       CALL GET_COMMAND_ARGUMENT(1,FOLDER)
       CALL GET_COMMAND_ARGUMENT(2,CINAME)
       CALL GET_COMMAND_ARGUMENT(3,ARGUMENT)
       READ(ARGUMENT,*) NSTATV
       CALL GET_COMMAND_ARGUMENT(4,ARGUMENT)
       READ(ARGUMENT,*) NFDIR
-      CALL GET_COMMAND_ARGUMENT(5,ARGUMENT)
-      READ(ARGUMENT,*) TURN
-      DROT(1,:)=(/COS(TURN),SIN(TURN)/)
-      DROT(2,:)=(/-SIN(TURN),COS(TURN)/)
-      DROT_ALL=RESHAPE((/1.D0,0.D0,0.D0,1.D0/),(/2,2/))
       KEPT=0.D0
       START=0.D0
-      TAU=0.D0
       SLIP=0.D0
       TIME=0.D0
       LAST_PRESS=0.D0
       BEFORE=2
       KINC=0
       DO
-        READ(*,*,IOSTAT=STATUS) DTIME,READ_SLIP,PRESS
+        READ(*,*,IOSTAT=STATUS) DTIME,READ_SLIP,PRESS,TURN
         IF (STATUS.NE.0) EXIT
+        DROT=(/COS(TURN),SIN(TURN),-SIN(TURN),COS(TURN)/)
+        START=MATMUL(RESHAPE(DROT,(/2,2/)),START)
         KINC=KINC+1
-        DROT_ALL=MATMUL(DROT,DROT_ALL)
-        READ_SLIP=MATMUL(DROT_ALL,READ_SLIP)
-        START=MATMUL(DROT,START)
         DO ITERATION=1,3
           SHARE=0.5D0+0.25D0*(ITERATION-1)
           IF (ITERATION.EQ.3) SHARE=1.D0
@@ -65,8 +56,7 @@ C     TAU are along those of the start, DDTDDG and DDTDDP along those of FRIC.
         LAST_PRESS=PRESS
         SLIP(1:NFDIR)=SLIP(1:NFDIR)+READ_SLIP(1:NFDIR)
         TIME=TIME+DTIME
-        SHOWN=MATMUL(TRANSPOSE(DROT_ALL),TAU)
-        WRITE(*,'(9ES26.17)') SHOWN(1:NFDIR),DDTDDG(1:NFDIR*NFDIR),
+        WRITE(*,'(9ES26.17)') TAU(1:NFDIR),DDTDDG(1:NFDIR*NFDIR),
      1   DDTDDP(1:NFDIR),SFD
       END DO
       END

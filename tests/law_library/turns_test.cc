@@ -3,12 +3,15 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "tests/law_library/parsed_law.h"
+#include "tests/temporary_folder.h"
 
 namespace
 {
@@ -140,3 +143,130 @@ INSTANTIATE_TEST_SUITE_P(
                "set Effects = subloading, overstress\n",
                false}),
   [](const auto &info) { return info.param.name; });
+
+
+
+#ifdef SLIPSTEP_ABAQUS_DRIVER
+namespace
+{
+  /// Components after a turn of what has these before.
+  Vector turned(const Vector &vector, const double angle)
+  {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]};
+  }
+
+  /// Traction, both columns of its derivative by slip, that by pressure.
+  using Answer = std::array<Vector, 4>;
+
+  /// In directions that are turned from those of an answer.
+  Answer turned(const Answer &answer, const double angle)
+  {
+    const Vector x = turned(answer[1], angle), y = turned(answer[2], angle);
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {turned(answer[0], angle),
+            Vector{c * x[0] - s * y[0], c * x[1] - s * y[1]},
+            Vector{s * x[0] + c * y[0], s * x[1] + c * y[1]},
+            turned(answer[3], angle)};
+  }
+
+  /// A random path of a point in directions that stay, written as it is seen in
+  /// directions that do not.
+  std::vector<Answer> random_path(const ParsedLaw &point, std::ostream &seen)
+  {
+    std::mt19937                     engine(5);
+    std::uniform_real_distribution<> random(-1., 1.);
+    std::vector<double>              state = point.state;
+    std::vector<Answer>              answers;
+    double                           angle = 0.;
+    seen.precision(17);
+    for (unsigned int i = 0; i < 200; ++i)
+      {
+        // Small cycles and large ones, where the point is open at times. Angles
+        // count from when it first touches.
+        const double size     = i % 20 < 10 ? 1e-4 : 2e-3;
+        const Vector slip     = {size * (random(engine) + 0.3),
+                                 size * random(engine)};
+        const double pressure = i % 50 == 49 ? 0. : 5. + random(engine);
+        const double turn     = i == 0 ? 0. : random(engine);
+        double       d_slip[4];
+        char         message[300];
+        Answer       answer;
+        EXPECT_EQ(slipstep_step(point.law,
+                                state.data(),
+                                slip.data(),
+                                pressure,
+                                0.1,
+                                state.data(),
+                                answer[0].data(),
+                                d_slip,
+                                answer[3].data(),
+                                message,
+                                sizeof(message)),
+                  0)
+          << message;
+        answer[1] = {d_slip[0], d_slip[2]};
+        answer[2] = {d_slip[1], d_slip[3]};
+        angle += turn;
+        answers.push_back(turned(answer, angle));
+        const Vector way = turned(slip, angle);
+        seen << 0.1 << ' ' << way[0] << ' ' << way[1] << ' ' << pressure << ' '
+             << turn << '\n';
+      }
+    return answers;
+  }
+} // namespace
+
+
+
+// A host may turn the slip directions from increment to increment: stress,
+// tangent and all that is remembered are those of the same path in directions
+// that stay, seen from where they are.
+TEST(UserSubroutine, ItFollowsTheAxesOfTheSurface)
+{
+  const std::string text =
+    "set Static coefficient = 0.2\nset Tangential stiffness = 1e4\n"
+    "set Effects = subloading, overstress, elastic_core, anisotropy, "
+    "direction, texture, expression\n"
+    "subsection elastic_core\nset Rate = 300\nset Limit = 0.7\nend\n"
+    "subsection anisotropy\nset Ratio = 0.6\nset Angle = 30\nend\n"
+    "subsection direction\nset Change = 0.3\nset Forward angle = 70\nend\n"
+    "subsection texture\nset Amplitude = 0.2\nset Wavelength = 0.01\n"
+    "set Angle = 20\nend\n"
+    "subsection expression\nset Covariate = position\n"
+    "set Formula = 1 + 10*x\nset From = -0.05\nset To = 0.1\nend\n";
+  ParsedLaw point(text);
+  std::ofstream(test_folder() / "slipstep.prm") << "subsection Friction\n"
+                                                << text << "end\n";
+
+  std::ofstream             seen(test_folder() / "increments");
+  const std::vector<Answer> exact = random_path(point, seen);
+  seen.close();
+  ASSERT_EQ(std::system(("cd " + test_folder().string() + " && " +
+                         SLIPSTEP_ABAQUS_DRIVER + " . SLIPSTEP " +
+                         std::to_string(point.state.size() + 1) +
+                         " 2 < increments > stresses")
+                          .c_str()),
+            0);
+  std::ifstream stresses(test_folder() / "stresses");
+  double        largest = 0.;
+  for (const Answer &answer : exact)
+    for (unsigned int part = 0; part < 5; ++part)
+      {
+        Vector told = {};
+        ASSERT_TRUE(stresses >> told[0] && (part == 4 || stresses >> told[1]));
+        if (part == 4)
+          continue; // the energy
+        const double error = distance(told, answer[part]) * strength;
+        // Derivatives are differences over a millionth of what matters.
+        ASSERT_LT(error,
+                  part == 0 ? 1e-9 :
+                  part == 3 ? 1e-3 :
+                              1e-3 * stiffness)
+          << &answer - exact.data() << ' ' << part;
+        if (part == 0)
+          largest = std::max(largest, error);
+      }
+  std::cout << "largest difference " << largest << " MPa" << std::endl;
+}
+#endif

@@ -23,9 +23,6 @@ namespace SlipStep
     /// A change of the mesh averages a memory and keeps it between these.
     double least    = 0.;
     double greatest = std::numeric_limits<double>::infinity();
-    /// Of a vector in the contact plane, of which this is the component along
-    /// the first axis: the memory of the one along the second.
-    const char *across = nullptr;
     /// Where ContactState holds it; set by register_memory().
     unsigned int slot = 0;
   };

@@ -51,14 +51,6 @@ const char *slipstep_state_name(const slipstep_law *law, int i);
 /** State of a point that has not been loaded yet. */
 void slipstep_initial_state(const slipstep_law *law, double *state);
 
-/** Let the axes of the plane turn: what the state remembers along them, the
- * traction too, gets its components along the new ones. The angles of a law
- * that knows directions are those from the axes of today.
- * @param turn new component i of an old one j at 2 i + j */
-void slipstep_turn_state(const slipstep_law *law,
-                         double             *state,
-                         const double        turn[4]);
-
 /** Elastic stiffness of the contact along the plane and normal to it
  * [MPa/mm]. */
 double slipstep_tangential_stiffness(const slipstep_law *law);
@@ -73,7 +65,8 @@ double slipstep_normal_stiffness(const slipstep_law *law);
  * in it rises at once, has no solution.
  * @param law the law
  * @param start state before the step
- * @param slip increment of the relative displacement in the plane [mm]
+ * @param slip increment of the relative displacement in the plane [mm], in axes
+ *   that stay: the state has vectors, and the angles of effects are in them
  * @param pressure at the end [MPa]; not positive: open
  * @param time_step [s], positive
  * @param end state at the end; may be the array of the start

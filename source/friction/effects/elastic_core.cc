@@ -9,8 +9,7 @@ namespace SlipStep
   namespace
   {
     /// The centre c, and the energy in it.
-    const ContactMemory core_1 =
-      register_memory({"core_1", 0., -1., 1., "core_2"});
+    const ContactMemory core_1      = register_memory({"core_1", 0., -1., 1.});
     const ContactMemory core_2      = register_memory({"core_2", 0., -1., 1.});
     const ContactMemory core_energy = register_memory(
       {"core_energy_MPa_mm", 0., -std::numeric_limits<double>::infinity()});
