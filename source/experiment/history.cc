@@ -7,6 +7,7 @@
 
 #include <boost/algorithm/string/join.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <type_traits>
@@ -56,6 +57,24 @@ namespace SlipStep
         names.push_back(name);
       });
       return names;
+    }
+
+    // "" if all values of the column are finite.
+    std::string not_finite(const CsvTable &table, const std::string &column)
+    {
+      const auto &values = table[column];
+      const auto  is_bad = [](const double value) {
+        return !std::isfinite(value);
+      };
+      const auto n     = std::count_if(values.begin(), values.end(), is_bad);
+      const auto first = std::find_if(values.begin(), values.end(), is_bad);
+      return n == 0 ?
+               "" :
+               table.name() + ":" +
+                 std::to_string(table.line(first - values.begin())) + ": " +
+                 column + " is no finite number in " + std::to_string(n) +
+                 " of " + std::to_string(values.size()) +
+                 " rows, which are left out of pictures of it";
     }
 
     std::string text_of(const double number)
@@ -146,7 +165,8 @@ namespace SlipStep
 
 
 
-  std::vector<HistoryRow> read_history(const std::filesystem::path &file)
+  std::vector<HistoryRow> read_history(const std::filesystem::path    &file,
+                                       std::vector<std::string> *const warnings)
   {
     // Older files have no kinetic energy.
     const std::vector<std::string> all = column_names();
@@ -165,6 +185,13 @@ namespace SlipStep
     std::vector<const std::vector<double> *> columns;
     for (const std::string &name : all)
       columns.push_back(&table[name]);
+    std::vector<std::string> told = all;
+    for (const ContactMemory &memory : contact_memories())
+      told.emplace_back(memory.name);
+    for (const std::string &name : told)
+      if (const std::string why = not_finite(table, name);
+          warnings != nullptr && !why.empty())
+        warnings->push_back(why);
     std::vector<HistoryRow> history(table.size());
     for (const std::string &probe : probes)
       if (table.has(probe))
@@ -176,22 +203,12 @@ namespace SlipStep
           history[row].memories[memory.slot] = table[memory.name][row];
     for (std::size_t row = 0; row < history.size(); ++row)
       {
-        std::size_t i           = 0;
-        bool        is_infinite = false;
+        std::size_t i = 0;
         for_each_column(history[row], [&](const std::string &, auto &value) {
           const std::vector<double> &column = *columns[i++];
-          if (column.empty())
-            return;
-          value       = static_cast<std::decay_t<decltype(value)>>(column[row]);
-          is_infinite = is_infinite || std::isinf(column[row]);
+          if (!column.empty())
+            value = static_cast<std::decay_t<decltype(value)>>(column[row]);
         });
-        // A ratio may be undefined, but no curve begins or ends nowhere.
-        if (is_infinite ||
-            std::isnan(history[row].time + history[row].displacement))
-          throw InputError(file.string() + ": row " + std::to_string(row + 1) +
-                           " has an infinite number, or a time or "
-                           "displacement that is none: leave it out, or run "
-                           "the case again");
       }
     return history;
   }

@@ -446,7 +446,7 @@ namespace SlipStep
           result.label   = run.label;
           result.folder  = run.folder;
           result.summary = read_summary(run.folder / "summary.json");
-          result.history = read_history(run.folder / "history.csv");
+          result.history = read_history(run.folder / "history.csv", &warnings);
           if (result.summary.status == "running")
             end_here(result);
           if (result.history.size() < result.summary.steps)

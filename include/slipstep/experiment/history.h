@@ -108,8 +108,12 @@ namespace SlipStep
   };
 
   /// Read a history.csv back, without a last row that a kill cut off.
+  /// @param warnings if given, gets a line for each column, but for probes, that
+  ///   has numbers which are not finite; no run writes such
   /// @throws InputError naming file:line
-  std::vector<HistoryRow> read_history(const std::filesystem::path &file);
+  std::vector<HistoryRow>
+  read_history(const std::filesystem::path &file,
+               std::vector<std::string>    *warnings = nullptr);
 } // namespace SlipStep
 
 #endif
