@@ -318,10 +318,13 @@ namespace SlipStep
             (evaluate(quantity, planned->with(other)) - derived.value) / step /
             optimum.size[i];
         }
-      derived.deviation = (gradient.transpose() * optimum.directions)
-                            .transpose()
-                            .cwiseProduct(optimum.bounded_deviations)
-                            .norm();
+      derived.deviation =
+        std::hypot((gradient.transpose() * optimum.directions)
+                     .transpose()
+                     .cwiseProduct(optimum.bounded_deviations)
+                     .norm(),
+                   optimum.gain *
+                     (gradient.transpose() * optimum.by_gains).norm());
       for (std::size_t i = 0; i < best.size(); ++i)
         if (std::isinf(optimum.deviations(i)) &&
             std::abs(gradient(i)) > 1e-3 * gradient.cwiseAbs().maxCoeff())
@@ -459,10 +462,10 @@ namespace SlipStep
       if (campaign.tests.size() >= best.size() + enough)
         return;
       std::vector<std::string> wider;
-      for (Eigen::Index i = 0; i < optimum.by_gains.size(); ++i)
+      for (Eigen::Index i = 0; i < optimum.by_gains.rows(); ++i)
         {
           const double times =
-            gain * optimum.by_gains(i) / optimum.deviations(i);
+            gain * optimum.by_gains.row(i).norm() / optimum.deviations(i);
           if (times > noticed)
             wider.push_back(campaign.fitted[i].path + " " +
                             rounded_text(times, 2));
@@ -486,15 +489,15 @@ namespace SlipStep
 
       std::vector<std::string> wider;
       for (std::size_t i = 0; i < best.size(); ++i)
-        if (optimum.n_told[i] > 0)
+        if (optimum.differ_by_test[i])
           wider.push_back(campaign.fitted[i].path + " " +
                           rounded_text(optimum.between_tests(i), 2));
       if (!wider.empty())
         result.warnings.push_back(
           "The tests differ from one another by more than their rows scatter, "
-          "as where a gain or a zero changes from test to test: judged by "
-          "leaving out one test at a time, intervals are so many times as wide "
-          "as by rows alone: " +
+          "as where a gain or a zero changes from test to test: judged by that, "
+          "and by leaving out one test at a time, intervals are so many times "
+          "as wide as by rows alone: " +
           list_text(wider) + ".");
       else
         warn_of_few_tests();

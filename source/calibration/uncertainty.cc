@@ -274,51 +274,66 @@ namespace SlipStep
 
 
 
+    /// The parameters of which the tests say something, beside the ones before;
+    /// the others stay.
+    struct Known
+    {
+      Known(const RowMatrix &derivatives, const Eigen::MatrixXd &R);
+
+      std::vector<Eigen::Index> indices;
+      Eigen::MatrixXd           inverse; ///< R^-1
+      RowMatrix                 rows;    ///< J R^-1
+    };
+
+    Known::Known(const RowMatrix &derivatives, const Eigen::MatrixXd &R)
+    {
+      const Eigen::VectorXd diagonal = R.diagonal().cwiseAbs();
+      for (Eigen::Index i = 0; i < R.cols(); ++i)
+        if (diagonal(i) > least_singular_value * diagonal.maxCoeff())
+          indices.push_back(i);
+      const Eigen::Index p = indices.size();
+      if (p == 0)
+        return;
+      const Eigen::MatrixXd columns = R(Eigen::all, indices);
+      inverse = Eigen::HouseholderQR<Eigen::MatrixXd>(columns)
+                  .matrixQR()
+                  .topRows(p)
+                  .triangularView<Eigen::Upper>()
+                  .solve(Eigen::MatrixXd::Identity(p, p));
+      rows = derivatives(Eigen::all, indices) * inverse;
+    }
+
+
+
+    /// What the tests, left out one at a time, move a parameter by.
+    struct LeftOutTests
+    {
+      std::size_t n_told = 0;
+      double      factor = 0.; ///< over what rows make of it
+    };
+
     // A jackknife over tests, in units of what the scatter of rows would make
     // of it: without a test with the share H of the information, x moves by
     // (1 - H)^-1 s, of variance (1 - H)^-1 - 1. What one test alone tells is
     // not compared with anything.
-    void compare_tests(const Campaign            &campaign,
-                       const RowMatrix           &derivatives,
-                       const std::vector<double> &residuals,
-                       const double               inflation_within,
-                       Linearisation             &result)
+    std::vector<LeftOutTests>
+    leave_out_tests(const Campaign            &campaign,
+                    const Known               &known,
+                    const std::vector<double> &residuals,
+                    const double               inflation)
     {
-      constexpr double least_left = 1e-3, least_share = 1e-4, by_chance = 2.;
+      constexpr double least_left = 1e-3, least_share = 1e-4;
 
-      const Eigen::Index n = result.R.cols();
-      result.between_tests = Eigen::VectorXd::Ones(n);
-      result.n_told.assign(n, 0);
-      result.by_gains = Eigen::VectorXd::Zero(n);
-      // Those of which the tests say nothing, beside the ones before, stay.
-      std::vector<Eigen::Index> known;
-      const Eigen::VectorXd     diagonal = result.R.diagonal().cwiseAbs();
-      for (Eigen::Index i = 0; i < n; ++i)
-        if (diagonal(i) > least_singular_value * diagonal.maxCoeff())
-          known.push_back(i);
-      const Eigen::Index p = known.size();
-      if (p == 0)
-        return;
-      const Eigen::MatrixXd columns = result.R(Eigen::all, known);
-      const Eigen::MatrixXd inverse =
-        Eigen::HouseholderQR<Eigen::MatrixXd>(columns)
-          .matrixQR()
-          .topRows(p)
-          .triangularView<Eigen::Upper>()
-          .solve(Eigen::MatrixXd::Identity(p, p));
-      const RowMatrix all   = derivatives(Eigen::all, known) * inverse;
-      Eigen::VectorXd sums  = Eigen::VectorXd::Zero(p);
-      Eigen::Index    begin = 0;
+      const Eigen::Index        p = known.indices.size();
+      std::vector<LeftOutTests> result(p);
+      Eigen::Index              begin = 0;
       for (const CampaignTest &test : campaign.tests)
         {
           const Eigen::Index    n_rows = test.n_residuals();
-          const Eigen::MatrixXd J      = all.middleRows(begin, n_rows);
+          const Eigen::MatrixXd J      = known.rows.middleRows(begin, n_rows);
           const Eigen::VectorXd s =
             J.transpose() *
             Eigen::Map<const Eigen::VectorXd>(residuals.data() + begin, n_rows);
-          const Eigen::VectorXd by_gain =
-            inverse * (J.transpose() * friction_over_noise(test));
-          result.by_gains(known) += by_gain.cwiseAbs2();
           begin += n_rows;
           const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> left(
             Eigen::MatrixXd::Identity(p, p) - J.transpose() * J);
@@ -331,30 +346,118 @@ namespace SlipStep
               move(k)              = is_told ? move(k) / share : 0.;
               variance(k) = is_told ? std::max(0., 1. / share - 1.) : 0.;
             }
-          const Eigen::MatrixXd to_x = inverse * left.eigenvectors();
+          const Eigen::MatrixXd to_x = known.inverse * left.eigenvectors();
           for (Eigen::Index i = 0; i < p; ++i)
             {
               const double expected =
                 to_x.row(i).cwiseAbs2().dot(variance.transpose());
-              if (expected < least_share * inverse.row(i).squaredNorm())
+              if (expected < least_share * known.inverse.row(i).squaredNorm())
                 continue;
-              sums(i) += std::pow(to_x.row(i).dot(move.transpose()), 2) /
-                         (inflation_within * expected);
-              ++result.n_told[known[i]];
+              result[i].factor +=
+                std::pow(to_x.row(i).dot(move.transpose()), 2) /
+                (inflation * expected);
+              ++result[i].n_told;
             }
         }
-      result.by_gains = result.by_gains.cwiseSqrt();
-      for (Eigen::Index i = 0; i < p; ++i)
+      for (LeftOutTests &parameter : result)
+        parameter.factor = std::sqrt(
+          parameter.factor / std::max<std::size_t>(1, parameter.n_told));
+      return result;
+    }
+
+
+
+    /// Gains that differ from test to test.
+    struct Gains
+    {
+      double variance = 0.;
+      double freedom  = 0.; ///< how many squares tell of it
+    };
+
+    // A gain g of its own in every test moves the parameters by G g, and leaves
+    // (1 - P) g of itself in the residuals, where rows make gains as well.
+    Gains find_gains(const Campaign            &campaign,
+                     const Known               &known,
+                     const std::vector<double> &residuals,
+                     const double               inflation,
+                     Eigen::MatrixXd           &moves)
+    {
+      const Eigen::Index n_tests = campaign.tests.size();
+      Eigen::MatrixXd    sums(known.indices.size(), n_tests);
+      Eigen::VectorXd    left(n_tests), by_rows(n_tests);
+      Eigen::Index       begin = 0;
+      for (Eigen::Index t = 0; t < n_tests; ++t)
         {
-          std::size_t &n_told = result.n_told[known[i]];
-          const double factor =
-            std::sqrt(sums(i) / std::max<std::size_t>(1, n_told));
-          if (n_told > 1 && factor > by_chance)
-            result.between_tests(known[i]) =
-              std::max(1.,
-                       factor * std::sqrt(inflation_within / result.inflation));
-          else
-            n_told = 0;
+          const Eigen::VectorXd friction =
+            friction_over_noise(campaign.tests[t]);
+          const double squares = friction.squaredNorm();
+          by_rows(t)           = squares > 0. ? 1. / squares : 0.;
+          left(t) = by_rows(t) * friction.dot(Eigen::Map<const Eigen::VectorXd>(
+                                   residuals.data() + begin, friction.size()));
+          sums.col(t) =
+            known.rows.middleRows(begin, friction.size()).transpose() *
+            friction;
+          begin += friction.size();
+        }
+      moves = known.inverse * sums;
+      const Eigen::MatrixXd remaining =
+        Eigen::MatrixXd::Identity(n_tests, n_tests) -
+        by_rows.asDiagonal() * (sums.transpose() * sums);
+      Gains result;
+      result.freedom = remaining.squaredNorm();
+      if (result.freedom > 0.5)
+        result.variance =
+          std::max(0., left.squaredNorm() - inflation * by_rows.sum()) /
+          result.freedom;
+      return result;
+    }
+
+
+
+    // Rows, gains and whatever else differs between tests.
+    void compare_tests(const Campaign            &campaign,
+                       const RowMatrix           &derivatives,
+                       const std::vector<double> &residuals,
+                       Linearisation             &result)
+    {
+      constexpr double by_chance = 2.;
+
+      const Eigen::Index n       = result.R.cols();
+      const double       of_rows = std::max(1., result.n_effective - n);
+      result.between_tests       = Eigen::VectorXd::Ones(n);
+      result.freedom             = Eigen::VectorXd::Constant(n, of_rows);
+      result.by_gains = Eigen::MatrixXd::Zero(n, campaign.tests.size());
+      result.differ_by_test.assign(n, false);
+      const Known known(derivatives, result.R);
+      if (known.indices.empty())
+        return;
+      Eigen::MatrixXd moves;
+      const Gains     gains =
+        find_gains(campaign, known, residuals, result.inflation, moves);
+      result.gain = std::sqrt(gains.variance);
+      const auto left_out =
+        leave_out_tests(campaign, known, residuals, result.inflation);
+      for (std::size_t k = 0; k < known.indices.size(); ++k)
+        {
+          const Eigen::Index i   = known.indices[k];
+          result.by_gains.row(i) = moves.row(k);
+          // Degrees of freedom after Welch and Satterthwaite.
+          const double rows =
+            result.inflation * known.inverse.row(k).squaredNorm();
+          const double by_gains   = gains.variance * moves.row(k).squaredNorm();
+          result.between_tests(i) = std::sqrt(1. + by_gains / rows);
+          if (by_gains > 0.)
+            result.freedom(i) =
+              std::pow(rows + by_gains, 2) /
+              (rows * rows / of_rows + by_gains * by_gains / gains.freedom);
+          const LeftOutTests &others = left_out[k];
+          if (others.n_told > 1 && others.factor > by_chance &&
+              others.factor > result.between_tests(i))
+            {
+              result.between_tests(i) = others.factor;
+              result.freedom(i)       = others.n_told - 1.;
+            }
+          result.differ_by_test[i] = result.between_tests(i) > by_chance;
         }
     }
   } // namespace
@@ -364,14 +467,9 @@ namespace SlipStep
   double Linearisation::threshold(const double      confidence,
                                   const std::size_t i) const
   {
-    const double factor  = between_tests(i);
-    const double freedom = n_told[i] > 0 ?
-                             n_told[i] - 1. :
-                             n_effective - static_cast<double>(scaled.size());
-    return inflation * factor * factor *
-           boost::math::quantile(boost::math::fisher_f(1.,
-                                                       std::max(1., freedom)),
-                                 confidence);
+    return inflation * between_tests(i) * between_tests(i) *
+           boost::math::quantile(
+             boost::math::fisher_f(1., std::max(1., freedom(i))), confidence);
   }
 
 
@@ -406,7 +504,14 @@ namespace SlipStep
                  .topRows(n_parameters)
                  .triangularView<Eigen::Upper>();
 
-    const RowScatter rows  = scatter_of_rows(campaign, residuals, n_parameters);
+    // What tests differ by is in all rows of theirs, and no part of the scatter
+    // of rows.
+    const RowScatter rows =
+      scatter_of_rows(campaign,
+                      campaign.tests.size() > 1 ?
+                        without_gains(campaign, residuals) :
+                        residuals,
+                      n_parameters);
     result.inflation       = rows.inflation;
     result.n_effective     = rows.n_effective;
     const double *residual = residuals.data();
@@ -419,14 +524,7 @@ namespace SlipStep
         tests.back().correlation_length = rows.lengths[i];
         residual += test.n_residuals();
       }
-    compare_tests(campaign,
-                  derivatives,
-                  residuals,
-                  scatter_of_rows(campaign,
-                                  without_gains(campaign, residuals),
-                                  n_parameters)
-                    .inflation,
-                  result);
+    compare_tests(campaign, derivatives, residuals, result);
     analyse(result);
     return result;
   }

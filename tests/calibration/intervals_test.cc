@@ -261,6 +261,79 @@ TEST_F(IntervalsCover, WhatTheMeansOfReplicatesDo)
 
 
 
+// Six tests of one condition whose gains differ by some per cent: of what gains
+// move the interval is that of six fits of one test each, by Student's t, and
+// what they do not move, the rate, they do not widen. Friction softens by the
+// closed form.
+TEST_F(IntervalsCover, WhatFitsOfSingleTestsDo)
+{
+  constexpr std::size_t n_tests = 6, n_rows = 400;
+  constexpr double      start = 0.15, kinetic = 0.1, rate = 2., steepness = 5.;
+
+  const Settings law        = {{"Friction/Effects", "softening"},
+                               {"Friction/softening/Steepness", "5"},
+                               {"Friction/Tangential stiffness", "10000"},
+                               {"Calibration/Starts", "1"},
+                               {"Calibration/Parameters",
+                                "Friction/Static coefficient from 0.05 to 0.5; "
+                                       "Friction/softening/Kinetic coefficient from 0.01 to "
+                                       "0.5; Friction/softening/Rate from 0.01 to 100 log"}};
+  const auto     calibrated = [&](const std::string &tests) {
+    return calibrate(calibration_case(
+      law + Settings{{"Calibration/Tests", (folder.path() / tests).string()}}));
+  };
+  std::mt19937                     random(3);
+  std::normal_distribution<double> noise(0., 1e-3);
+  std::vector<Calibration>         single;
+  for (std::size_t t = 0; t < n_tests; ++t)
+    {
+      MeasuredTest test;
+      test.condition    = "alike";
+      test.name         = "test " + std::to_string(t);
+      const double gain = 1. + 0.012 * (static_cast<double>(t) - 2.5);
+      for (std::size_t i = 0; i < n_rows; ++i)
+        {
+          const double way   = static_cast<double>(i) / (n_rows - 1);
+          const double decay = (1. - std::exp(-steepness * (start - kinetic))) *
+                               std::exp(-rate * steepness * way);
+          test.time.push_back(way);
+          test.displacement.push_back(way);
+          test.pressure.push_back(5.);
+          test.friction.push_back(
+            i == 0 ? 0. :
+                     gain * (kinetic - std::log(1. - decay) / steepness) +
+                       noise(random));
+        }
+      write_measured_test(folder.path() / (test.name + ".csv"), test);
+      single.push_back(calibrated(test.name + ".csv"));
+    }
+  const Calibration all     = calibrated("");
+  constexpr double  of_five = 2.571; // Student's t, 95 %
+  for (std::size_t i = 0; i < 3; ++i)
+    {
+      double mean = 0., squares = 0.;
+      for (const Calibration &one : single)
+        mean += one.parameters[i].value / n_tests;
+      for (const Calibration &one : single)
+        squares += std::pow(one.parameters[i].value - mean, 2);
+      const double by_six =
+        of_five * std::sqrt(squares / (n_tests * (n_tests - 1.)));
+      const FittedParameter &found = all.parameters[i];
+      const double           half  = (found.upper - found.lower) / 2.;
+      std::cout << found.parameter.path << ": " << half / by_six
+                << " times as wide\n";
+      EXPECT_NEAR(found.value, mean, by_six) << i;
+      EXPECT_GT(half, 0.6 * by_six) << found.parameter.path;
+      EXPECT_LT(half, 1.7 * by_six) << found.parameter.path;
+    }
+  const std::string &warning = all.warnings.front();
+  EXPECT_TRUE(contains(warning, "Static coefficient ")) << warning;
+  EXPECT_TRUE(contains(warning, "Kinetic coefficient ")) << warning;
+  EXPECT_FALSE(contains(warning, "softening/Rate")) << warning;
+}
+
+
+
 // What the law refuses nothing contradicts: the interval is open there, and one
 // parameter alone is no exception.
 TEST_F(Planted, AnIntervalIsOpenWhereTheLawRefusesMore)

@@ -26,7 +26,7 @@ namespace SlipStep
 
     /// Variances are the inverse of J^T J times this: the mean square of the
     /// residuals over the noise (1 if it is less), times the number of rows
-    /// that are off together.
+    /// that are off together; of several tests without each one's own gain.
     double inflation = 1.;
 
     /// Number of residuals that count as independent.
@@ -56,17 +56,19 @@ namespace SlipStep
              1e-3 * directions.col(direction).lpNorm<Eigen::Infinity>();
     }
 
-    /// How many times further the tests, left out one at a time, move every x
-    /// than all that their rows are off lets them; 1 where the scatter of rows
-    /// within tests may do that, or if it is less. Gains and zeros that differ
-    /// from test to test do it. The deviations have it already.
+    /// How many times as wide as by the scatter of rows within tests the
+    /// deviation of every x is, which has it already: by gains that differ from
+    /// test to test, or as far as tests, left out one at a time, move it.
     Eigen::VectorXd between_tests;
-    /// Standard deviations of x that a unit of gain would make, another one in
-    /// every test: 0 where a direction is unknown.
-    Eigen::VectorXd by_gains;
-    /// How many tests told of between_tests, for every x; 0 where chance may do
-    /// it.
-    std::vector<std::size_t> n_told;
+    /// Degrees of freedom of that variance.
+    Eigen::VectorXd freedom;
+    /// Whether that is more than chance does.
+    std::vector<bool> differ_by_test;
+    /// What a unit of gain of every test (columns) moves x by; 0 where a
+    /// direction is unknown.
+    Eigen::MatrixXd by_gains;
+    /// The standard deviation of gains from test to test, as found.
+    double gain = 0.;
 
     /// The increase of the misfit at which an interval of x_i ends.
     double threshold(const double confidence, const std::size_t i) const;
