@@ -44,6 +44,7 @@ namespace SlipStep
       members.optional("slip_fraction", slide.slip_fraction);
       members.optional("slip_rate_over_speed", slide.relative_rate);
       members.optional("r_growth_at_end", slide.growth);
+      members.optional("friction_change_at_end", slide.change);
       members.optional("swing_from", slide.swing_from);
       members.optional("swing_to", slide.swing_to);
     }
@@ -369,16 +370,6 @@ namespace SlipStep
       if (last.travel > from->travel)
         slide.relative_rate =
           (last.slip - from->slip) / (slide.speed * (last.time - from->time));
-      from = before(tenth);
-      if (from != rows.begin() && last.loading_ratio > 0.)
-        {
-          const SlideRow &a = *(from - 1), &b = *from;
-          const double    part =
-            ((1. - tenth) * last.travel - a.travel) / (b.travel - a.travel);
-          slide.growth = 1. - (a.loading_ratio +
-                               part * (b.loading_ratio - a.loading_ratio)) /
-                                last.loading_ratio;
-        }
       // Two turns are a peak and what recovers after it, unless that goes on;
       // one is a peak, or a valley of a long wave.
       const auto half = before(0.5);
@@ -398,6 +389,26 @@ namespace SlipStep
           slide.swing_from = low->friction;
           slide.swing_to   = high->friction;
         }
+      from = before(tenth);
+      if (from == rows.begin())
+        return;
+      const SlideRow &a = *(from - 1), &b = *from;
+      const double    part =
+        ((1. - tenth) * last.travel - a.travel) / (b.travel - a.travel);
+      if (last.loading_ratio > 0.)
+        slide.growth =
+          1. - (a.loading_ratio + part * (b.loading_ratio - a.loading_ratio)) /
+                 last.loading_ratio;
+      if (!is_even || !(largest > 0.))
+        return;
+      double least = a.friction + part * (b.friction - a.friction);
+      double most  = least;
+      for (; from != rows.end(); ++from)
+        {
+          least = std::min(least, from->friction);
+          most  = std::max(most, from->friction);
+        }
+      slide.change = (most - least) / largest;
     }
 
     /// The largest friction, and where it was first reached but for round-off,

@@ -233,8 +233,9 @@ namespace SlipStep
       if (table.has(&ResultRow::is_on_the_way))
         text += "At the end: friction there, whether or not it is kinetic. "
                 "It is no kinetic friction where the contact does not slide "
-                "as fast as it is driven, or the loading ratio r still rises, "
-                "by more than 1 % in the last tenth of the slide. ";
+                "as fast as it is driven, or the loading ratio r still rises "
+                "by more than 1 %, or friction still changes by more than 2 %, "
+                "in the last tenth of the slide. ";
       if (table.has(std::not_fn(&ResultRow::slides_fully)))
         text += "Slipping: share of the contact that slips at the end of the "
                 "slide; below 100 % there is no kinetic friction. ";

@@ -117,6 +117,7 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                "slip_fraction",
                "slip_rate_over_speed",
                "r_growth_at_end",
+               "friction_change_at_end",
                "swing_from",
                "swing_to"});
   has_exactly(object["stability"][0],
@@ -366,11 +367,16 @@ TEST(Summary, HowASlideEndsIsToldApart)
   EXPECT_NEAR(found.relative_rate, 1., 1e-12);
   EXPECT_EQ(found.growth, 0.);
   EXPECT_TRUE(found.is_settled());
-  // It peaks and recovers, once.
-  found = slide([](HistoryRow &row) {
-    row.friction += 0.1 * std::sin(0.9 * row.displacement);
-  });
-  EXPECT_TRUE(found.is_settled());
+  // It peaks and recovers, once, and has settled then or has not.
+  for (const double end : {8.9, 10.})
+    {
+      found = slide([&](HistoryRow &row) {
+        row.friction += 0.1 * std::sin(0.9 * std::min(row.displacement, end));
+      });
+      EXPECT_EQ(found.is_settled(), end < 9.);
+      EXPECT_FALSE(found.swings());
+    }
+  EXPECT_NEAR(found.change, 0.1 * (std::sin(8.1) - std::sin(9.)) / 0.3, 1e-3);
 
   // It goes through a valley, and on.
   found = slide([](HistoryRow &row) {

@@ -34,6 +34,7 @@ namespace SlipStep
     double slip_fraction = 1.; ///< share of the contact that slips at the end
     double relative_rate = 1.; ///< of slip, over the speed, at the end
     double growth        = 0.; ///< of r in the last tenth, a share of r
+    double change        = 0.; ///< of friction there, a share of the largest
     double swing_from    = 0.; ///< where friction goes up and down at the end,
     double swing_to      = 0.; ///< its least and largest; else 0
 
@@ -43,10 +44,12 @@ namespace SlipStep
     }
 
     /// Whether the contact slides at the end as it would go on sliding: about
-    /// as fast as it is driven, with a loading ratio that has stopped to rise.
+    /// as fast as it is driven, with a loading ratio that has stopped to rise
+    /// and friction that has stopped to change.
     bool is_settled() const
     {
-      return !swings() && std::abs(relative_rate - 1.) < 0.1 && growth < 0.01;
+      return !swings() && std::abs(relative_rate - 1.) < 0.1 && growth < 0.01 &&
+             change < 0.02;
     }
   };
 
