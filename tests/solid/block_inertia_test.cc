@@ -220,7 +220,9 @@ TEST(BlockInertia, lets_a_wave_arrive_at_the_foot_of_a_long_bar)
       const HistoryRow &row     = history[i];
       const double      arrival = 100. / wave_speed;
       if (row.time < arrival - 2e-6)
-        EXPECT_LT(row.pressure, 1e-2) << row.time;
+        {
+          EXPECT_LT(row.pressure, 1e-2) << row.time;
+        }
       if (row.time > arrival + 2e-6)
         {
           const double step = row.time - history[i - 1].time;
