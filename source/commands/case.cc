@@ -144,6 +144,18 @@ namespace SlipStep
 
 
 
+    // Without a flow rule nothing is taken out of coefficients that were read
+    // at a speed; a diagnosis may add one.
+    bool has_idle_speed_of_coefficients(const Parameters &parameters)
+    {
+      const double speed =
+        parameters.number("Friction/Speed of the coefficients");
+      return speed > 0. && parameters.text("Calibration/Parameters").empty() &&
+             FrictionLaw(parameters).steady_ratio(speed) == 1.;
+    }
+
+
+
     // One member of a sweep may be the one without the effect.
     void warn_of_idle_effects(const Case            &the_case,
                               std::set<std::string> &warnings)
@@ -161,6 +173,12 @@ namespace SlipStep
                             the_case.complete.front().text(
                               info.section() + info.neutral_settings[0].first));
         }
+      if (all_of(the_case.complete, has_idle_speed_of_coefficients))
+        warnings.insert(
+          the_case.complete.front().origin(
+            "Friction/Speed of the coefficients") +
+          " is not used: only overstress and perzyna have a ratio at that speed "
+          "to divide coefficients by");
     }
   } // namespace
 

@@ -311,6 +311,14 @@ TEST(OddInput, AnEffectThatDoesNothingIsTold)
                              "memory_length\n";
   EXPECT_NE(errors(length), "");
   EXPECT_EQ(errors(length + "set Friction/memory_length/Form = flow\n"), "");
+  for (const auto &[effect, is_idle] :
+       {std::pair("viscous", true), std::pair("overstress", false)})
+    EXPECT_EQ(bool(contains(errors(
+                              "set Friction/Effects = " + std::string(effect) +
+                              "\nset Friction/Speed of the coefficients = "
+                              "1 mm/min\n"),
+                            "is not used: only overstress and perzyna")),
+              is_idle);
 }
 
 
