@@ -71,7 +71,7 @@ TEST(FittedCases, pins_on_a_block)
 TEST(FittedCases, loops)
 {
   const std::string file = "reciprocating_tribometer/fitted.prm";
-  EXPECT_NEAR(misfit_of(file), 2.13, 0.01);
+  EXPECT_NEAR(misfit_of(file), 2.12, 0.01);
 
   const Campaign            campaign(make_parameters({}, file));
   Simulator                 simulator(campaign);
@@ -83,7 +83,7 @@ TEST(FittedCases, loops)
   EXPECT_NEAR(measured, 4.845, 0.001);
   EXPECT_NEAR(area(rows.displacement, simulator.simulate(fitted, 0).friction) /
                 measured,
-              1.023,
+              1.024,
               0.007);
 }
 
