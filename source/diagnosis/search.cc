@@ -64,7 +64,11 @@ namespace SlipStep
 
       void leave_wave(const TrackWave &wave, View &view) const;
 
-      std::vector<Model> single_additions(const View &view);
+      std::vector<Model> single_additions(const View           &view,
+                                          std::optional<Model> &at_bound);
+
+      void add_beside(const std::optional<Model> &at_bound,
+                      std::vector<Model>         &found);
 
       void add_pairs(const View &view, std::vector<Model> &found);
 
@@ -122,7 +126,8 @@ namespace SlipStep
 
 
     // Those that chance does not explain, fitted.
-    std::vector<Model> Searcher::single_additions(const View &view)
+    std::vector<Model>
+    Searcher::single_additions(const View &view, std::optional<Model> &at_bound)
     {
       constexpr unsigned int most_tried = 5;
 
@@ -149,8 +154,45 @@ namespace SlipStep
                                         tried->objective);
           if (!is_at_bound(*tried))
             found.push_back(*tried);
+          else if (!at_bound.has_value() ||
+                   tried->objective < at_bound->objective)
+            at_bound = tried;
         }
       return found;
+    }
+
+
+
+    // A fit that ends at a bound, though better than others, may make up for a
+    // second effect: tried with those that are seen most beside it.
+    void Searcher::add_beside(const std::optional<Model> &at_bound,
+                              std::vector<Model>         &found)
+    {
+      constexpr unsigned int most_tried = 3;
+
+      if (!at_bound.has_value() || n_effects() + 2 > workspace.most_effects ||
+          any_of(found,
+                 [&](const Model &other) {
+                   return other.objective < at_bound->objective + least_cost;
+                 }) ||
+          at_bound->objective > result.model.objective - least_cost ||
+          workspace.is_late())
+        return;
+      const double level   = level_of_round(workspace, n_effects() + 1);
+      const View   view    = score_candidates(workspace, *at_bound);
+      unsigned int n_tried = 0;
+      for (const CandidateView &seen : view.candidates)
+        {
+          if (!is_evident(seen, level) || n_tried == most_tried ||
+              workspace.is_late())
+            continue;
+          ++n_tried;
+          const std::optional<Model> tried =
+            refit_with(workspace, *at_bound, seen);
+          if (tried.has_value() && !is_at_bound(*tried) &&
+              tried->objective < at_bound->objective)
+            found.push_back(*tried);
+        }
     }
 
 
@@ -217,8 +259,10 @@ namespace SlipStep
       std::vector<Model> found;
       if (n_effects() < workspace.most_effects)
         {
-          found = single_additions(view);
+          std::optional<Model> at_bound;
+          found = single_additions(view, at_bound);
           add_pairs(view, found);
+          add_beside(at_bound, found);
         }
       stable_sort(found, [](const Model &a, const Model &b) {
         return penalised(a) < penalised(b);
