@@ -20,10 +20,42 @@ namespace SlipStep
 
 
 
-    std::vector<MeasuredBeside> measured_tests(const RunFigures &figures)
+    using ManyBeside = std::vector<MeasuredBeside>;
+
+    bool is_same_file(const MeasuredBeside &a, const MeasuredBeside &b)
     {
-      const Parameters           &parameters = figures.parameters;
-      std::vector<MeasuredBeside> result;
+      return a.test.file.lexically_normal() == b.test.file.lexically_normal();
+    }
+
+    /// Files that have the same name are told apart.
+    std::string name_of(const MeasuredBeside &measured, const ManyBeside &all)
+    {
+      const bool is_shared = any_of(all, [&](const MeasuredBeside &other) {
+        return other.test.name == measured.test.name &&
+               !is_same_file(other, measured);
+      });
+      return measured.test.name +
+             (is_shared ? " (" + measured.test.file.stem().string() + ")" : "");
+    }
+
+    /// Whether one before it has the same points.
+    bool is_drawn(const std::size_t i, const ManyBeside &all)
+    {
+      return std::any_of(all.begin(),
+                         all.begin() + i,
+                         [&](const MeasuredBeside &other) {
+                           return is_same_file(other, all[i]) &&
+                                  other.start_time == all[i].start_time &&
+                                  other.start == all[i].start;
+                         });
+    }
+
+
+
+    ManyBeside measured_tests(const RunFigures &figures)
+    {
+      const Parameters &parameters = figures.parameters;
+      ManyBeside        result;
       try
         {
           for (std::size_t i = 0; i < figures.runs.size(); ++i)
@@ -75,7 +107,8 @@ namespace SlipStep
 
     /// By how much run and test differ, in words; "" if no time is common.
     std::string difference_in_words(const MeasuredBeside &measured,
-                                    const RunResults     &run)
+                                    const RunResults     &run,
+                                    const std::string    &name)
     {
       double      squares = 0., friction = 0.;
       std::size_t n = 0;
@@ -94,7 +127,7 @@ namespace SlipStep
       if (n == 0)
         return "";
       const double rms = std::sqrt(squares / n);
-      return measured.test.name + ": " + rounded_text(rms, 2) +
+      return name + ": " + rounded_text(rms, 2) +
              (friction > 0. ?
                 ", " + rounded_text(100. * rms / std::sqrt(friction / n), 2) +
                   " % of friction" :
@@ -104,41 +137,50 @@ namespace SlipStep
 
 
     // Their points; in words how far those that a run repeats are off.
-    std::string plot_measured(Figure                            &figure,
-                              const RunFigures                  &figures,
-                              const std::vector<MeasuredBeside> &measured,
-                              const bool                         is_over_time,
-                              Range                             &friction)
+    std::string plot_measured(Figure           &figure,
+                              const RunFigures &figures,
+                              const ManyBeside &measured,
+                              const bool        is_over_time,
+                              Range            &friction)
     {
       const std::vector<std::string> greys = {"#777777", "#aaaaaa", "#444444"};
       std::string                    differences;
       std::size_t                    n = 0;
-      for (const MeasuredBeside &beside : measured)
+      for (std::size_t k = 0; k < measured.size(); ++k)
         {
-          const MeasuredTest &test = beside.test;
-          Rows                points;
-          for (std::size_t i = 0; i < test.time.size(); ++i)
+          const MeasuredBeside &beside = measured[k];
+          const MeasuredTest   &test   = beside.test;
+          const std::string     name   = name_of(beside, measured);
+          if (!is_drawn(k, measured))
             {
-              points.push_back(
-                {is_over_time ?
-                   beside.start_time + test.time[i] - test.time[0] :
-                   beside.start + test.displacement[i] - test.displacement[0],
-                 test.friction[i]});
-              friction.add(test.friction[i]);
+              Rows points;
+              for (std::size_t i = 0; i < test.time.size(); ++i)
+                {
+                  points.push_back(
+                    {is_over_time ?
+                       beside.start_time + test.time[i] - test.time[0] :
+                       beside.start + test.displacement[i] -
+                         test.displacement[0],
+                     test.friction[i]});
+                  friction.add(test.friction[i]);
+                }
+              figure.plot(
+                figure.add_data(name,
+                                {is_over_time ? "time" : "displacement",
+                                 "friction"},
+                                thinned(points)) +
+                (points.size() > most_points ? " with lines lw 2" :
+                                               " with points pt 7 ps 0.4") +
+                " lc rgb '" + greys[n++ % greys.size()] + "' title " +
+                gnuplot_text(name + ", measured"));
             }
-          figure.plot(figure.add_data(test.name,
-                                      {is_over_time ? "time" : "displacement",
-                                       "friction"},
-                                      thinned(points)) +
-                      (points.size() > most_points ?
-                         " with lines lw 2" :
-                         " with points pt 7 ps 0.4") +
-                      " lc rgb '" + greys[n++ % greys.size()] + "' title " +
-                      gnuplot_text(test.name + ", measured"));
           if (!beside.is_repeated)
             continue;
-          const std::string difference =
-            difference_in_words(beside, figures.runs[beside.run]);
+          const RunResults &run        = figures.runs[beside.run];
+          const std::string difference = difference_in_words(
+            beside,
+            run,
+            name + (figures.runs.size() > 1 ? ", " + run.short_label : ""));
           if (!difference.empty())
             differences += (differences.empty() ? "" : "; ") + difference;
         }
@@ -147,9 +189,9 @@ namespace SlipStep
 
 
 
-    void draw_measured(RunFigures                        &figures,
-                       const std::vector<MeasuredBeside> &measured,
-                       const bool                         is_over_time)
+    void draw_measured(RunFigures       &figures,
+                       const ManyBeside &measured,
+                       const bool        is_over_time)
     {
       const Runs       &runs = figures.runs;
       const std::string over = is_over_time ? "time" : "displacement";
@@ -161,14 +203,14 @@ namespace SlipStep
       Range             friction;
       const std::string differences =
         plot_measured(figure, figures, measured, is_over_time, friction);
-      std::vector<bool> is_drawn(runs.size(), false);
+      std::vector<bool> is_beside(runs.size(), false);
       for (const MeasuredBeside &beside : measured)
         if (beside.is_repeated)
-          is_drawn[beside.run] = true;
-      const bool draws_all = none_of(is_drawn, [](bool is) { return is; });
+          is_beside[beside.run] = true;
+      const bool draws_all = none_of(is_beside, [](bool is) { return is; });
       for (std::size_t i = 0; i < runs.size(); ++i)
         {
-          if (!draws_all && !is_drawn[i])
+          if (!draws_all && !is_beside[i])
             continue;
           Rows points;
           for (const HistoryRow &row : runs[i].history)
@@ -199,7 +241,7 @@ namespace SlipStep
 
   void add_measured_pictures(RunFigures &figures)
   {
-    std::vector<MeasuredBeside> over[2];
+    ManyBeside over[2];
     for (const MeasuredBeside &measured : measured_tests(figures))
       {
         // Rests and strokes lie on top of each other over displacement.

@@ -128,6 +128,33 @@ TEST(Report, ThePageIsCompleteInItself)
 
 
 
+// A followed test that is listed, too; another sample of the same name; the
+// same test beside a second run.
+TEST(Report, EveryMeasuredTestIsDrawnOnceUnderANameOfItsOwn)
+{
+  for (const std::string file : {"first", "second"})
+    std::ofstream(test_folder() / (file + ".csv"))
+      << "# name: sample\ntime_s,displacement_mm,pressure_MPa,friction\n"
+         "0,0,1,0\n100,10,1,0.1\n200,20,1,0.1\n";
+  const std::string first  = (test_folder() / "first.csv").string();
+  const std::string second = (test_folder() / "second.csv").string();
+  Parameters        parameters =
+    parameters_with({{"Measured", first + ", " + second}});
+  parameters.set("Loading/Programme", "follow " + first, "test");
+  write_report(test_folder(),
+               parameters,
+               {make_run(1., "slow"), make_run(50., "fast")});
+  const std::string script =
+    content(test_folder() / "report" / "measured_over_displacement.gp");
+  EXPECT_EQ(count(script, "sample (first), measured"), 1u) << script;
+  EXPECT_EQ(count(script, "sample (second), measured"), 1u) << script;
+  EXPECT_EQ(count(script, ", measured"), 2u) << script;
+  const std::string page = content(test_folder() / "report.html");
+  has_all(page, {"sample (first), slow: 0.0", "; sample (first), fast: 0.0"});
+}
+
+
+
 // Of a block on its side, and 2 m long.
 TEST(Report, TheContactFaceHasTheAxesOfTheBlock)
 {
