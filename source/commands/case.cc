@@ -197,15 +197,17 @@ namespace SlipStep
     Case result;
     result.parameters = as_written;
     apply_settings(line, result.parameters);
-    result.variants = result.parameters.variants();
-    if (!line.variant.empty() && !is_swept_member)
+    result.variants          = result.parameters.variants();
+    const std::string chosen = !line.member.empty() ? line.member :
+                               is_swept_member      ? "" :
+                                                      line.variant;
+    if (!chosen.empty())
       {
         // Named as the case has it, or as what --set leaves of it.
         Parameters with_settings = result.parameters;
-        result.selected =
-          with_settings.keep_variant(line.variant) ?
-            with_settings.variants().front() :
-            find_variant(as_written.variants(), line.variant, file);
+        result.selected          = with_settings.keep_variant(chosen) ?
+                                     with_settings.variants().front() :
+                                     find_variant(as_written.variants(), chosen, file);
         reject_void_variant(result.parameters, result.selected, line);
         result.parameters = as_written.with_variant(result.selected);
         apply_settings(line, result.parameters);

@@ -224,6 +224,8 @@ namespace SlipStep
                                      variant.label,
                                      output / variant.folder,
                                      variant.folder));
+            if (!line.variant.empty())
+              jobs.back().arguments.push_back("--variant=" + line.variant);
             for (const std::string &setting : line.settings_as_typed)
               jobs.back().arguments.push_back("--set=" + setting);
             for (const std::string &sweep : line.sweeps_as_typed)

@@ -332,6 +332,8 @@ namespace SlipStep
       const fs::path    case_file = fs::absolute(line.files.front());
       std::string       call =
         program + " " + line.command + " " + word(case_file.string());
+      if (!line.variant.empty())
+        call += " --variant " + word(line.variant);
       for (const std::string &sweep : line.sweeps_as_typed)
         call += " --sweep " + word(sweep);
       for (const std::string &setting : line.settings_as_typed)
@@ -355,7 +357,7 @@ namespace SlipStep
              "launch=\n"
              "[ \"${SLURM_NTASKS:-1}\" -gt 1 ] && launch=srun\n"
              "exec $launch " +
-             call + " --variant \"$variant\" --quiet --resume\n";
+             call + " --member \"$variant\" --quiet --resume\n";
     }
   } // namespace
 
@@ -365,7 +367,7 @@ namespace SlipStep
                      const std::string           &command,
                      const std::string           &label,
                      const std::filesystem::path &output,
-                     const std::string           &variant)
+                     const std::string           &member)
   {
     SweepJob job;
     job.label     = label;
@@ -374,8 +376,8 @@ namespace SlipStep
                      line.files.front().string(),
                      "--child",
                      "--output=" + output.string()};
-    if (!variant.empty())
-      job.arguments.push_back("--variant=" + variant);
+    if (!member.empty())
+      job.arguments.push_back("--member=" + member);
     if (line.quiet)
       job.arguments.push_back("--quiet");
     if (line.resume)

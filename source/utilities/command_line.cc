@@ -313,8 +313,8 @@ namespace SlipStep
       const po::options_description visible = all_visible_options();
       po::options_description       all;
       all.add(visible);
-      all.add_options()("child", "")("words",
-                                     po::value<std::vector<std::string>>());
+      all.add_options()("child", "")("member", po::value<std::string>())(
+        "words", po::value<std::vector<std::string>>());
       po::positional_options_description words;
       words.add("words", -1);
       try
@@ -517,6 +517,7 @@ namespace SlipStep
     line.output   = with_home(named_by(values, "output", "a folder")).string();
     line.slurm    = with_home(named_by(values, "slurm", "a file")).string();
     line.variant  = named_by(values, "variant", "a variant");
+    line.member   = text_of(values, "member");
     line.format   = text_of(values, "format");
     line.quiet    = values.count("quiet") > 0;
     line.resume   = values.count("resume") > 0;

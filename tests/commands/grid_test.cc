@@ -56,6 +56,44 @@ namespace
 
 
 
+// A member of the case has the name of a run then, which once swept on and on.
+TEST_F(Grid, SweepsTheKeyOfTheCaseWithAValueOfTheCase)
+{
+  process.write("sweep.prm",
+                "include one.prm\nsubsection Sweep\n"
+                "  set Key    = Loading/Speed\n"
+                "  set Values = 1 mm/min, 20 mm/min\nend\n");
+  const auto options = [&](const std::string              &output,
+                           const std::vector<std::string> &more) {
+    std::vector<std::string> arguments = {"point",
+                                          "sweep.prm",
+                                          "--sweep",
+                                          "Loading/Speed=1 mm/min|5 mm/min",
+                                          "--output",
+                                          output};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  run(options("all", {"--quiet"}));
+  run(options("member", {"--quiet", "--variant", "1 mm/min"}));
+  run(options("jobs", {"--slurm", "jobs.sh", "--variant", "1 mm/min"}));
+  for (const std::string number : {"1", "2"})
+    EXPECT_EQ(std::system(("SLURM_ARRAY_TASK_ID=" + number + " bash '" +
+                           (process.folder() / "jobs.sh").string() + "'")
+                            .c_str()),
+              0);
+  run({"point", "sweep.prm", "--variant", "1 mm/min", "--output", "alone"});
+  EXPECT_TRUE(
+    are_same("alone/1_mm-min/history.csv", "all/1_mm-min/history.csv"));
+  for (const std::string run : {"1_mm-min", "5_mm-min"})
+    for (const std::string way : {"member", "jobs"})
+      EXPECT_TRUE(are_same("all/" + run + "/history.csv",
+                           way + "/" + run + "/history.csv"))
+        << way << ' ' << run;
+}
+
+
+
 // Of a case that is a sweep, one member is swept on.
 TEST_F(Grid, SweepsAMemberOfASweep)
 {

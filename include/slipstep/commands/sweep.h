@@ -21,12 +21,12 @@ namespace SlipStep
   /// This program once more, for one run of many; options --set are to be
   /// added.
   /// @param output folder of the run
-  /// @param variant of the case, or ""
+  /// @param member the folder of the run of the line, or ""
   SweepJob child_job(const CommandLine           &line,
                      const std::string           &command,
                      const std::string           &label,
                      const std::filesystem::path &output,
-                     const std::string           &variant);
+                     const std::string           &member);
 
   /// Run the jobs as child processes, side by side on the cores, and show one
   /// progress for all. What a child writes to stderr is passed on with its

@@ -30,6 +30,9 @@ namespace SlipStep
     std::string output; ///< "" = not given
     std::string format; ///< "" = the command's default
     std::string variant;
+    /// The folder of one run of all that the line says, for those that the
+    /// program starts itself; "" for all of them.
+    std::string member;
     /// Options of slipstep plant, by name; "" for those without a value.
     std::map<std::string, std::string> plant_options;
     bool                               quiet = false;
