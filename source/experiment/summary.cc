@@ -311,22 +311,20 @@ namespace SlipStep
       double loading_ratio;
     };
 
-    /// How friction goes up and down, by more than what is noticed.
+    /// Where friction turns, by more than what is noticed. The first turn may
+    /// be the peak with which sliding began.
     struct Turns
     {
-      unsigned int n       = 0;
-      bool         falls   = false; ///< first
-      bool         goes_on = false; ///< in the last tenth
+      unsigned int n     = 0;
+      double       least = std::numeric_limits<double>::infinity();
+      double       most  = -std::numeric_limits<double>::infinity();
     };
 
     Turns turns(const std::vector<SlideRow>::const_iterator begin,
-                const std::vector<SlideRow>::const_iterator tenth,
                 const std::vector<SlideRow>::const_iterator end,
                 const double                                noticed)
     {
-      Turns result;
-      result.goes_on =
-        std::abs((end - 1)->friction - tenth->friction) > noticed;
+      Turns  result;
       int    sign = 0;
       double last = begin->friction; // farthest since the last turn
       for (auto row = begin; row != end; ++row)
@@ -334,19 +332,24 @@ namespace SlipStep
           const double change = row->friction - last;
           if (sign == 0 ? std::abs(change) > noticed : change * sign > 0.)
             {
-              result.falls = result.falls || (sign == 0 && change < 0.);
-              sign         = change > 0. ? 1 : -1;
-              last         = row->friction;
+              sign = change > 0. ? 1 : -1;
+              last = row->friction;
             }
           else if (change * sign < -noticed)
             {
-              ++result.n;
+              if (result.n++ > 0)
+                {
+                  result.least = std::min(result.least, last);
+                  result.most  = std::max(result.most, last);
+                }
               sign = -sign;
               last = row->friction;
             }
         }
       return result;
     }
+
+
 
     /// Whether a slide ends as it would go on.
     void look_at_end(const std::vector<SlideRow> &rows,
@@ -370,24 +373,17 @@ namespace SlipStep
       if (last.travel > from->travel)
         slide.relative_rate =
           (last.slip - from->slip) / (slide.speed * (last.time - from->time));
-      // Two turns are a peak and what recovers after it, unless that goes on;
-      // one is a peak, or a valley of a long wave.
-      const auto half = before(0.5);
-      const auto [low, high] =
-        std::minmax_element(half,
-                            rows.end(),
-                            [](const SlideRow &a, const SlideRow &b) {
-                              return a.friction < b.friction;
-                            });
-      const double largest =
-        std::max(std::abs(low->friction), std::abs(high->friction));
-      const Turns turned =
-        turns(half, before(tenth), rows.end(), noticed * largest);
-      if (turned.n > 2 ||
-          (is_even && turned.goes_on && turned.n + turned.falls > 1))
+      // Two turns are a peak and what recovers after it; one is a peak, or a
+      // valley of a long wave.
+      const auto half    = before(0.5);
+      double     largest = 0.;
+      for (auto row = half; row != rows.end(); ++row)
+        largest = std::max(largest, std::abs(row->friction));
+      const Turns turned = turns(half, rows.end(), noticed * largest);
+      if (turned.n > 2)
         {
-          slide.swing_from = low->friction;
-          slide.swing_to   = high->friction;
+          slide.swing_from = turned.least;
+          slide.swing_to   = turned.most;
         }
       from = before(tenth);
       if (from == rows.begin())

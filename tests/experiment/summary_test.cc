@@ -383,7 +383,19 @@ TEST(Summary, HowASlideEndsIsToldApart)
     row.friction -= 0.05 * std::cos(0.7 * (row.displacement - 7.));
   });
   EXPECT_FALSE(found.is_settled());
-  EXPECT_NEAR(found.swing_from, 0.15, 1e-4);
+  EXPECT_FALSE(found.swings());
+  // A saw behind the peak and the long rise with which sliding began.
+  const auto saw = [&](const double end) {
+    return slide([=](HistoryRow &row) {
+      const double x = std::min(row.displacement, end);
+      row.friction   = x < 6. ? 0.05 * x : 0.2 + 0.02 * (x - std::floor(x));
+    });
+  };
+  found = saw(10.);
+  EXPECT_FALSE(found.is_settled());
+  EXPECT_NEAR(found.swing_from, 0.2, 1e-3);
+  EXPECT_NEAR(found.swing_to, 0.22, 2e-3);
+  EXPECT_FALSE(saw(6.5).swings());
 
   found = slide([](HistoryRow &row) { row.slip *= 0.5; });
   EXPECT_NEAR(found.relative_rate, 0.5, 1e-12);

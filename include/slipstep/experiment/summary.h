@@ -36,7 +36,7 @@ namespace SlipStep
     double growth        = 0.; ///< of r in the last tenth, a share of r
     double change        = 0.; ///< of friction there, a share of the largest
     double swing_from    = 0.; ///< where friction goes up and down at the end,
-    double swing_to      = 0.; ///< its least and largest; else 0
+    double swing_to = 0.; ///< where it turns there, at least and most; or 0
 
     bool swings() const
     {
