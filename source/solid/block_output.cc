@@ -97,6 +97,8 @@ namespace SlipStep
       std::string name;
       // Of the state and the distance from the plane [mm].
       std::function<double(const ContactState &, const double)> value;
+      // Open points have none of it.
+      bool is_of_closed = false;
     };
 
     // Of the contact face, as the block calls them. In 2-D the second one is
@@ -125,8 +127,12 @@ namespace SlipStep
         {"traction_" + second + "_MPa",
          [](const State &s, const double) { return s.traction[1]; }},
         {"slip_mm", [](const State &s, const double) { return s.slip_path; }},
-        {"r", [](const State &s, const double) { return s.loading_ratio; }},
-        {"r_s", [](const State &s, const double) { return s.normal_ratio; }},
+        {"r",
+         [](const State &s, const double) { return s.loading_ratio; },
+         true},
+        {"r_s",
+         [](const State &s, const double) { return s.normal_ratio; },
+         true},
         {"mu", [](const State &s, const double) { return s.coefficient; }},
         {"dissipated_energy_Nmm_per_mm2",
          [](const State &s, const double) { return s.dissipation; }}};
@@ -453,13 +459,19 @@ namespace SlipStep
             row[2 + i] = std::abs(face->vertex(face->n_vertices() - 1)[axis] -
                                   face->vertex(0)[axis]);
           }
+        double closed = 0.;
         for (const auto &point : cell_face.points)
-          row[4] += point.JxW;
+          {
+            row[4] += point.JxW;
+            if (point.point.committed().normal_traction > 0.)
+              closed += point.JxW;
+          }
         for (const auto &point : cell_face.points)
           for (unsigned int i = 0; i < fields.size(); ++i)
             row[5 + i] +=
               fields[i].value(point.point.committed(), point.distance) *
-              point.JxW / row[4];
+              point.JxW /
+              (fields[i].is_of_closed && closed > 0. ? closed : row[4]);
         rows.push_back(row);
       }
 

@@ -167,6 +167,41 @@ TEST(BlockOutput, columns_bear_the_axes_of_the_block)
 
 
 
+// A round face that slides: where it touches, r is 1 without effects, and in a
+// cell at its edge, part of which is open, as well.
+TEST(BlockOutput, ratios_are_those_of_closed_points)
+{
+  HistoryRow last;
+  run<2>(make_parameters(settings("") +
+                         Settings{{"Block/Dimension", "2"},
+                                  {"Block/Size", "8 mm, 4 mm"},
+                                  {"Block/Subdivisions", "16, 8"},
+                                  {"Contact/Gap", "(x - 4.2)^2 / (2 * 500)"},
+                                  {"Loading/Programme",
+                                   "press 20 MPa in 1 s; slide 1 mm/s for 0.05 "
+                                   "mm"}}),
+         last);
+  const CsvTable face(test_folder() / "contact_face.csv",
+                      {"pressure_MPa", "traction_x_MPa", "r", "mu"});
+  unsigned int   n_open = 0;
+  for (std::size_t i = 0; i < face["r"].size(); ++i)
+    {
+      const double pressure = face["pressure_MPa"][i];
+      n_open += pressure == 0.;
+      if (pressure > 0.)
+        {
+          EXPECT_NEAR(face["r"][i],
+                      std::abs(face["traction_x_MPa"][i]) /
+                        (face["mu"][i] * pressure),
+                      1e-6)
+            << i;
+        }
+    }
+  EXPECT_GT(n_open, 0u);
+}
+
+
+
 TEST(BlockOutput, leaves_out_what_no_effect_remembers)
 {
   HistoryRow last;
