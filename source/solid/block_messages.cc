@@ -165,6 +165,11 @@ namespace SlipStep
     if (contact.friction_law().static_coefficient() < least)
       return "; a Friction/Static coefficient below " + rounded_text(least, 1) +
              " is lost in the round-off of the pressure";
+    for (const std::string effect : {"adhesion", "viscous"})
+      if (contact.friction_law().has(effect) && contact_share < 1.)
+        return "; where part of the contact face is open, friction that needs "
+               "no pressure is lost at once: Friction/" +
+               effect + "/Largest coefficient = 2 bounds it";
     const Segment &now = programme.segment_at(control.end_of_step());
     if (inertia.exists() || now.end.velocity.norm() == 0.)
       return "";

@@ -194,6 +194,26 @@ TEST(FailedRun, TheCauseIsToldThatItHas)
 
 
 
+// What opens loses friction that needs no pressure.
+TEST(FailedRun, AdhesionOfAnOpenFaceHasARemedy)
+{
+  const SlipstepProcess process;
+  const auto            result = process.run(
+    {"run",
+                SLIPSTEP_SOURCE_DIR "/prm/pressure_sweep/pressure_sweep.prm",
+                "--variant",
+                "adhesion",
+                "--quiet",
+                "--set",
+                "Loading/Programme=press 0.5 MPa in 1 s; slide for 1 mm; press 0.01 "
+                           "MPa in 1 s; slide for 1 mm"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(contains(result.err,
+                       "Friction/adhesion/Largest coefficient = 2 bounds it"));
+}
+
+
+
 TEST(FailedRun, LossOfPressureIsToldAndKept)
 {
   const SlipstepProcess process;
