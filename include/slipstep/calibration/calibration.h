@@ -57,7 +57,7 @@ namespace SlipStep
 
     /// The condition of the law, such as mu_k <= mu_s, at which the parameter
     /// stopped, in words; "" if there is none. Intervals then mean nothing.
-    std::string constraint;
+    std::string constraint = "";
 
     /// Whether the misfit would fall beyond the constraint.
     bool is_wanted_beyond = false;
