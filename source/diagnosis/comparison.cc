@@ -90,6 +90,17 @@ namespace SlipStep
           series.hum.push_back(means);
         }
     }
+
+
+
+    std::vector<std::size_t> measured_axes(const MeasuredTest &rows)
+    {
+      if (rows.friction_y.empty())
+        return {0};
+      if (all_of(rows.friction, [](const double x) { return x == 0.; }))
+        return {1};
+      return {0, 1};
+    }
   } // namespace
 
 
@@ -116,13 +127,14 @@ namespace SlipStep
         compared.borders = equal_parts(test.rows.time.size(), most_rows);
         compared.level   = typical_friction(test.rows);
         compared.begin   = n;
-        compared.series.assign(test.has_two_axes() ? 2 : 1,
-                               series_of(compared, test));
-        for (std::size_t s = 0; s < test.hum.size(); ++s)
-          add_hum(test.hum[s],
-                  test.rows.time,
-                  compared.borders,
-                  compared.series[s]);
+        compared.axes    = measured_axes(test.rows);
+        compared.series.assign(compared.axes.size(), series_of(compared, test));
+        if (!test.hum.empty())
+          for (std::size_t s = 0; s < compared.axes.size(); ++s)
+            add_hum(test.hum[compared.axes[s]],
+                    test.rows.time,
+                    compared.borders,
+                    compared.series[s]);
         compared.size = compared.series.size() * compared.n_bins();
         n += compared.size;
         // A test that names no condition is one by itself.
@@ -136,20 +148,30 @@ namespace SlipStep
         tests.push_back(compared);
       }
     find_durations(campaign_tests);
-    measured.resize(n);
     counts.setOnes(n);
+    measured = means_of(campaign_tests);
+  }
+
+
+
+  Eigen::VectorXd
+  Comparison::means_of(const std::vector<CampaignTest> &campaign_tests) const
+  {
+    Eigen::VectorXd result(counts.size());
     for (std::size_t i = 0; i < tests.size(); ++i)
       {
         const MeasuredTest &rows = campaign_tests[i].rows;
-        double             *out  = measured.data() + tests[i].begin;
+        double             *out  = result.data() + tests[i].begin;
         for (std::size_t s = 0; s < tests[i].series.size(); ++s)
           average(
             tests[i].borders,
             [&](const std::size_t row) {
-              return (s == 0 ? rows.friction : rows.friction_y)[row];
+              return (tests[i].axes[s] == 0 ? rows.friction :
+                                              rows.friction_y)[row];
             },
             out + s * tests[i].n_bins());
       }
+    return result;
   }
 
 
@@ -245,17 +267,17 @@ namespace SlipStep
     const double   *begin = rows.data();
     for (std::size_t i = 0; i < tests.size(); ++i)
       {
-        double *out = result.data() + tests[i].begin;
+        double             *out  = result.data() + tests[i].begin;
+        const CampaignTest &test = campaign.tests[i];
         for (std::size_t s = 0; s < tests[i].series.size(); ++s)
-          {
-            average(
-              tests[i].borders,
-              [&](const std::size_t row) {
-                return campaign.tests[i].noise * begin[row];
-              },
-              out + s * tests[i].n_bins());
-            begin += campaign.tests[i].rows.time.size();
-          }
+          average(
+            tests[i].borders,
+            [&](const std::size_t row) {
+              return test.noise *
+                     begin[tests[i].axes[s] * test.rows.time.size() + row];
+            },
+            out + s * tests[i].n_bins());
+        begin += test.n_residuals();
       }
     return result;
   }

@@ -20,7 +20,10 @@ namespace SlipStep
   {
     /// The first row of the record of every number, and the end.
     std::vector<std::size_t> borders;
-    std::vector<Series>      series;     ///< one per axis
+    std::vector<Series>      series; ///< one per axis that is measured
+    /// Which those are, 0 along x and 1 along y: one that is nothing but zeros
+    /// is not, and has no noise either.
+    std::vector<std::size_t> axes;
     double                   level = 1.; ///< typical friction
     Eigen::Index             begin = 0;
     Eigen::Index             size  = 0; ///< all axes
@@ -113,6 +116,10 @@ namespace SlipStep
 
     /// Take this for the noise of the rows of a test.
     void set_row_noise(const std::size_t test, const RowNoise &noise);
+
+    /// The numbers that are compared, of these tests with other friction.
+    Eigen::VectorXd
+    means_of(const std::vector<CampaignTest> &campaign_tests) const;
 
     /// Multiply the noise of one of the numbers compared, which nothing
     /// explains.

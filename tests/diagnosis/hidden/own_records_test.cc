@@ -127,7 +127,8 @@ namespace
     TemporaryFolder folder;
     Parameters      parameters;
     Ingested        ingested;
-    double          stiffness = 20.; // friction per mm
+    double          stiffness  = 20.; // friction per mm
+    bool            is_along_y = false;
 
     // Every condition twice, each by a contact of its own.
     void write(const std::function<Contact()> &contact)
@@ -155,7 +156,11 @@ namespace
                         ("t" + std::to_string(10 + number) + ".csv"));
       out.precision(9);
       out << "# condition: " << number / 2
-          << "\ntime_s,displacement_mm,pressure_MPa,friction\n0,0,5,0\n";
+          << (is_along_y ?
+                "\ntime_s,displacement_mm,displacement_y_mm,pressure_"
+                "MPa,friction,friction_y\n0,0,0,5,0,0\n" :
+                "\ntime_s,displacement_mm,pressure_MPa,friction\n"
+                "0,0,5,0\n");
       const double gain = 1. + 0.005 * normal(random);
       double       time = 0., displacement = 0., friction = 0.;
       for (const Slide &slide : slides)
@@ -169,7 +174,8 @@ namespace
                 displacement += slide.speed * step;
                 friction = contact(friction, slide.speed, displacement, step);
               }
-            out << time << ',' << displacement << ",5,"
+            const std::string zero = is_along_y ? "0," : "";
+            out << time << ',' << zero << displacement << ",5," << zero
                 << gain * friction + 0.002 * normal(random) << '\n';
           }
     }
@@ -197,6 +203,32 @@ TEST_F(OwnRecords, FrictionThatFallsWithSpeedIsFoundWhereTheModelCannotHoldIt)
   for (const Rival &rival : judgement.found.rivals)
     found.push_back(rival.name);
   EXPECT_EQ(std::count(found.begin(), found.end(), "slip_law"), 1);
+}
+
+
+
+// Friction along x is nothing but zeros then, which is no small noise.
+TEST_F(OwnRecords, AlongTheOtherAxisTheyTellTheSame)
+{
+  std::vector<Noise> noises;
+  for (const bool turned : {false, true})
+    {
+      is_along_y = turned;
+      random.seed(1);
+      normal.reset();
+      write(0.);
+      parameters = Parameters();
+      read("subloading", usual_contact);
+      Workspace &workspace = *ingested.workspace;
+      EXPECT_GT(test_gap(workspace,
+                         ingested.base,
+                         score_candidates(workspace, ingested.base))
+                  .p,
+                workspace.level);
+      noises.push_back(workspace.noise.noise);
+    }
+  for (const auto size : {&Noise::white, &Noise::drift, &Noise::gain})
+    EXPECT_NEAR(noises[1].*size / noises[0].*size, 1., 0.01);
 }
 
 

@@ -129,7 +129,8 @@ namespace SlipStep
 
     /// The friction without noise at the numbers compared.
     inline Eigen::VectorXd noise_free(const Planting::PlantedCampaign &campaign,
-                                      std::vector<CampaignTest>       &tests)
+                                      const Comparison          &comparison,
+                                      std::vector<CampaignTest> &tests)
     {
       for (CampaignTest &test : tests)
         for (const Planting::PlantedTest &planted : campaign.tests)
@@ -139,7 +140,7 @@ namespace SlipStep
               if (test.has_two_axes())
                 test.rows.friction_y = planted.truth.along_y;
             }
-      return Comparison(tests).measured;
+      return comparison.means_of(tests);
     }
 
 
@@ -350,9 +351,9 @@ namespace SlipStep
       trial.remainder       = judgement.remainder.excess;
 
       std::vector<CampaignTest> tests      = workspace.tests;
-      const Eigen::VectorXd     truth      = noise_free(campaign, tests);
       const Comparison         &comparison = workspace.comparison;
-      const auto                error      = [&](const Model &model) {
+      const Eigen::VectorXd     truth = noise_free(campaign, comparison, tests);
+      const auto                error = [&](const Model &model) {
         return relative_rms(comparison,
                             comparison.difference(*model.simulator,
                                                   model.scaled) +
