@@ -144,10 +144,15 @@ namespace SlipStep
             }
           catch (const InputError &error)
             {
-              // Columns such as displacement_y_mm or time_of_day mean no harm.
-              nearly.emplace_back(position,
-                                  "'" + cell +
-                                    "': " + std::string(error.what()));
+              // Columns such as time_of_day mean no harm; displacement_y_mm
+              // is another one.
+              if (none_of(channels(), [&](const Channel &other) {
+                    return other.name.size() > channel.name.size() &&
+                           cell.rfind(other.name, 0) == 0;
+                  }))
+                nearly.emplace_back(position,
+                                    "'" + cell +
+                                      "': " + std::string(error.what()));
             }
         return false;
       }

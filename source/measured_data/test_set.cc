@@ -203,14 +203,20 @@ namespace SlipStep
 
   std::string describe(const MeasuredTest &test)
   {
-    const auto [least, most] =
-      std::minmax_element(test.friction.begin(), test.friction.end());
+    const auto range = [](const std::vector<double> &values) {
+      const auto [least, most] =
+        std::minmax_element(values.begin(), values.end());
+      return rounded_text(*least, 3) + " to " + rounded_text(*most, 3);
+    };
     const auto noted = test.notes.find("noise");
     return std::to_string(test.time.size()) + " rows, " +
            rounded_text(test.time.back() - test.time.front(), 4) + " s, path " +
            rounded_text(path_of(test), 4) + " mm, " +
            rounded_text(typical_pressure(test), 4) + " MPa, friction " +
-           rounded_text(*least, 3) + " to " + rounded_text(*most, 3) +
+           range(test.friction) +
+           (test.friction_y.empty() ?
+              "" :
+              " along x and " + range(test.friction_y) + " along y") +
            ", noise " +
            (noted == test.notes.end() ?
               rounded_text(noise_of_friction(test), 2) :

@@ -110,6 +110,9 @@ TEST(MeasuredTest, AMissingColumnIsNamed)
   EXPECT_TRUE(contains(text, "'pressure_MPa'"));
   EXPECT_TRUE(contains(text, "mean presure_MPa?"));
   EXPECT_TRUE(contains(message("time_s," + header + "0,0,0,1,1\n"), "twice"));
+  EXPECT_TRUE(contains(message("time_s,displacement_y_um,pressure_MPa,"
+                               "friction_y\n0,0,1,0\n1,1,1,0\n"),
+                       "column 'displacement_mm' is missing"));
 }
 
 

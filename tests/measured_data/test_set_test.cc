@@ -130,6 +130,10 @@ TEST(TestSet, TheNoiseThatIsNotedIsTold)
   EXPECT_EQ(describe(test).find(", noise 0.00123"), std::string::npos);
   test.notes["noise"] = "0.00123";
   EXPECT_TRUE(contains(describe(test), ", noise 0.00123"));
+  EXPECT_TRUE(contains(describe(test), "friction 0.1 to 0.11, noise"));
+  test.friction_y.assign(50, -0.2);
+  EXPECT_TRUE(contains(describe(test),
+                       "0.1 to 0.11 along x and -0.2 to -0.2 along y, noise"));
 }
 
 
