@@ -489,7 +489,7 @@ namespace SlipStep
 
       std::vector<std::string> wider;
       for (std::size_t i = 0; i < best.size(); ++i)
-        if (optimum.differ_by_test[i])
+        if (optimum.differ_in(i))
           wider.push_back(campaign.fitted[i].path + " " +
                           rounded_text(optimum.between_tests(i), 2));
       if (!wider.empty())

@@ -420,14 +420,11 @@ namespace SlipStep
                        const std::vector<double> &residuals,
                        Linearisation             &result)
     {
-      constexpr double by_chance = 2.;
-
       const Eigen::Index n       = result.R.cols();
       const double       of_rows = std::max(1., result.n_effective - n);
       result.between_tests       = Eigen::VectorXd::Ones(n);
       result.freedom             = Eigen::VectorXd::Constant(n, of_rows);
       result.by_gains = Eigen::MatrixXd::Zero(n, campaign.tests.size());
-      result.differ_by_test.assign(n, false);
       const Known known(derivatives, result.R);
       if (known.indices.empty())
         return;
@@ -451,13 +448,12 @@ namespace SlipStep
               std::pow(rows + by_gains, 2) /
               (rows * rows / of_rows + by_gains * by_gains / gains.freedom);
           const LeftOutTests &others = left_out[k];
-          if (others.n_told > 1 && others.factor > by_chance &&
+          if (others.n_told > 1 && others.factor > result.by_chance &&
               others.factor > result.between_tests(i))
             {
               result.between_tests(i) = others.factor;
               result.freedom(i)       = others.n_told - 1.;
             }
-          result.differ_by_test[i] = result.between_tests(i) > by_chance;
         }
     }
   } // namespace

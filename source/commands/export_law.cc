@@ -65,15 +65,16 @@ namespace SlipStep
                                  const FrictionLaw &law)
     {
       std::ostringstream text;
+      const std::size_t  n = StateNumbers(law).size();
       text << "** Into the input file; units are mm, s, N, MPa.\n"
               "** The tangent is unsymmetric: *STEP, UNSYMM=YES.\n"
            << "*SURFACE INTERACTION, NAME=" << name
-           << "\n*FRICTION, USER, DEPVAR=" << StateNumbers(law).size() + 1
+           << "\n*FRICTION, USER, DEPVAR=" << n + 1
            << "\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n "
            << law.normal_stiffness() << ",\n** Numbers of the state:\n";
-      for (std::size_t i = 0; i < StateNumbers(law).size(); ++i)
+      for (std::size_t i = 0; i < n; ++i)
         text << "**   " << i + 1 << "  " << StateNumbers(law).name(i) << '\n';
-      text << "**   " << StateNumbers(law).size() + 1
+      text << "**   " << n + 1
            << "  turn_rad: of the surface in the slip directions since the "
               "point first touched;\n**      angles of the law and vectors "
               "above are measured in the directions of then\n";

@@ -52,16 +52,16 @@ namespace SlipStep
                        Integer(1, 4),
                        "How many effects may be added, one after the other. 1 "
                        "to 4.");
-    parameters.declare(
-      section + "Most time",
-      "1 h",
-      Quantity(Dimension::time, 0., 1e9, true),
-      "Of the search. Then effects are no longer tried, fits "
-      "end with the best that they have, and what is proven "
-      "so far is the answer, with a warning that says so; "
-      "Ctrl-C does the same once a name is proven. The intervals of what was found may take half as long; "
-      "those that are not found then are symmetric ones. More "
-      "than 0, with its unit.");
+    parameters.declare(section + "Most time",
+                       "1 h",
+                       Quantity(Dimension::time, 0., 1e9, true),
+                       "Of the search. Then effects are no longer tried, fits "
+                       "end with the best that they have, and what is proven "
+                       "so far is the answer, with a warning that says so; "
+                       "Ctrl-C does the same once a name is proven. The "
+                       "intervals of what was found may take half as long; "
+                       "those that are not found then are symmetric ones. More "
+                       "than 0, with its unit.");
     parameters.declare(section + "Draws",
                        "999",
                        Integer(99, 100000),

@@ -185,13 +185,15 @@ namespace SlipStep
     std::vector<const std::vector<double> *> columns;
     for (const std::string &name : all)
       columns.push_back(&table[name]);
-    std::vector<std::string> told = all;
-    for (const ContactMemory &memory : contact_memories())
-      told.emplace_back(memory.name);
-    for (const std::string &name : told)
-      if (const std::string why = not_finite(table, name);
-          warnings != nullptr && !why.empty())
-        warnings->push_back(why);
+    if (warnings != nullptr)
+      {
+        std::vector<std::string> told = all;
+        for (const ContactMemory &memory : contact_memories())
+          told.emplace_back(memory.name);
+        for (const std::string &name : told)
+          if (const std::string why = not_finite(table, name); !why.empty())
+            warnings->push_back(why);
+      }
     std::vector<HistoryRow> history(table.size());
     for (const std::string &probe : probes)
       if (table.has(probe))

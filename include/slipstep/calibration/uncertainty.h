@@ -62,13 +62,18 @@ namespace SlipStep
     Eigen::VectorXd between_tests;
     /// Degrees of freedom of that variance.
     Eigen::VectorXd freedom;
-    /// Whether that is more than chance does.
-    std::vector<bool> differ_by_test;
     /// What a unit of gain of every test (columns) moves x by; 0 where a
     /// direction is unknown.
     Eigen::MatrixXd by_gains;
     /// The standard deviation of gains from test to test, as found.
     double gain = 0.;
+
+    /// Whether tests differ in x_i by more than chance makes of their rows.
+    bool differ_in(const Eigen::Index i) const
+    {
+      return between_tests(i) > by_chance;
+    }
+    static constexpr double by_chance = 2.;
 
     /// The increase of the misfit at which an interval of x_i ends.
     double threshold(const double confidence, const std::size_t i) const;
