@@ -35,8 +35,9 @@ namespace SlipStep
     double relative_rate = 1.; ///< of slip, over the speed, at the end
     double growth        = 0.; ///< of r in the last tenth, a share of r
     double change        = 0.; ///< of friction there, a share of the largest
-    double swing_from    = 0.; ///< where friction goes up and down at the end,
-    double swing_to = 0.; ///< where it turns there, at least and most; or 0
+    /// The least and the largest friction at which it turns, where it goes up
+    /// and down at the end; else 0.
+    double swing_from = 0., swing_to = 0.;
 
     bool swings() const
     {
