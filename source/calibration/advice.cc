@@ -311,7 +311,8 @@ namespace SlipStep
       const std::vector<double> a = friction(ahead), b = friction(-back);
       double                    sum = 0.;
       for (std::size_t i = 0; i < a.size(); ++i)
-        sum += std::pow((a[i] - b[i]) / ((ahead + back) * like.noise), 2);
+        sum +=
+          std::pow((a[i] - b[i]) / ((ahead + back) * like.axes[0].noise), 2);
       return sum;
     }
 

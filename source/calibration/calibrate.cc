@@ -542,7 +542,8 @@ namespace SlipStep
       std::vector<double> ratios;
       for (const CampaignTest &test : campaign.tests)
         if (test.rows.notes.count("resampled") == 0)
-          ratios.push_back(noise_of_friction(test.rows) / test.noise);
+          ratios.push_back(mean_noise(friction_axes(test.rows)) /
+                           mean_noise(test.axes));
       const double scatter = median(ratios);
       return "the noise that is stated (Calibration/Noise, or '# noise' in a "
              "test)" +
@@ -563,10 +564,9 @@ namespace SlipStep
       const double       *part = residuals.data();
       for (const CampaignTest &test : campaign.tests)
         {
-          const double square =
+          rms.push_back(test.root_mean_square(part));
+          result.start_misfit +=
             std::inner_product(part, part + test.n_residuals(), part, 0.);
-          rms.push_back(test.noise * std::sqrt(square / test.n_residuals()));
-          result.start_misfit += square;
           part += test.n_residuals();
         }
       return rms;

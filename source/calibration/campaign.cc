@@ -152,25 +152,28 @@ namespace SlipStep
 
     // Of few rows the scatter may be anything, and is taken to be more like
     // that of the others: the usual share of friction counts as so many rows.
-    void share_noise_of_short_tests(std::vector<CampaignTest> &tests)
+    void share_noise_of_short_tests(const std::vector<CampaignTest *> &tests,
+                                    const std::size_t                  axis)
     {
       constexpr std::size_t enough = 30;
 
       std::vector<double> shares;
-      for (const CampaignTest &test : tests)
-        if (test.rows.time.size() >= fewest_rows && test.noise > 0.)
-          shares.push_back(test.noise / largest_friction(test.rows));
+      for (const CampaignTest *const test : tests)
+        if (test->rows.time.size() >= fewest_rows &&
+            test->axes[axis].noise > 0.)
+          shares.push_back(test->axes[axis].noise /
+                           largest_friction(test->rows));
       if (shares.size() < 2)
         return;
       const double usual = median(shares);
-      for (CampaignTest &test : tests)
+      for (CampaignTest *const test : tests)
         {
-          const std::size_t n = test.rows.time.size();
-          if (!test.noise_is_stated && n >= fewest_rows && n < enough &&
-              test.noise > 0.)
-            test.noise *=
-              std::pow(usual * largest_friction(test.rows) / test.noise,
-                       static_cast<double>(enough) / (n + enough));
+          const std::size_t n     = test->rows.time.size();
+          double           &noise = test->axes[axis].noise;
+          if (!test->noise_is_stated && n >= fewest_rows && n < enough &&
+              noise > 0.)
+            noise *= std::pow(usual * largest_friction(test->rows) / noise,
+                              static_cast<double>(enough) / (n + enough));
         }
     }
 
@@ -179,27 +182,69 @@ namespace SlipStep
     // A record without visible noise, filtered or generated, must not outweigh
     // all others: an estimate counts at least a ten-thousandth of the friction
     // and a tenth of what is usual among the tests.
-    void keep_noise_visible(std::vector<CampaignTest> &tests)
+    void keep_noise_visible(std::vector<CampaignTest> &all_tests)
     {
-      share_noise_of_short_tests(tests);
-      std::vector<double> estimates;
-      for (const CampaignTest &test : tests)
-        estimates.push_back(test.noise);
+      for (std::size_t axis = 0; axis < 2; ++axis)
+        {
+          std::vector<CampaignTest *> tests;
+          for (CampaignTest &test : all_tests)
+            if (axis < test.axes.size())
+              tests.push_back(&test);
+          share_noise_of_short_tests(tests, axis);
+          std::vector<double> estimates;
+          for (const CampaignTest *const test : tests)
+            estimates.push_back(test->axes[axis].noise);
+          for (CampaignTest *const test : tests)
+            {
+              const double least = std::max(1e-4 * largest_friction(test->rows),
+                                            0.1 * median(estimates));
+              if (test->noise_is_stated || test->axes[axis].noise >= least)
+                continue;
+              test->axes[axis].noise = least;
+              test->rows.warnings.push_back(
+                test->rows.file.string() +
+                (test->rows.time.size() < fewest_rows ?
+                   ": its rows are too few to see noise in; " :
+                 axis == 1 ?
+                   ": hardly any noise is visible along its second axis; " :
+                   ": hardly any noise is visible; ") +
+                short_text(least, 2) +
+                " is taken, unless a line '# noise: ...' says more.");
+            }
+        }
+    }
+
+
+
+    // Replicates measured by two sensors are compared along the same axes,
+    // those of the most rows.
+    void share_axes_of_conditions(std::vector<CampaignTest> &tests)
+    {
+      const auto key = [](const CampaignTest &test) {
+        return std::make_pair(test.rows.time.size(), test.axes[0].sine);
+      };
+      std::map<std::string, CampaignTest *> leaders;
+      for (CampaignTest &test : tests)
+        if (test.axes.size() == 2 && !test.rows.condition.empty())
+          {
+            CampaignTest *&leader = leaders[test.rows.condition];
+            if (leader == nullptr || key(*leader) < key(test))
+              leader = &test;
+          }
       for (CampaignTest &test : tests)
         {
-          const double largest = largest_friction(test.rows);
-          const double least =
-            std::max(1e-4 * largest, 0.1 * median(estimates));
-          if (test.noise_is_stated || test.noise >= least)
+          const auto found = leaders.find(test.rows.condition);
+          if (test.axes.size() < 2 || found == leaders.end())
             continue;
-          test.noise = least;
-          test.rows.warnings.push_back(
-            test.rows.file.string() +
-            (test.rows.time.size() < fewest_rows ?
-               ": its rows are too few to see noise in; " :
-               ": hardly any noise is visible; ") +
-            short_text(least, 2) +
-            " is taken, unless a line '# noise: ...' says more.");
+          for (std::size_t i = 0; i < 2; ++i)
+            {
+              FrictionAxis &axis  = test.axes[i];
+              const double  noise = axis.noise, sine = axis.sine;
+              axis       = found->second->axes[i];
+              axis.noise = test.noise_is_stated || axis.sine == sine ?
+                             noise :
+                             noise_of_friction(test.friction(axis), test.rows);
+            }
         }
     }
 
@@ -276,7 +321,7 @@ namespace SlipStep
       // Rows farther from each other tell when rests begin.
       options.motion_step = step > 0. ? rounding_of_motion(measured) : 0.;
       CampaignTest result{test,
-                          0.,
+                          {},
                           false,
                           of_same_motion != nullptr ?
                             *of_same_motion :
@@ -291,12 +336,25 @@ namespace SlipStep
       const double noted = Campaign::noted_noise(test);
       const double stated =
         noted > 0. ? noted : Campaign::stated_noise(parameters);
+      result.axes            = friction_axes(result.rows);
       result.noise_is_stated = stated > 0.;
-      result.noise =
-        result.noise_is_stated ? stated : noise_of_friction(result.rows);
+      if (result.noise_is_stated)
+        for (FrictionAxis &axis : result.axes)
+          axis.noise = stated;
       return result;
     }
   } // namespace
+
+
+
+  double CampaignTest::root_mean_square(const double *weighted) const
+  {
+    double sum = 0.;
+    for (const FrictionAxis &axis : axes)
+      for (std::size_t i = 0; i < rows.time.size(); ++i)
+        sum += std::pow(axis.noise * *weighted++, 2);
+    return std::sqrt(sum / n_residuals());
+  }
 
 
 
@@ -349,6 +407,7 @@ namespace SlipStep
             leaders.at(leader) :
             prepare(test, parameters, rounding, &leaders.at(leader).replay));
       }
+    share_axes_of_conditions(tests);
     keep_noise_visible(tests);
     return tests;
   }

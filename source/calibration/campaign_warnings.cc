@@ -135,7 +135,12 @@ namespace SlipStep
       std::size_t n_others = 0;
       for (const CampaignTest &test : tests)
         {
-          const auto found = find_stick_slip(test.rows, test.noise);
+          const FrictionAxis &axis  = test.axes[0];
+          MeasuredTest        along = test.rows;
+          along.friction            = test.friction(axis);
+          along.displacement =
+            axis.of(test.rows.displacement, test.rows.displacement_y);
+          const auto found = find_stick_slip(along, axis.noise);
           if (!found.has_value() ||
               std::abs(std::log(found->stiffness / of_case)) < std::log(alike))
             continue;

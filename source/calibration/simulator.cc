@@ -41,7 +41,7 @@ namespace SlipStep
           }
         Replay::Curve result;
         result.friction = replay.at(curve.friction, test.rows.time);
-        if (test.has_two_axes())
+        if (!test.rows.friction_y.empty())
           result.friction_y = replay.at(curve.friction_y, test.rows.time);
         return result;
       }
@@ -356,11 +356,11 @@ namespace SlipStep
     const CampaignTest &test = campaign.tests[number];
     if (!corrections.empty())
       add(1., corrections[number], curve);
-    for (std::size_t row = 0; row < curve.friction.size(); ++row)
-      *result++ = (curve.friction[row] - test.rows.friction[row]) / test.noise;
-    for (std::size_t row = 0; row < curve.friction_y.size(); ++row)
-      *result++ =
-        (curve.friction_y[row] - test.rows.friction_y[row]) / test.noise;
+    add(-1., test.rows.friction, curve.friction);
+    add(-1., test.rows.friction_y, curve.friction_y);
+    for (const FrictionAxis &axis : test.axes)
+      for (const double difference : axis.of(curve.friction, curve.friction_y))
+        *result++ = difference / axis.noise;
   }
 
 

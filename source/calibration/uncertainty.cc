@@ -38,13 +38,6 @@ namespace SlipStep
 
 
 
-    double root_mean_square(const double *values, const std::size_t n)
-    {
-      return std::sqrt(std::inner_product(values, values + n, values, 0.) / n);
-    }
-
-
-
     TestMisfit misfit_of(const CampaignTest  &test,
                          const Replay::Curve &curve,
                          const double        *residuals)
@@ -55,20 +48,22 @@ namespace SlipStep
       result.condition       = test.rows.condition;
       result.file            = test.rows.file.string();
       result.n_rows          = n;
-      result.noise           = test.noise;
+      result.noise           = mean_noise(test.axes);
       result.noise_is_stated = test.noise_is_stated;
-      result.rms = test.noise * root_mean_square(residuals, test.n_residuals());
+      result.rms             = test.root_mean_square(residuals);
       result.mean =
-        -test.noise * std::accumulate(residuals, residuals + n, 0.) / n;
-      MeasuredTest simulated = test.rows;
-      simulated.friction     = curve.friction;
-      simulated.friction_y   = curve.friction_y;
-      result.measured_work   = frictional_work(test.rows);
-      result.simulated_work  = frictional_work(simulated);
-      result.time            = test.rows.time;
-      result.displacement    = test.rows.displacement;
-      result.measured        = test.rows.friction;
-      result.simulated       = curve.friction;
+        -test.axes[0].noise * std::accumulate(residuals, residuals + n, 0.) / n;
+      MeasuredTest simulated   = test.rows;
+      simulated.friction       = curve.friction;
+      simulated.friction_y     = curve.friction_y;
+      result.measured_work     = frictional_work(test.rows);
+      result.simulated_work    = frictional_work(simulated);
+      const FrictionAxis &axis = test.axes[0];
+      result.time              = test.rows.time;
+      result.displacement =
+        axis.of(test.rows.displacement, test.rows.displacement_y);
+      result.measured  = test.friction(axis);
+      result.simulated = axis.of(curve.friction, curve.friction_y);
       return result;
     }
 
@@ -172,15 +167,15 @@ namespace SlipStep
           std::vector<double>        shares;
           for (const double t : time)
             shares.push_back((t - time.front()) / (time.back() - time.front()));
-          const double level =
-            root_mean_square(test.rows.friction.data(), time.size()) /
-            test.noise;
-          for (unsigned int axis = 0; axis < (test.has_two_axes() ? 2 : 1);
-               ++axis, residuals += time.size())
+          for (const FrictionAxis &axis : test.axes)
             {
-              fit.add(
-                {residuals, residuals + time.size()}, shares, 1., 1., level);
+              fit.add({residuals, residuals + time.size()},
+                      shares,
+                      1.,
+                      1.,
+                      typical_friction(test.rows) / axis.noise);
               n_rows.push_back(time.size());
+              residuals += time.size();
             }
         }
       const RowNoiseFit::Result found = fit.solve();
@@ -199,14 +194,12 @@ namespace SlipStep
     // As residuals are: first one axis, then the other.
     Eigen::VectorXd friction_over_noise(const CampaignTest &test)
     {
-      const Eigen::Index n = test.rows.time.size();
-      Eigen::VectorXd    result(test.n_residuals());
-      result.head(n) =
-        Eigen::Map<const Eigen::VectorXd>(test.rows.friction.data(), n);
-      if (result.size() > n)
-        result.tail(n) =
-          Eigen::Map<const Eigen::VectorXd>(test.rows.friction_y.data(), n);
-      return result / test.noise;
+      Eigen::VectorXd result(test.n_residuals());
+      double         *out = result.data();
+      for (const FrictionAxis &axis : test.axes)
+        for (const double friction : test.friction(axis))
+          *out++ = friction / axis.noise;
+      return result;
     }
 
 

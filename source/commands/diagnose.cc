@@ -173,10 +173,13 @@ namespace SlipStep
           const auto between = [&](const std::vector<double> &values) {
             return (1. - share) * values[i - 1] + share * values[i];
           };
-          result.x.push_back(between(history.friction));
+          const double x = between(history.friction);
+          const double y =
+            history.friction_y.empty() ? 0. : between(history.friction_y);
+          result.x.push_back(
+            test.measured_y.empty() ? test.cosine * x + test.sine * y : x);
           if (!test.measured_y.empty())
-            result.y.push_back(
-              history.friction_y.empty() ? 0. : between(history.friction_y));
+            result.y.push_back(y);
         }
       return result;
     }

@@ -44,7 +44,9 @@ namespace SlipStep
 
 
 
-    Series series_of(const ComparedTest &compared, const CampaignTest &test)
+    Series series_of(const ComparedTest &compared,
+                     const CampaignTest &test,
+                     const FrictionAxis &axis)
     {
       const std::vector<double> &time   = test.rows.time;
       const std::size_t          n_bins = compared.n_bins();
@@ -58,9 +60,16 @@ namespace SlipStep
         series.time.data());
       for (std::size_t i = 0; i < n_bins; ++i)
         series.row_noise.push_back(
-          test.noise / std::sqrt(static_cast<double>(compared.borders[i + 1] -
+          axis.noise / std::sqrt(static_cast<double>(compared.borders[i + 1] -
                                                      compared.borders[i])));
       series.friction.resize(n_bins);
+      // Estimates of sensors that are alike differ, too.
+      constexpr double alike   = 0.7;
+      double           largest = 0.;
+      for (const FrictionAxis &other : test.axes)
+        largest = std::max(largest, other.noise);
+      if (axis.noise < alike * largest)
+        series.noise_share = axis.noise / largest;
       return series;
     }
 
@@ -93,45 +102,26 @@ namespace SlipStep
 
 
 
-    std::vector<std::size_t> measured_axes(const MeasuredTest &rows)
-    {
-      if (rows.friction_y.empty())
-        return {0};
-      if (all_of(rows.friction, [](const double x) { return x == 0.; }))
-        return {1};
-      return {0, 1};
-    }
   } // namespace
-
-
-
-  double typical_friction(const MeasuredTest &rows)
-  {
-    double sum = 0.;
-    for (std::size_t i = 0; i < rows.friction.size(); ++i)
-      sum += std::pow(rows.friction[i], 2) +
-             (rows.friction_y.empty() ? 0. : std::pow(rows.friction_y[i], 2));
-    return std::sqrt(sum / rows.friction.size());
-  }
 
 
 
   Comparison::Comparison(const std::vector<CampaignTest> &campaign_tests,
                          const std::size_t                most_rows)
   {
-    std::map<std::string, std::size_t> number;
-    Eigen::Index                       n = 0;
+    std::map<std::pair<std::string, std::size_t>, std::size_t> number;
+    Eigen::Index                                               n = 0;
     for (const CampaignTest &test : campaign_tests)
       {
         ComparedTest compared;
         compared.borders = equal_parts(test.rows.time.size(), most_rows);
         compared.level   = typical_friction(test.rows);
         compared.begin   = n;
-        compared.axes    = measured_axes(test.rows);
-        compared.series.assign(compared.axes.size(), series_of(compared, test));
+        for (const FrictionAxis &axis : test.axes)
+          compared.series.push_back(series_of(compared, test, axis));
         if (!test.hum.empty())
-          for (std::size_t s = 0; s < compared.axes.size(); ++s)
-            add_hum(test.hum[compared.axes[s]],
+          for (std::size_t s = 0; s < test.axes.size(); ++s)
+            add_hum(test.hum[s],
                     test.rows.time,
                     compared.borders,
                     compared.series[s]);
@@ -141,7 +131,9 @@ namespace SlipStep
         const std::string condition = test.rows.condition.empty() ?
                                         "test " + test.rows.name :
                                         test.rows.condition;
-        const auto        found     = number.emplace(condition, number.size());
+        const auto        found =
+          number.emplace(std::make_pair(condition, test.axes.size()),
+                         number.size());
         if (found.second)
           conditions.push_back(condition);
         compared.condition = found.first->second;
@@ -160,16 +152,17 @@ namespace SlipStep
     Eigen::VectorXd result(counts.size());
     for (std::size_t i = 0; i < tests.size(); ++i)
       {
-        const MeasuredTest &rows = campaign_tests[i].rows;
-        double             *out  = result.data() + tests[i].begin;
-        for (std::size_t s = 0; s < tests[i].series.size(); ++s)
-          average(
-            tests[i].borders,
-            [&](const std::size_t row) {
-              return (tests[i].axes[s] == 0 ? rows.friction :
-                                              rows.friction_y)[row];
-            },
-            out + s * tests[i].n_bins());
+        double *out = result.data() + tests[i].begin;
+        for (const FrictionAxis &axis : campaign_tests[i].axes)
+          {
+            const std::vector<double> friction =
+              campaign_tests[i].friction(axis);
+            average(
+              tests[i].borders,
+              [&](const std::size_t row) { return friction[row]; },
+              out);
+            out += tests[i].n_bins();
+          }
       }
     return result;
   }
@@ -195,7 +188,9 @@ namespace SlipStep
 
 
 
-  void Comparison::set_row_noise(const std::size_t test, const RowNoise &noise)
+  void Comparison::set_row_noise(const std::size_t test,
+                                 const std::size_t axis,
+                                 const RowNoise   &noise)
   {
     const std::vector<std::size_t> &borders = tests[test].borders;
     const double                    usual =
@@ -206,16 +201,14 @@ namespace SlipStep
     const double covariance = noise.covariance_of_means(usual);
     const double power      = std::pow(noise.decay, usual);
     const bool   has_white  = covariance < power * variance;
-    for (Series &series : tests[test].series)
-      {
-        series.row_decay = has_white ? power : covariance / variance;
-        series.row_share = noise.share == 0. ? 0. :
-                           has_white         ? covariance / (power * variance) :
-                                               1.;
-        for (std::size_t i = 0; i < series.row_noise.size(); ++i)
-          series.row_noise[i] =
-            std::sqrt(noise.variance_of_mean(borders[i + 1] - borders[i]));
-      }
+    Series      &series     = tests[test].series[axis];
+    series.row_decay        = has_white ? power : covariance / variance;
+    series.row_share        = noise.share == 0. ? 0. :
+                              has_white ? covariance / (power * variance) :
+                                          1.;
+    for (std::size_t i = 0; i < series.row_noise.size(); ++i)
+      series.row_noise[i] =
+        std::sqrt(noise.variance_of_mean(borders[i + 1] - borders[i]));
   }
 
 
@@ -269,15 +262,15 @@ namespace SlipStep
       {
         double             *out  = result.data() + tests[i].begin;
         const CampaignTest &test = campaign.tests[i];
-        for (std::size_t s = 0; s < tests[i].series.size(); ++s)
-          average(
-            tests[i].borders,
-            [&](const std::size_t row) {
-              return test.noise *
-                     begin[tests[i].axes[s] * test.rows.time.size() + row];
-            },
-            out + s * tests[i].n_bins());
-        begin += test.n_residuals();
+        for (const FrictionAxis &axis : test.axes)
+          {
+            average(
+              tests[i].borders,
+              [&](const std::size_t row) { return axis.noise * begin[row]; },
+              out);
+            out += tests[i].n_bins();
+            begin += test.rows.time.size();
+          }
       }
     return result;
   }

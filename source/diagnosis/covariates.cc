@@ -340,7 +340,7 @@ namespace SlipStep
                 (result.*covariate.values)(k) = (rows.*covariate.values)(row);
               result.since_rest(k) = rows.since_rest(row);
               result.phase[k]      = rows.phase[row];
-              result.axis(k)       = test.axes[s];
+              result.axis(k)       = s;
             }
       }
     follow_pressure(comparison, tests, result);

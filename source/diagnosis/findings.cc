@@ -16,6 +16,7 @@
 #include <iomanip>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
 namespace SlipStep
 {
@@ -43,12 +44,22 @@ namespace SlipStep
 
 
 
-    std::vector<double> part_of(const Eigen::VectorXd &values,
-                                const ComparedTest    &test,
-                                const std::size_t      axis)
+    // Of one axis along that.
+    std::pair<std::vector<double>, std::vector<double>>
+    along_x_and_y(const Eigen::VectorXd           &values,
+                  const ComparedTest              &test,
+                  const std::vector<FrictionAxis> &axes)
     {
-      const double *begin = values.data() + test.begin + axis * test.n_bins();
-      return {begin, begin + test.n_bins()};
+      const double       *begin = values.data() + test.begin;
+      std::vector<double> x(begin, begin + test.n_bins()), y;
+      if (axes.size() == 2)
+        for (std::size_t i = 0; i < x.size(); ++i)
+          {
+            const double along = x[i], across = begin[test.n_bins() + i];
+            x[i] = axes[0].cosine * along + axes[1].cosine * across;
+            y.push_back(axes[0].sine * along + axes[1].sine * across);
+          }
+      return {x, y};
     }
 
 
@@ -94,13 +105,15 @@ namespace SlipStep
             gain += *counts *
                     std::pow(noise.gain * series.friction[i] / test.level, 2);
           }
-      // By the number of axes: a test with two has the noise of both.
+      // A test with two axes has the noise of both.
       const double n_rows = n_counted(comparison, test);
-      const double n_axes = test.series.size();
+      double       axes   = 0.;
+      for (const Series &series : test.series)
+        axes += std::pow(series.level(1., noise), 2);
       return {own / n_rows,
-              gain / n_rows + n_axes * (noise.drift * noise.drift +
-                                        noise.offset * noise.offset +
-                                        noise.slope * noise.slope / 12.)};
+              gain / n_rows + axes * (noise.drift * noise.drift +
+                                      noise.offset * noise.offset +
+                                      noise.slope * noise.slope / 12.)};
     }
   } // namespace
 
@@ -143,16 +156,20 @@ namespace SlipStep
       {"offset", "of friction"},
       {"slope", "of friction"},
       {"row memory", "of what the scatter of rows says"},
-      {"drift by seconds", "0: goes with the duration, 1: the same seconds"}};
+      {"drift by seconds", "0: goes with the duration, 1: the same seconds"},
+      {"drift by sensor",
+       "0: the same of both sensors, 1: as much less as their rows scatter"}};
     const Noise::Logarithms logarithms = workspace.noise.noise.logarithms();
     for (std::size_t i = 0; i < names.size(); ++i)
       {
-        const double   deviation = std::sqrt(workspace.noise.covariance(i, i));
+        const double deviation = std::sqrt(workspace.noise.covariance(i, i));
+        if (deviation == 0.)
+          continue; // not felt
         NoiseComponent component;
         component.name         = names[i].first;
         component.unit         = names[i].second;
         const auto in_its_unit = [&](const double value) {
-          return i + 1 < names.size() ? std::exp(value) : value;
+          return i + 2 < names.size() ? std::exp(value) : value;
         };
         component.value = in_its_unit(logarithms(i));
         component.lower = in_its_unit(logarithms(i) - 1.96 * deviation);
@@ -207,17 +224,17 @@ namespace SlipStep
               std::hypot(rows.displacement[row], rows.displacement_y[row]));
           test.phase.push_back(workspace.covariates.phase[compared.begin + i]);
         }
-      const Eigen::VectorXd before = comparison.measured + differences.before;
-      const Eigen::VectorXd after  = comparison.measured + differences.after;
-      test.measured                = part_of(comparison.measured, compared, 0);
-      test.before                  = part_of(before, compared, 0);
-      test.after                   = part_of(after, compared, 0);
-      if (compared.series.size() > 1)
-        {
-          test.measured_y = part_of(comparison.measured, compared, 1);
-          test.before_y   = part_of(before, compared, 1);
-          test.after_y    = part_of(after, compared, 1);
-        }
+      const std::vector<FrictionAxis> &axes = workspace.tests[number].axes;
+      const auto curve_of = [&](const Eigen::VectorXd &values) {
+        return along_x_and_y(values, compared, axes);
+      };
+      test.cosine                              = axes[0].cosine;
+      test.sine                                = axes[0].sine;
+      std::tie(test.measured, test.measured_y) = curve_of(comparison.measured);
+      std::tie(test.before, test.before_y) =
+        curve_of(comparison.measured + differences.before);
+      std::tie(test.after, test.after_y) =
+        curve_of(comparison.measured + differences.after);
       const auto variances = noise_variances(comparison, compared);
       test.noise =
         compared.level * std::sqrt(variances.first + variances.second);

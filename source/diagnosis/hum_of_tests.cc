@@ -22,21 +22,19 @@ namespace SlipStep
       std::vector<HumSeries> result;
       const double          *row = weighted.data();
       for (const CampaignTest &test : tests)
-        for (const auto *measured :
-             {&test.rows.friction, &test.rows.friction_y})
-          if (!measured->empty())
-            {
-              HumSeries series;
-              series.time  = test.rows.time;
-              series.level = typical_friction(test.rows);
-              series.speed = mean_speed(test.rows);
-              for (const double friction : *measured)
-                {
-                  series.left.push_back(-test.noise * *row++);
-                  series.friction.push_back(friction - series.left.back());
-                }
-              result.push_back(series);
-            }
+        for (const FrictionAxis &axis : test.axes)
+          {
+            HumSeries series;
+            series.time  = test.rows.time;
+            series.level = typical_friction(test.rows);
+            series.speed = mean_speed(test.rows);
+            for (const double friction : test.friction(axis))
+              {
+                series.left.push_back(-axis.noise * *row++);
+                series.friction.push_back(friction - series.left.back());
+              }
+            result.push_back(series);
+          }
       return result;
     }
 
@@ -61,7 +59,7 @@ namespace SlipStep
     {
       constexpr double alike = 0.02;
 
-      using Key = std::pair<std::string, bool>;
+      using Key = std::pair<std::string, std::size_t>;
       std::map<Key, std::vector<const HumSeries *>> waiting;
       std::vector<HumSeries>                        result;
       const auto duration = [](const HumSeries &series) {
@@ -69,12 +67,11 @@ namespace SlipStep
       };
       auto own = left.begin();
       for (const CampaignTest &test : tests)
-        for (std::size_t axis = 0; axis < (test.has_two_axes() ? 2 : 1);
-             ++axis, ++own)
+        for (std::size_t axis = 0; axis < test.axes.size(); ++axis, ++own)
           {
             if (test.rows.condition.empty())
               continue;
-            auto      &others = waiting[{test.rows.condition, axis > 0}];
+            auto      &others = waiting[{test.rows.condition, axis}];
             const auto twin   = std::find_if(
               others.begin(), others.end(), [&](const HumSeries *other) {
                 return std::abs(duration(*own) - duration(*other)) <=
@@ -119,20 +116,27 @@ namespace SlipStep
     auto                      hum    = hums.begin();
     for (CampaignTest &test : result)
       {
-        // What that made of it before counts as well for what is left.
-        const double before = noise_of_friction(test.rows);
-        for (auto *friction : {&test.rows.friction, &test.rows.friction_y})
-          if (!friction->empty())
-            {
-              if (hum->is_told)
-                for (std::size_t i = 0; i < friction->size(); ++i)
-                  (*friction)[i] -=
+        for (FrictionAxis &axis : test.axes)
+          {
+            // What that made of it before counts as well for what is left.
+            const auto noise = [&]() {
+              return noise_of_friction(test.friction(axis), test.rows);
+            };
+            const double before = noise();
+            if (hum->is_told)
+              for (std::size_t i = 0; i < test.rows.time.size(); ++i)
+                {
+                  const double value =
                     hum->at(test.rows.time[i] - test.rows.time.front());
-              test.hum.push_back(*hum++);
-            }
-        const double after = noise_of_friction(test.rows);
-        if (!test.noise_is_stated && after > 0. && after < before)
-          test.noise *= after / before;
+                  test.rows.friction[i] -= axis.cosine * value;
+                  if (!test.rows.friction_y.empty())
+                    test.rows.friction_y[i] -= axis.sine * value;
+                }
+            test.hum.push_back(*hum++);
+            const double after = noise();
+            if (!test.noise_is_stated && after > 0. && after < before)
+              axis.noise *= after / before;
+          }
       }
     return result;
   }

@@ -256,9 +256,9 @@ namespace SlipStep
     // well that is known, 0 if they do not hang together.
     double Preparer::judge_rows(const Eigen::VectorXd &difference)
     {
-      Comparison              &comparison = result.workspace->comparison;
-      RowNoiseFit              fit(stated.drift, stated.drift_time);
-      std::vector<std::size_t> which;
+      Comparison &comparison = result.workspace->comparison;
+      RowNoiseFit fit(stated.drift, stated.drift_time);
+      std::vector<std::pair<std::size_t, std::size_t>> which;
       for (std::size_t t = 0; t < comparison.tests.size(); ++t)
         {
           const CampaignTest &test     = result.workspace->tests[t];
@@ -266,19 +266,25 @@ namespace SlipStep
           if (test.noise_is_stated)
             continue;
           const double *begin = difference.data() + compared.begin;
-          fit.add({begin, begin + compared.n_bins()},
-                  compared.series[0].time,
-                  static_cast<double>(compared.borders.back()) /
-                    compared.n_bins(),
-                  test.noise,
-                  compared.level);
-          which.push_back(t);
+          for (std::size_t s = 0; s < test.axes.size(); ++s)
+            {
+              fit.add({begin, begin + compared.n_bins()},
+                      compared.series[s].time,
+                      static_cast<double>(compared.borders.back()) /
+                        compared.n_bins(),
+                      test.axes[s].noise,
+                      compared.level);
+              which.emplace_back(t, s);
+              begin += compared.n_bins();
+            }
         }
       const RowNoiseFit::Result found = fit.solve();
       if (!found.is_correlated)
         return 0.;
       for (std::size_t i = 0; i < which.size(); ++i)
-        comparison.set_row_noise(which[i], found.records[i]);
+        comparison.set_row_noise(which[i].first,
+                                 which[i].second,
+                                 found.records[i]);
       return found.freedom;
     }
 
@@ -298,16 +304,18 @@ namespace SlipStep
           ComparedTest &test = comparison.tests[t];
           if (result.workspace->tests[t].noise_is_stated)
             continue;
-          std::vector<double> sizes;
-          for (Eigen::Index i = 1; i < test.size; ++i)
-            if (i % test.n_bins() != 0)
-              sizes.push_back(std::abs(innovations(test.begin + i, 0) -
-                                       innovations(test.begin + i - 1, 0)));
-          const double factor =
-            median(std::move(sizes)) / (0.6745 * std::sqrt(2.));
+          Eigen::Index row = test.begin;
           for (Series &series : test.series)
-            for (double &own : series.row_noise)
-              own *= factor;
+            {
+              std::vector<double> sizes;
+              for (++row; sizes.size() + 1 < test.n_bins(); ++row)
+                sizes.push_back(
+                  std::abs(innovations(row, 0) - innovations(row - 1, 0)));
+              const double factor =
+                median(std::move(sizes)) / (0.6745 * std::sqrt(2.));
+              for (double &own : series.row_noise)
+                own *= factor;
+            }
         }
     }
 

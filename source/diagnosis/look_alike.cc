@@ -21,10 +21,14 @@ namespace SlipStep
       for (CampaignTest &test : tests)
         for (std::size_t i = 0; i < test.rows.friction.size(); ++i)
           if (test.rows.pressure[i] > 0.)
-            test.rows.friction[i] -=
-              look_alike.kind == Kind::load_zero ?
-                look_alike.value / test.rows.pressure[i] :
-                look_alike.value;
+            {
+              const double zero = look_alike.kind == Kind::load_zero ?
+                                    look_alike.value / test.rows.pressure[i] :
+                                    look_alike.value;
+              test.rows.friction[i] -= test.axes[0].cosine * zero;
+              if (!test.rows.friction_y.empty())
+                test.rows.friction_y[i] -= test.axes[0].sine * zero;
+            }
       return tests;
     }
 

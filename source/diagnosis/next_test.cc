@@ -92,7 +92,7 @@ namespace SlipStep
         const double        duration = motion.time.back() - motion.time.front();
         std::vector<double> noises;
         for (const CampaignTest &test : workspace.tests)
-          noises.push_back(test.noise);
+          noises.push_back(mean_noise(test.axes));
         for (std::size_t i = 0; i < n; ++i)
           series.time.push_back((motion.time[i] - motion.time.front()) /
                                 duration);

@@ -7,6 +7,7 @@
 
 #include <boost/math/tools/minima.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace SlipStep
@@ -16,7 +17,7 @@ namespace SlipStep
     Logarithms result;
     result << std::log(white), std::log(drift), std::log(drift_time),
       std::log(gain), std::log(offset), std::log(slope), std::log(row_memory),
-      by_seconds;
+      by_seconds, by_sensor;
     return result;
   }
 
@@ -32,7 +33,15 @@ namespace SlipStep
             values(4),
             values(5),
             values(6),
-            logarithms(7)};
+            logarithms(7),
+            logarithms(8)};
+  }
+
+
+
+  double Series::level(const double friction, const Noise &noise) const
+  {
+    return friction * std::pow(noise_share, noise.by_sensor);
   }
 
 
@@ -85,15 +94,16 @@ namespace SlipStep
       Eigen::Index row = 0, wave = 1 + 2 * series.size();
       for (std::size_t s = 0; s < series.size(); ++s)
         {
+          const double own_level = series[s].level(level, noise);
           for (const std::vector<double> &values : series[s].hum)
             columns.col(wave++).segment(row, values.size()) =
               Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
           for (std::size_t i = 0; i < series[s].time.size(); ++i, ++row)
             {
               columns(row, 0)         = noise.gain * series[s].friction[i];
-              columns(row, 1 + 2 * s) = noise.offset * level;
+              columns(row, 1 + 2 * s) = noise.offset * own_level;
               columns(row, 2 + 2 * s) =
-                noise.slope * level * (series[s].time[i] - 0.5);
+                noise.slope * own_level * (series[s].time[i] - 0.5);
             }
         }
       return columns;
@@ -130,7 +140,8 @@ namespace SlipStep
                            const double  level,
                            const Noise  &noise)
   {
-    const double stationary = std::pow(noise.drift * level, 2);
+    const double stationary =
+      std::pow(noise.drift * series.level(level, noise), 2);
     const double drift_time = series.drift_time(noise);
     const double row_kept   = series.row_kept(noise);
     // Covariance of the states.
@@ -220,7 +231,8 @@ namespace SlipStep
     Eigen::Index    row    = 0;
     for (const Series &one : series)
       {
-        double       state      = noise.drift * level * normal(random);
+        const double drift      = noise.drift * one.level(level, noise);
+        double       state      = drift * normal(random);
         const double drift_time = one.drift_time(noise);
         double       together   = one.row_share > 0. ? normal(random) : 0.;
         for (std::size_t i = 0; i < one.time.size(); ++i, ++row)
@@ -229,9 +241,8 @@ namespace SlipStep
               {
                 const double keep =
                   std::exp((one.time[i - 1] - one.time[i]) / drift_time);
-                state = keep * state + noise.drift * level *
-                                         std::sqrt(1. - keep * keep) *
-                                         normal(random);
+                state = keep * state +
+                        drift * std::sqrt(1. - keep * keep) * normal(random);
               }
             double own = normal(random);
             if (one.row_share > 0.)
@@ -255,8 +266,9 @@ namespace SlipStep
   {
     std::normal_distribution<double> normal(0., 1.);
     Noise::Logarithms                independent;
-    for (double &value : independent)
-      value = normal(random);
+    // Where sensors are alike, nothing is drawn of how they differ.
+    for (Eigen::Index i = 0; i < independent.size(); ++i)
+      independent(i) = covariance(i, i) > 0. ? normal(random) : 0.;
     Noise result = Noise::from_logarithms(
       noise.logarithms() + covariance.llt().matrixL() * independent);
     if (row_freedom > 0.)
@@ -269,7 +281,7 @@ namespace SlipStep
   Noise::Logarithms prior_deviations()
   {
     Noise::Logarithms result;
-    result << 0.2, 0.6, 0.5, 0.6, 0.6, 0.6, 0.4, 0.5;
+    result << 0.2, 0.6, 0.5, 0.6, 0.6, 0.6, 0.4, 0.5, 0.5;
     return result;
   }
 
@@ -281,6 +293,18 @@ namespace SlipStep
 
     // Farther from what is thought of before noise is not believed to be.
     constexpr double largest_deviation = 5.;
+
+
+
+    // How many components are felt: the last one where sensors differ only.
+    Eigen::Index n_felt(const std::vector<Contrast> &contrasts)
+    {
+      for (const Contrast &contrast : contrasts)
+        for (const Series &series : contrast.series)
+          if (series.noise_share < 1.)
+            return Noise::n_components;
+      return Noise::n_components - 1;
+    }
 
 
 
@@ -319,7 +343,9 @@ namespace SlipStep
         const Logarithms center = Eigen::Map<const Logarithms>(at);
         *cost                   = implausibility(contrasts, prior, center);
         if (gradient != nullptr)
-          for (Eigen::Index i = 0; i < center.size(); ++i)
+          std::fill_n(gradient, center.size(), 0.);
+        if (gradient != nullptr)
+          for (Eigen::Index i = 0; i < n_felt(contrasts); ++i)
             {
               constexpr double step   = 1e-4;
               Logarithms       beyond = center, before = center;
@@ -356,7 +382,7 @@ namespace SlipStep
       for (unsigned int sweep = 0; sweep < most_sweeps; ++sweep)
         {
           const double before = value;
-          for (Eigen::Index i = 0; i < at.size(); ++i)
+          for (Eigen::Index i = 0; i < n_felt(contrasts); ++i)
             {
               const auto along = [&](const double x) {
                 Logarithms moved = at;
@@ -383,9 +409,11 @@ namespace SlipStep
                                const Noise                 &prior)
   {
     NoiseEstimate result;
-    result.n_contrasts = contrasts.size();
-    result.noise       = prior;
-    result.covariance  = prior_deviations().cwiseAbs2().asDiagonal();
+    result.n_contrasts         = contrasts.size();
+    result.noise               = prior;
+    result.covariance          = prior_deviations().cwiseAbs2().asDiagonal();
+    const Eigen::Index n_known = Noise::n_components - n_felt(contrasts);
+    result.covariance.diagonal().tail(n_known).setZero();
     if (contrasts.empty())
       return result;
 
@@ -408,8 +436,8 @@ namespace SlipStep
     // The curvature is at least that of the prior.
     using Square =
       Eigen::Matrix<double, Noise::n_components, Noise::n_components>;
-    Square curvature;
-    for (Eigen::Index i = 0; i < at.size(); ++i)
+    Square curvature = Square::Zero();
+    for (Eigen::Index i = 0; i < n_felt(contrasts); ++i)
       {
         constexpr double step   = 0.02;
         Logarithms       beyond = at, before = at, rise, fall;
@@ -426,6 +454,8 @@ namespace SlipStep
       eigen.eigenvectors() *
       eigen.eigenvalues().cwiseMax(1.).cwiseInverse().asDiagonal() *
       eigen.eigenvectors().transpose();
+    result.covariance.rightCols(n_known).setZero();
+    result.covariance.bottomRows(n_known).setZero();
     return result;
   }
 } // namespace SlipStep

@@ -119,8 +119,9 @@ namespace SlipStep
     for (const CampaignTest &test : workspace.tests)
       {
         // Else it scatters enough for means to be right.
-        const double own = coarse_step(test.rows.friction);
-        if (!(own > test.noise))
+        const FrictionAxis &axis = test.axes[0];
+        const double        own  = coarse_step(test.friction(axis));
+        if (!(own > axis.noise))
           continue;
         ++n_rounded;
         step = std::max(step, own);

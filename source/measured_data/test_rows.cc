@@ -626,14 +626,20 @@ namespace SlipStep
 
 
 
+  double noise_of_friction(const std::vector<double> &friction,
+                           const MeasuredTest        &test)
+  {
+    return std::max(noise_level(without_dead_rows(friction, test)),
+                    coarse_step(friction) / std::sqrt(12.));
+  }
+
+
+
   double noise_of_friction(const MeasuredTest &test)
   {
-    double result = 0.;
-    for (const auto *values : {&test.friction, &test.friction_y})
-      if (!values->empty())
-        result = std::max({result,
-                           noise_level(without_dead_rows(*values, test)),
-                           coarse_step(*values) / std::sqrt(12.)});
-    return result;
+    const double along_x = noise_of_friction(test.friction, test);
+    return test.friction_y.empty() ?
+             along_x :
+             std::max(along_x, noise_of_friction(test.friction_y, test));
   }
 } // namespace SlipStep

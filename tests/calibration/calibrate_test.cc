@@ -14,12 +14,15 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
+#include <map>
 
 #include "tests/file_text.h"
 #include "planted.h"
 
 using namespace SlipStep;
 using namespace SlipStep::Testing;
+namespace fs = std::filesystem;
 
 TEST_F(Planted, ParametersAreFoundToTheNoise)
 {
@@ -278,6 +281,50 @@ TEST_F(Planted, ADerivedQuantityWithoutValueLosesNothingElse)
 
 
 
+// Friction along x is nothing but zeros then, and no measurement: one sensor
+// resolved along x and y is one, whatever the angle.
+TEST_F(Planted, AlongOtherAxesTheFitIsTheSame)
+{
+  plant(folder.path(), calibration_case(paper), {1., 20., 200.}, 200, 5e-4, 7);
+  std::map<fs::path, MeasuredTest> along_x;
+  for (const fs::path &file : Campaign::test_files(fitting({})))
+    for (const auto &entry : fs::directory_iterator(file))
+      along_x[entry.path()] = read_measured_test(entry.path());
+  std::vector<Calibration> found;
+  for (const double angle : {0., 90., 30., -135.})
+    {
+      const double c = std::cos(angle * std::acos(-1.) / 180.);
+      const double s = std::sin(angle * std::acos(-1.) / 180.);
+      for (const auto &[file, measured] : along_x)
+        {
+          MeasuredTest test   = measured;
+          test.displacement_y = test.displacement;
+          test.friction_y     = test.friction;
+          for (std::size_t i = 0; i < test.time.size(); ++i)
+            {
+              test.displacement[i] *= c;
+              test.friction[i] *= c;
+              test.displacement_y[i] *= s;
+              test.friction_y[i] *= s;
+            }
+          write_measured_test(file, test);
+        }
+      found.push_back(calibrate(fitting({{"Calibration/Parameters", four}})));
+    }
+  for (const Calibration &turned : found)
+    for (std::size_t i = 0; i < 4; ++i)
+      {
+        const FittedParameter &one = found[0].parameters[i];
+        const FittedParameter &two = turned.parameters[i];
+        EXPECT_NEAR(two.value / one.value, 1., 2e-3) << one.parameter.path;
+        EXPECT_NEAR((two.upper - two.lower) / (one.upper - one.lower), 1., 0.02)
+          << one.parameter.path;
+        EXPECT_NEAR(turned.tests[0].rms / found[0].tests[0].rms, 1., 1e-3);
+      }
+}
+
+
+
 // A record without noise does not take over the whole fit, and it is told.
 TEST_F(Planted, ARecordWithoutNoiseIsWarnedOf)
 {
@@ -294,7 +341,7 @@ TEST_F(Planted, ARecordWithoutNoiseIsWarnedOf)
   const Campaign campaign(
     fitting({{"Calibration/Parameters",
               "Friction/Static coefficient from 0.05 to 0.2"}}));
-  EXPECT_NEAR(campaign.tests.front().noise, 1e-4, 3e-5);
+  EXPECT_NEAR(campaign.tests.front().axes[0].noise, 1e-4, 3e-5);
   ASSERT_EQ(campaign.warnings().size(), 1u);
   EXPECT_TRUE(contains(campaign.warnings().front(), "constant.csv"));
 

@@ -120,8 +120,8 @@ TEST(CalibrationWarnings, FewRowsDoNotOutweighOthers)
   for (const unsigned int n_rows : {10, 15, 25})
     for (const CampaignTest &test : noise_of(n_rows))
       {
-        EXPECT_GT(test.noise, 0.4e-3) << n_rows;
-        EXPECT_LT(test.noise, 2e-3) << n_rows;
+        EXPECT_GT(test.axes[0].noise, 0.4e-3) << n_rows;
+        EXPECT_LT(test.axes[0].noise, 2e-3) << n_rows;
       }
   const auto few = noise_of(4);
   EXPECT_TRUE(contains(few[0].rows.warnings.back(), "too few to see noise in"));

@@ -52,7 +52,7 @@ namespace
   Covariates covariates_of(const MeasuredTest &test, Comparison &comparison)
   {
     return find_covariates(comparison,
-                           {{test, 0.001, true, Replay(test)}},
+                           {{test, {{1., 0., 0.001}}, true, Replay(test)}},
                            comparison.measured,
                            1e-3);
   }
@@ -63,9 +63,9 @@ namespace
 TEST(Covariates, KnowTheHistoryOfEveryRow)
 {
   const MeasuredTest test = slide_rest_return();
-  Comparison         comparison({{test, 0.001, true, Replay(test)}}, 1000);
-  const Covariates   found = covariates_of(test, comparison);
-  const auto         row   = [](const double time) {
+  Comparison comparison({{test, {{1., 0., 0.001}}, true, Replay(test)}}, 1000);
+  const Covariates found = covariates_of(test, comparison);
+  const auto       row   = [](const double time) {
     return static_cast<Eigen::Index>(std::lround(10. * time));
   };
   EXPECT_NEAR(found.speed(row(5.)), 0.1, 1e-9);
@@ -102,10 +102,11 @@ TEST(Covariates, TellLinesOfMotionApart)
         test.displacement_y[i] = y;
       }
     test.friction_y.assign(n, 0.);
-    Comparison       comparison({{test, 0.001, true, Replay(test)}}, 1000);
+    Comparison       comparison({{test, {{1., 0., 0.001}}, true, Replay(test)}},
+                          1000);
     const Covariates covariates = covariates_of(test, comparison);
     return tested_range(comparison,
-                        {{test, 0.001, true, Replay(test)}},
+                        {{test, {{1., 0., 0.001}}, true, Replay(test)}},
                         covariates)
       .widest_angle;
   };
@@ -158,7 +159,7 @@ TEST(Covariates, RememberThePressure)
                                          5.);
       test.friction.push_back(0.1);
     }
-  Comparison       comparison({{test, 0.001, true, Replay(test)}}, 1000);
+  Comparison comparison({{test, {{1., 0., 0.001}}, true, Replay(test)}}, 1000);
   const Covariates found = covariates_of(test, comparison);
   EXPECT_EQ(found.unloading(50), 0.);
   EXPECT_EQ(found.unloading(150), 0.);
@@ -192,9 +193,9 @@ TEST(Covariates, RememberThePressure)
 TEST(Covariates, TellPhasesApart)
 {
   const MeasuredTest test = slide_rest_return();
-  Comparison         comparison({{test, 0.001, true, Replay(test)}}, 1000);
-  const Covariates   found = covariates_of(test, comparison);
-  const auto         phase = [&](const double time) {
+  Comparison comparison({{test, {{1., 0., 0.001}}, true, Replay(test)}}, 1000);
+  const Covariates found = covariates_of(test, comparison);
+  const auto       phase = [&](const double time) {
     return name_of(found.phase[std::lround(10. * time)]);
   };
   EXPECT_EQ(phase(0.1), "presliding");
@@ -213,8 +214,8 @@ TEST(Covariates, TellPhasesApart)
 TEST(Comparison, AveragesNeighbours)
 {
   const MeasuredTest test = slide_rest_return();
-  const Comparison   all({{test, 0.001, true, Replay(test)}}, 1000);
-  const Comparison   few({{test, 0.001, true, Replay(test)}}, 100);
+  const Comparison   all({{test, {{1., 0., 0.001}}, true, Replay(test)}}, 1000);
+  const Comparison   few({{test, {{1., 0., 0.001}}, true, Replay(test)}}, 100);
   ASSERT_EQ(all.n_rows(), 500);
   ASSERT_EQ(few.n_rows(), 100);
   for (Eigen::Index i = 0; i < 100; ++i)
@@ -229,8 +230,8 @@ TEST(Comparison, AveragesNeighbours)
 // Only what varies is in the basis.
 TEST(SmoothBasis, HasWhatVaries)
 {
-  const MeasuredTest    test = slide_rest_return();
-  Comparison            comparison({{test, 0.001, true, Replay(test)}}, 1000);
+  const MeasuredTest test = slide_rest_return();
+  Comparison comparison({{test, {{1., 0., 0.001}}, true, Replay(test)}}, 1000);
   std::set<std::string> names;
   for (const Direction &column :
        smooth_basis(comparison, covariates_of(test, comparison)))

@@ -24,7 +24,7 @@ namespace
         test.pressure.push_back(5.);
         test.friction.push_back(std::min(slope * place, 0.1));
       }
-    CampaignTest result{test, 0.001, true, Replay(test)};
+    CampaignTest result{test, {{1., 0., 0.001}}, true, Replay(test)};
     result.motion_step = motion_step;
     return result;
   }

@@ -48,15 +48,17 @@ namespace
               {
                 double value = std::pow(noise.gain, 2) * series[s].friction[i] *
                                series[t].friction[j];
+                const double own_level =
+                  level * std::pow(series[s].noise_share, noise.by_sensor);
                 if (s == t)
                   value +=
-                    std::pow(level * noise.drift, 2) *
+                    std::pow(own_level * noise.drift, 2) *
                       std::exp(
                         -std::abs(series[s].time[i] - series[t].time[j]) /
                         (noise.drift_time *
                          std::pow(series[s].duration, -noise.by_seconds))) +
-                    std::pow(level * noise.offset, 2) +
-                    std::pow(level * noise.slope, 2) *
+                    std::pow(own_level * noise.offset, 2) +
+                    std::pow(own_level * noise.slope, 2) *
                       (series[s].time[i] - 0.5) * (series[t].time[j] - 0.5);
                 const double rows = std::pow(noise.white, 2) *
                                     series[s].row_noise[i] *
@@ -82,10 +84,10 @@ namespace
 namespace
 {
   // White rows; rows that hang together, in part and wholly; drift that forgets
-  // within the same seconds; hum.
+  // within the same seconds; hum; a sensor quieter than another.
   std::vector<std::pair<Series, Noise>> kinds_of_noise(const std::size_t n)
   {
-    std::vector<std::pair<Series, Noise>> result(5,
+    std::vector<std::pair<Series, Noise>> result(6,
                                                  {series_of(n, 0.001),
                                                   usual_noise()});
     result[1].first.row_share   = 0.6;
@@ -97,6 +99,8 @@ namespace
     result[3].first.row_decay   = 0.9;
     result[3].first.duration    = 3.;
     result[3].second.by_seconds = 0.8;
+    result[5].first.noise_share = 0.2;
+    result[5].second.by_sensor  = 0.7;
     for (const double phase : {0., 1.5708})
       {
         result[4].first.hum.emplace_back();
@@ -198,9 +202,40 @@ TEST(EstimateNoise, IsThePriorWithoutReplicates)
   const NoiseEstimate found = estimate_noise({}, prior);
   EXPECT_EQ(found.n_contrasts, 0u);
   EXPECT_EQ((found.noise.logarithms() - prior.logarithms()).norm(), 0.);
+  // Of how sensors differ nothing is felt.
   for (Eigen::Index i = 0; i < found.covariance.rows(); ++i)
     EXPECT_DOUBLE_EQ(found.covariance(i, i),
-                     std::pow(prior_deviations()(i), 2));
+                     i + 1 < found.covariance.rows() ?
+                       std::pow(prior_deviations()(i), 2) :
+                       0.);
+}
+
+
+
+// The drift of a sensor whose rows scatter less than those of the other one.
+TEST(EstimateNoise, TellsAQuietSensorFromQuietRows)
+{
+  for (const double by_sensor : {0., 1.})
+    {
+      Noise truth     = usual_noise();
+      truth.by_sensor = by_sensor;
+      std::mt19937_64       random(9);
+      std::vector<Contrast> contrasts;
+      for (unsigned int i = 0; i < 8; ++i)
+        {
+          Contrast contrast;
+          contrast.series = {series_of(200, 5e-4), series_of(200, 1e-4)};
+          contrast.series[1].noise_share = 0.2;
+          contrast.level                 = 0.11;
+          contrast.values =
+            sample_noise(contrast.series, contrast.level, truth, random);
+          contrasts.push_back(contrast);
+        }
+      const NoiseEstimate found = estimate_noise(contrasts, usual_noise());
+      EXPECT_LT(std::abs(found.noise.by_sensor - by_sensor),
+                3. * std::sqrt(found.covariance(8, 8)));
+      EXPECT_LT(std::sqrt(found.covariance(8, 8)), 0.2);
+    }
 }
 
 

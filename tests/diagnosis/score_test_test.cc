@@ -28,7 +28,7 @@ namespace
         test.pressure.push_back(5.);
         test.friction.push_back(0.1);
       }
-    return {test, 0.001, true, Replay(test)};
+    return {test, {{1., 0., 0.001}}, true, Replay(test)};
   }
 
   // Rows of two replicates and of a test without.

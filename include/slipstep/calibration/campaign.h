@@ -7,6 +7,7 @@
 #include <slipstep/experiment/machine.h>
 #include <slipstep/experiment/replay.h>
 #include <slipstep/friction/law.h>
+#include <slipstep/measured_data/friction_axes.h>
 #include <slipstep/measured_data/mains_hum.h>
 
 #include <cstddef>
@@ -21,9 +22,10 @@ namespace SlipStep
   {
     /// Only the rows that are compared.
     MeasuredTest rows;
-    /// Standard deviation of the friction by which differences are weighted.
-    double noise           = 0.;
-    bool   noise_is_stated = false;
+    /// Along which friction is compared, with the noise by which differences
+    /// are weighted.
+    std::vector<FrictionAxis> axes;
+    bool                      noise_is_stated = false;
     /// Leads the contact point; with the fewer rows that resample() leaves.
     Replay replay;
     /// To which its positions were rounded, coarsely [mm]; 0 if they were not.
@@ -32,16 +34,20 @@ namespace SlipStep
     /// can be told; empty without any.
     std::vector<Hum> hum = {};
 
-    /// Whether friction_y is compared, too.
-    bool has_two_axes() const
+    /// Friction along an axis.
+    std::vector<double> friction(const FrictionAxis &axis) const
     {
-      return !rows.friction_y.empty();
+      return axis.of(rows.friction, rows.friction_y);
     }
 
     std::size_t n_residuals() const
     {
-      return rows.time.size() * (has_two_axes() ? 2 : 1);
+      return rows.time.size() * axes.size();
     }
+
+    /// Root mean square of differences of friction, given over the noise, the
+    /// rows of one axis after those of the other.
+    double root_mean_square(const double *weighted) const;
   };
 
   /// The tests of a case and the parameters to be found from them.
@@ -66,7 +72,7 @@ namespace SlipStep
     const std::vector<Derived>      derived;
     std::vector<CampaignTest>       tests;
 
-    /// Rows compared, twice for tests with two axes.
+    /// Rows compared, along every axis.
     std::size_t n_residuals() const;
 
     /// Largest error of a step while searching, see Replay::plan().

@@ -20,10 +20,7 @@ namespace SlipStep
   {
     /// The first row of the record of every number, and the end.
     std::vector<std::size_t> borders;
-    std::vector<Series>      series; ///< one per axis that is measured
-    /// Which those are, 0 along x and 1 along y: one that is nothing but zeros
-    /// is not, and has no noise either.
-    std::vector<std::size_t> axes;
+    std::vector<Series>      series;     ///< one per axis that is measured
     double                   level = 1.; ///< typical friction
     Eigen::Index             begin = 0;
     Eigen::Index             size  = 0; ///< all axes
@@ -41,9 +38,6 @@ namespace SlipStep
       return (borders[bin] + borders[bin + 1]) / 2;
     }
   };
-
-  /// Root mean square of the friction of a test, of both axes.
-  double typical_friction(const MeasuredTest &rows);
 
   /// For each time that of another test that is nearest to it; both rise.
   std::vector<std::size_t> partners(const std::vector<double> &time,
@@ -114,8 +108,10 @@ namespace SlipStep
     std::chrono::steady_clock::time_point deadline =
       std::chrono::steady_clock::time_point::max();
 
-    /// Take this for the noise of the rows of a test.
-    void set_row_noise(const std::size_t test, const RowNoise &noise);
+    /// Take this for the noise of the rows of a test, along one of its axes.
+    void set_row_noise(const std::size_t test,
+                       const std::size_t axis,
+                       const RowNoise   &noise);
 
     /// The numbers that are compared, of these tests with other friction.
     Eigen::VectorXd

@@ -30,7 +30,7 @@ namespace SlipStep
     Eigen::VectorXd heat;       ///< recent frictional work [MPa mm]
     Eigen::VectorXd order;      ///< of the test in the campaign; 0 if unknown
     Eigen::VectorXd friction;   ///< as simulated
-    Eigen::VectorXd axis;       ///< 0 or 1
+    Eigen::VectorXd axis;       ///< of the test's, 0 or 1
     /// How far the pressure has fallen below the largest so far, as a share.
     Eigen::VectorXd unloading;
     Eigen::VectorXd pressure_rate; ///< [MPa/s]

@@ -137,7 +137,7 @@ namespace SlipStep
   };
 
   /// One test with the friction before and after. Values at the rows compared;
-  /// of two axes the first one, then the second one.
+  /// of two axes along x, then along y.
   struct DiagnosedTest
   {
     std::string name, condition, file;
@@ -148,7 +148,9 @@ namespace SlipStep
     std::vector<double> displacement; ///< [mm]
     std::vector<double> measured, before, after;
     std::vector<double> measured_y, before_y, after_y;
-    std::vector<Phase>  phase;
+    /// Of the angle of the one axis that a test without measured_y has.
+    double             cosine = 1., sine = 0.;
+    std::vector<Phase> phase;
     double noise = 0.; ///< standard deviation of a row from all noise
     /// Root mean square of measured minus simulated, as shares of level.
     double rms_before = 0., rms_after = 0.;

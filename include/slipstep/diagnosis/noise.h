@@ -36,10 +36,14 @@ namespace SlipStep
     /// Of a longer test the share is less by this power of its duration: 0 if
     /// the drift goes with the test, 1 if it forgets within the same seconds.
     double by_seconds = 0.;
+    /// Of a sensor whose rows scatter less than those of the other axis the
+    /// drift, the offset and the slope are less by this power of that: 0 if
+    /// they are the same, 1 if all of its noise is less.
+    double by_sensor = 0.;
 
-    static constexpr std::size_t n_components = 8;
+    static constexpr std::size_t n_components = 9;
 
-    /// The last of them is no logarithm, but by_seconds itself.
+    /// The last two of them are no logarithms, but the powers themselves.
     using Logarithms = Eigen::Matrix<double, n_components, 1>;
 
     Logarithms logarithms() const;
@@ -61,9 +65,14 @@ namespace SlipStep
     double row_share = 0., row_decay = 0.;
     ///@}
     double duration = 1.; ///< of the test, over the usual one
+    /// Noise of the rows over that of the axis that has more of it.
+    double noise_share = 1.;
     /// Cosine and sine of the hum of the mains, as large as one believes it to
     /// be, at these times; empty without any.
     std::vector<std::vector<double>> hum;
+
+    /// Of what drift, offset and slope are a share.
+    double level(const double friction, const Noise &noise) const;
 
     /// Over which drift forgets, a share of the test's own duration.
     double drift_time(const Noise &noise) const;

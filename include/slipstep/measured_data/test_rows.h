@@ -66,9 +66,13 @@ namespace SlipStep
   /// of fewer than four values, 0.
   double coarse_step(const std::vector<double> &values);
 
-  /// The same as noise_level() of friction, the larger of the axes', and not
-  /// less than that of a coarse_step(): what hardly ever goes to the next step
-  /// seems to have none.
+  /// The same as noise_level() of friction along an axis, and not less than
+  /// that of a coarse_step(): what hardly ever goes to the next step seems to
+  /// have none.
+  double noise_of_friction(const std::vector<double> &friction,
+                           const MeasuredTest        &test);
+
+  /// The larger of that along x and along y.
   double noise_of_friction(const MeasuredTest &test);
 
   /// The channels that a test has.

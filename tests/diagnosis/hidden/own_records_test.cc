@@ -127,8 +127,9 @@ namespace
     TemporaryFolder folder;
     Parameters      parameters;
     Ingested        ingested;
-    double          stiffness  = 20.; // friction per mm
-    bool            is_along_y = false;
+    double          stiffness = 20.; // friction per mm
+    double          angle     = 0.;  // of the motion to x
+    double          across    = 0.;  // noise of a sensor there
 
     // Every condition twice, each by a contact of its own.
     void write(const std::function<Contact()> &contact)
@@ -156,11 +157,8 @@ namespace
                         ("t" + std::to_string(10 + number) + ".csv"));
       out.precision(9);
       out << "# condition: " << number / 2
-          << (is_along_y ?
-                "\ntime_s,displacement_mm,displacement_y_mm,pressure_"
-                "MPa,friction,friction_y\n0,0,0,5,0,0\n" :
-                "\ntime_s,displacement_mm,pressure_MPa,friction\n"
-                "0,0,5,0\n");
+          << "\ntime_s,displacement_mm,displacement_y_mm,pressure_MPa,"
+             "friction,friction_y\n0,0,0,5,0,0\n";
       const double gain = 1. + 0.005 * normal(random);
       double       time = 0., displacement = 0., friction = 0.;
       for (const Slide &slide : slides)
@@ -174,14 +172,17 @@ namespace
                 displacement += slide.speed * step;
                 friction = contact(friction, slide.speed, displacement, step);
               }
-            const std::string zero = is_along_y ? "0," : "";
-            out << time << ',' << zero << displacement << ",5," << zero
-                << gain * friction + 0.002 * normal(random) << '\n';
+            const double measured = gain * friction + 0.002 * normal(random);
+            const double beside   = across * normal_across(random_across);
+            const double c = std::cos(angle), s = std::sin(angle);
+            out << time << ',' << c * displacement << ',' << s * displacement
+                << ",5," << c * measured - s * beside << ','
+                << s * measured + c * beside << '\n';
           }
     }
 
-    std::mt19937_64            random{1};
-    std::normal_distribution<> normal;
+    std::mt19937_64            random{1}, random_across{2};
+    std::normal_distribution<> normal, normal_across;
   };
 } // namespace
 
@@ -207,13 +208,18 @@ TEST_F(OwnRecords, FrictionThatFallsWithSpeedIsFoundWhereTheModelCannotHoldIt)
 
 
 
-// Friction along x is nothing but zeros then, which is no small noise.
-TEST_F(OwnRecords, AlongTheOtherAxisTheyTellTheSame)
+// One sensor, whatever it is resolved along, and another one across it that is
+// quieter: what lacks noise says nothing of the other's.
+TEST_F(OwnRecords, AlongOtherAxesTheyTellTheSame)
 {
   std::vector<Noise> noises;
-  for (const bool turned : {false, true})
+  for (const auto &[degrees, deviation] : {std::make_pair(0., 0.),
+                                           std::make_pair(90., 0.),
+                                           std::make_pair(30., 0.),
+                                           std::make_pair(0., 2e-4)})
     {
-      is_along_y = turned;
+      angle  = degrees * std::acos(-1.) / 180.;
+      across = deviation;
       random.seed(1);
       normal.reset();
       write(0.);
@@ -228,7 +234,10 @@ TEST_F(OwnRecords, AlongTheOtherAxisTheyTellTheSame)
       noises.push_back(workspace.noise.noise);
     }
   for (const auto size : {&Noise::white, &Noise::drift, &Noise::gain})
-    EXPECT_NEAR(noises[1].*size / noises[0].*size, 1., 0.01);
+    for (const std::size_t turned : {1, 2})
+      EXPECT_NEAR(noises[turned].*size / noises[0].*size, 1., 0.01);
+  for (const auto size : {&Noise::white, &Noise::gain})
+    EXPECT_NEAR(noises[3].*size / noises[0].*size, 1., 0.1);
 }
 
 

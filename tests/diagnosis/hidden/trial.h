@@ -137,7 +137,7 @@ namespace SlipStep
           if (planted.measured.name == test.rows.name)
             {
               test.rows.friction = planted.truth.along_x;
-              if (test.has_two_axes())
+              if (!test.rows.friction_y.empty())
                 test.rows.friction_y = planted.truth.along_y;
             }
       return comparison.means_of(tests);
