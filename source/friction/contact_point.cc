@@ -22,10 +22,21 @@ namespace SlipStep
   ContactPoint::update(const FrictionLaw          &law,
                        const dealii::Tensor<1, 2> &slip_increment,
                        const double                normal_traction,
-                       const double                time_step)
+                       const double                time_step,
+                       const dealii::Tensor<1, 2> &carried)
   {
-    last.response =
-      law.update(start, slip_increment, normal_traction, time_step, last.end);
+    const auto from = [&](const StageStart &stage) {
+      return law.update(
+        stage, slip_increment, normal_traction, time_step, last.end);
+    };
+    if (carried == dealii::Tensor<1, 2>())
+      last.response = from(start);
+    else
+      {
+        StageStart elsewhere = start;
+        law.carry(carried, elsewhere.state);
+        last.response = from(elsewhere);
+      }
     last.slip_increment = slip_increment;
     last.time_step      = time_step;
     return last.response;

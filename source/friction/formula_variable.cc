@@ -44,8 +44,9 @@ namespace SlipStep
     // it.
     FormulaVariable position()
     {
-      const ContactMemory memory = register_memory(
-        {"position_mm", 0., -std::numeric_limits<double>::infinity()});
+      constexpr double    infinite = std::numeric_limits<double>::infinity();
+      const ContactMemory memory =
+        register_memory({"position_mm", 0., -infinite, infinite, 0});
       return {"position",
               "along the first axis in mm, from where the contact was first "
               "loaded",

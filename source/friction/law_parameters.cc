@@ -244,6 +244,16 @@ namespace SlipStep
 
 
 
+  void FrictionLaw::carry(const dealii::Tensor<1, 2> &way,
+                          ContactState               &state) const
+  {
+    for (const ContactMemory &memory : memories())
+      if (memory.axis < 2)
+        state[memory] += way[memory.axis];
+  }
+
+
+
   std::set<std::string> FrictionLaw::inactive_sections() const
   {
     std::set<std::string> sections;

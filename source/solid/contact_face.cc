@@ -180,7 +180,8 @@ namespace SlipStep
 
 
   // A point that was off the plane when the step began slips from when it
-  // touches, @f$1/\xi@f$ of the way of the step,
+  // touches, @f$1/\xi@f$ of the way of the step (before, it is only carried
+  // along, to where the tangent takes it to be),
   // @f$\xi = g / (g + g_0)@f$ for a penetration g and a distance g_0 at the
   // beginning. Both stages start from there, since what the first tells of one
   // that touches later than at its end says nothing of the second: it is one
@@ -220,7 +221,8 @@ namespace SlipStep
                                 was_off ? share * all_slip : slip,
                                 alpha_n * penetration,
                                 was_off ? time_step + point.time_before :
-                                          time_step);
+                                          time_step,
+                                (1. - share) * all_slip);
     };
     ContactResponse response = answer();
     if (law.wear_rate() > 0. && penetration > 0.)

@@ -7,6 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "tests/temporary_folder.h"
 
 using namespace SlipStep;
 using namespace SlipStep::Testing;
@@ -158,6 +163,52 @@ TEST(Gap, SlipCountsFromTouch)
       // Touches at 0.4 s.
       EXPECT_NEAR(end.tangential_load, 1e4 * 0.0012 * 10., 1e-2) << steps;
     }
+}
+
+
+
+// Where a point of a pattern is does not depend on when it touched: it was
+// carried along before, as those that never touch are.
+TEST(Gap, PlacesAreWhereTheBlockHasGoneTo)
+{
+  // The contact widens while it slides.
+  const std::filesystem::path ramp = test_folder() / "ramp.csv";
+  std::ofstream(ramp) << "time_s,displacement_mm,pressure_MPa,friction\n"
+                         "0,0,1,0\n5,5,10,0.3\n";
+  const std::map<std::string, Settings> patterns = {
+    {"track_1_mm",
+     {{"Friction/Effects", "texture"}, {"Friction/texture/Wavelength", "2"}}},
+    {"position_mm",
+     {{"Friction/Effects", "expression"},
+      {"Friction/expression/Covariate", "position"},
+      {"Friction/expression/Formula", "1 + 0.1*sin(x)"}}}};
+  for (const auto &[place, pattern] : patterns)
+    for (const std::string steps : {"4", "12"})
+      {
+        double least = 1e9, most = -1e9;
+        run_block_case<2>(
+          make_parameters(
+            flat_2d + pattern +
+            Settings{{"Friction/Static coefficient", "0.3"},
+                     {"Block/Young modulus", "1e4"},
+                     {"Contact/Gap", "(x - 5)^2/6000"},
+                     {"Time stepping/Equal steps per statement", steps},
+                     {"Loading/Programme",
+                      "press 1 MPa in 1 s; follow " + ramp.string()}}),
+          MPI_COMM_SELF,
+          [&, memory = contact_memory(place)](const Block<2> &block) {
+            for (const auto &face : block.state().contact_face.cell_faces())
+              for (const auto &point : face.points)
+                {
+                  const double at = point.point.committed()[memory];
+                  least           = std::min(least, at);
+                  most            = std::max(most, at);
+                }
+          });
+        // The elastic displacement of the face is of this size.
+        EXPECT_GT(least, 4.95) << place << ' ' << steps;
+        EXPECT_LT(most, 5.) << place << ' ' << steps;
+      }
 }
 
 

@@ -29,10 +29,12 @@ namespace SlipStep
     ///   of the stage
     /// @param normal_traction f_n at its end [MPa]; not positive means open
     /// @param time_step of the stage [s], greater than 0
+    /// @param carried way in the plane [mm] before, while the point was off it
     ContactResponse update(const FrictionLaw          &law,
                            const dealii::Tensor<1, 2> &slip_increment,
                            const double                normal_traction,
-                           const double                time_step);
+                           const double                time_step,
+                           const dealii::Tensor<1, 2> &carried = {});
 
     /// Let further updates be of the second stage.
     void begin_second_stage(const FrictionLaw &law);

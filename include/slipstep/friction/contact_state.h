@@ -23,6 +23,9 @@ namespace SlipStep
     /// A change of the mesh averages a memory and keeps it between these.
     double least    = 0.;
     double greatest = std::numeric_limits<double>::infinity();
+    /// Of a place on the plane [mm] the axis, 0 or 1: it changes off the plane,
+    /// too. Else none of them.
+    unsigned int axis = 2;
     /// Where ContactState holds it; set by register_memory().
     unsigned int slot = 0;
   };

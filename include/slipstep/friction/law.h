@@ -188,6 +188,10 @@ namespace SlipStep
     /// contact_memories().
     std::vector<ContactMemory> memories() const;
 
+    /// Move a point that is off the plane to another place, by a way along it
+    /// [mm].
+    void carry(const dealii::Tensor<1, 2> &way, ContactState &state) const;
+
     /// Sections of effects that are off, such as "Friction/healing".
     std::set<std::string> inactive_sections() const;
 

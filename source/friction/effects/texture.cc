@@ -16,10 +16,12 @@ namespace SlipStep
     using dealii::numbers::PI;
 
     /// Where the contact has got to over the plane, along its two axes.
-    const ContactMemory track_1 = register_memory(
-      {"track_1_mm", 0., -std::numeric_limits<double>::infinity()});
-    const ContactMemory track_2 = register_memory(
-      {"track_2_mm", 0., -std::numeric_limits<double>::infinity()});
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    const ContactMemory track_1 =
+      register_memory({"track_1_mm", 0., -infinite, infinite, 0});
+    const ContactMemory track_2 =
+      register_memory({"track_2_mm", 0., -infinite, infinite, 1});
 
     /// A pattern of the surface, of grooves, of a bent slide or of a screw that
     /// is not round, with two harmonics that give its waves a shape: e is the
