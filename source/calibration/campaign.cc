@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/campaign.h>
+#include <slipstep/measured_data/odd_rows.h>
 #include <slipstep/measured_data/rounded_motion.h>
 #include <slipstep/measured_data/sensor_noise.h>
 #include <slipstep/measured_data/resample.h>
@@ -299,12 +300,14 @@ namespace SlipStep
           step = 0.;
           take_off_noise_of_motion(test, noise_share * slip);
         }
-      const double             skip  = parameters.number(skip_key);
-      const double             begin = test.time.front() + skip;
-      std::vector<std::size_t> rows;
+      const double                   skip     = parameters.number(skip_key);
+      const double                   begin    = test.time.front() + skip;
+      const std::vector<std::size_t> unloaded = rows_without_load(measured);
+      std::vector<std::size_t>       rows;
       // The first row of all is where both begin.
       for (std::size_t i = 0; i < test.time.size(); ++i)
-        if (test.time[i] >= begin)
+        if (test.time[i] >= begin &&
+            !std::binary_search(unloaded.begin(), unloaded.end(), i))
           rows.push_back(i);
       if (rows.size() < 2)
         parameters.reject(

@@ -398,7 +398,8 @@ namespace SlipStep
         by_rows.asDiagonal() * (sums.transpose() * sums);
       Gains result;
       result.freedom = remaining.squaredNorm();
-      if (result.freedom > 0.5)
+      // One test alone tells nothing of it.
+      if (n_tests > 1 && result.freedom > 0.5)
         result.variance =
           std::max(0., left.squaredNorm() - inflation * by_rows.sum()) /
           result.freedom;

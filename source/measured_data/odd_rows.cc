@@ -93,6 +93,44 @@ namespace SlipStep
 
 
 
+  std::vector<std::size_t> rows_without_load(const MeasuredTest &test)
+  {
+    constexpr double hardly = 0.05, far = 3.;
+
+    const double load     = median(test.pressure);
+    const auto   friction = [&](const std::size_t i) {
+      return std::hypot(test.friction[i],
+                        test.friction_y.empty() ? 0. : test.friction_y[i]);
+    };
+    std::vector<double> loaded;
+    for (std::size_t i = 0; i < test.time.size(); ++i)
+      if (test.pressure[i] >= 0.5 * load)
+        loaded.push_back(friction(i));
+    const double limit      = far * usual_size(loaded);
+    const auto   is_erratic = [&](const std::size_t i) {
+      const double size = friction(i);
+      for (const std::size_t j : {i - 1, i + 1})
+        if (size > limit && j < test.time.size() && friction(j) < 0.5 * size)
+          return true;
+      return false;
+    };
+    std::vector<std::size_t> rows;
+    // All of a stretch, if one of it is. What adhesion holds rises smoothly.
+    for (std::size_t begin = 0, end; begin < test.time.size(); begin = end + 1)
+      {
+        bool is_far = false;
+        for (end = begin;
+             end < test.time.size() && test.pressure[end] < hardly * load;
+             ++end)
+          is_far = is_far || is_erratic(end);
+        for (std::size_t i = begin; is_far && i < end; ++i)
+          rows.push_back(i);
+      }
+    return rows;
+  }
+
+
+
   std::optional<RepeatedValue> repeated_value(const std::vector<double> &values)
   {
     constexpr double      share = 0.02;
@@ -335,6 +373,19 @@ namespace SlipStep
             warn(std::string(name) + " " + found->words, found->first);
       }
 
+      void warn_of_no_load() const
+      {
+        const std::vector<std::size_t> rows = rows_without_load(test);
+        if (rows.empty())
+          return;
+        warn("the pressure is " + rounded_text(test.pressure[rows[0]], 2) +
+               " MPa there, of " + rounded_text(median(test.pressure), 3) +
+               " MPa, and friction like none under load: noise over noise. "
+               "Fits leave such rows out; there are " +
+               std::to_string(rows.size()),
+             rows[0]);
+      }
+
       // Codes of errors, spikes and drop-outs. Friction may well go there and
       // back for a moment, after a rest or a change of speed, but not to zero,
       // to the other side, or to three times what it is.
@@ -433,6 +484,7 @@ namespace SlipStep
     const OddRows rows{test, warn};
     rows.warn_of_scales();
     rows.warn_of_sensors();
+    rows.warn_of_no_load();
     rows.warn_of_excursions();
     rows.warn_of_rounded_clock();
     rows.warn_of_pauses();

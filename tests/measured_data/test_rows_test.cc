@@ -3,6 +3,7 @@
 // What is done to the rows of a test as recorded, and what is refused.
 
 #include <slipstep/measured_data/measured_test.h>
+#include <slipstep/measured_data/odd_rows.h>
 #include <slipstep/measured_data/test_rows.h>
 
 #include <gtest/gtest.h>
@@ -294,7 +295,9 @@ TEST(TestRows, ScalesOfNoLaboratoryAreWarnedOf)
   std::string rows = "0,0,1e-3,90\n";
   for (int i = 1; i <= 40; ++i)
     rows += std::to_string(i) + "," + std::to_string(i) + ",5,0.2\n";
-  EXPECT_TRUE(read(rows).warnings.empty());
+  const MeasuredTest opens = read(rows);
+  ASSERT_EQ(opens.warnings.size(), 1u);
+  expect_warning(opens, "noise over noise");
 }
 
 
@@ -391,6 +394,35 @@ TEST(TestRows, FrictionWithoutASignIsRefused)
                       const double) { return 0.18 + 0.04 * place; },
                    0.01),
             "");
+}
+
+
+
+// Before the load is on, friction is one noise over another. Adhesion holds
+// more of it, too, but smoothly.
+TEST(TestRows, RowsWithoutLoadAreTold)
+{
+  std::mt19937_64            random(3);
+  std::normal_distribution<> noise(0., 5e-3);
+  for (const int n : {1, 12})
+    {
+      const MeasuredTest test = slide_with([&](const int i, double(&row)[4]) {
+        if (i >= n)
+          return;
+        const double force = noise(random);
+        row[2]             = std::abs(noise(random));
+        row[3]             = force / row[2] + (i == 0 ? 9. : 0.);
+      });
+      EXPECT_EQ(rows_without_load(test).size(), std::size_t(n));
+      expect_warning(test, "noise over noise");
+      expect_warning(test, "there are " + std::to_string(n));
+    }
+  const MeasuredTest adhesive = slide_with([](const int i, double(&row)[4]) {
+    if (i < 40)
+      row[2] *= 0.001 * (1. + i);
+    row[3] = 0.15 + 0.02 / row[2];
+  });
+  EXPECT_TRUE(rows_without_load(adhesive).empty());
 }
 
 

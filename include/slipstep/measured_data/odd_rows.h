@@ -19,6 +19,11 @@ namespace SlipStep
   std::vector<double> under_load(std::vector<double> values,
                                  const MeasuredTest &test);
 
+  /// Rows at which the solids hardly touch, before the load is on or after it
+  /// is off, with friction there that is far from any under load: the noise of
+  /// one sensor over that of the other.
+  std::vector<std::size_t> rows_without_load(const MeasuredTest &test);
+
   /// What a sensor repeats as no noise would.
   struct RepeatedValue
   {
