@@ -309,13 +309,7 @@ namespace SlipStep
         const std::string &unit      = proposal.columns[column].unit;
         const Dimension    dimension = dimension_of(words.key);
         if (!unit.empty() && dimension_of_unit(unit) == dimension)
-          return {is_plain(unit) ? unit :
-                  dimension == Dimension::temperature ?
-                                   "degC" :
-                  dimension == Dimension::stress ?
-                                   "N/mm^2" :
-                                   "u" + unit.substr(unit.size() - 1),
-                  ""};
+          return {is_plain(unit) ? unit : plain_unit(unit), ""};
         if (unit.empty() && words.key == "Time" &&
             has_days_of_spreadsheets(column))
           return {"d", days_of_spreadsheets};
@@ -599,8 +593,16 @@ namespace SlipStep
         const std::string words =
           rounded_text(50. * (1. + share), 3) +
           " % of the work of friction as recorded is done against the motion";
+        const auto [least, most] =
+          std::minmax_element(finite[friction->number - 1].begin(),
+                              finite[friction->number - 1].end());
         if (share < -0.5)
           guess("Convention/Friction sign", "reversed", words);
+        else if (share < 0.5 && *least > -0.05 * *most)
+          guess("Convention/Friction sign",
+                "of the motion",
+                "friction has one sign though the displacement comes back: the "
+                "record has its magnitude");
         else if (share < 0.5)
           guess("Convention/Friction sign",
                 "as recorded",

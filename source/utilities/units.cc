@@ -185,54 +185,55 @@ namespace SlipStep
     {
       return boost::algorithm::join(unit_names(dimension), ", ");
     }
+  } // namespace
 
 
 
-    // Replace what instruments write instead of ASCII.
-    std::string plain_unit(std::string unit)
-    {
-      const std::vector<std::pair<std::string, std::string>> spellings = {
-        {"\xC2\xB5", "u"}, // micro sign, UTF-8
-        {"\xCE\xBC", "u"}, // Greek mu, UTF-8
-        {"\xC2\xB0", "deg"},
-        {"\xC2\xB2", "^2"},
-        {"\xB5", "u"}, // the same three in Latin-1
-        {"\xB0", "deg"},
-        {"\xB2", "^2"}};
-      for (const auto &[written, plain] : spellings)
-        for (std::size_t at = unit.find(written); at != std::string::npos;
-             at             = unit.find(written))
-          unit.replace(at, written.size(), plain);
-      const std::vector<std::pair<std::string, std::string>> words = {
-        {"sec", "s"},         {"secs", "s"},
-        {"second", "s"},      {"seconds", "s"},
-        {"msec", "ms"},       {"minutes", "min"},
-        {"hours", "h"},       {"micron", "um"},
-        {"microns", "um"},    {"micrometer", "um"},
-        {"in", "inch"},       {"inches", "inch"},
-        {"in2", "in^2"},      {"newton", "N"},
-        {"N/mm2", "N/mm^2"},  {"mm2", "mm^2"},
-        {"celsius", "degC"},  {"deg c", "degC"},
-        {"deg. c", "degC"},   {"hr", "h"},
-        {"hrs", "h"},         {"hour", "h"},
-        {"day", "d"},         {"days", "d"},
-        {"\"", "inch"},       {"kips", "kip"},
-        {"kp", "kgf"},        {"KN", "kN"},
-        {"MM", "mm"},         {"UM", "um"},
-        {"MPA", "MPa"},       {"KPA", "kPa"},
-        {"GPA", "GPa"},       {"BAR", "bar"},
-        {"PSI", "psi"},       {"MM/S", "mm/s"},
-        {"MM/MIN", "mm/min"}, {"kgf/cm2", "kgf/cm^2"},
-
-        {"deg f", "degF"}};
-      for (const auto &[written, plain] : words)
-        if (unit == written || lower_case(unit) == written)
-          return plain;
-      return unit;
-    }
+  std::string plain_unit(std::string unit)
+  {
+    const std::vector<std::pair<std::string, std::string>> spellings = {
+      {"\xC2\xB5", "u"}, // micro sign, UTF-8
+      {"\xCE\xBC", "u"}, // Greek mu, UTF-8
+      {"\xC2\xB0", "deg"},
+      {"\xC2\xB2", "^2"},
+      {"\xB5", "u"}, // the same three in Latin-1
+      {"\xB0", "deg"},
+      {"\xB2", "^2"}};
+    for (const auto &[written, plain] : spellings)
+      for (std::size_t at = unit.find(written); at != std::string::npos;
+           at             = unit.find(written))
+        unit.replace(at, written.size(), plain);
+    const std::vector<std::pair<std::string, std::string>> words = {
+      {"sec", "s"},         {"secs", "s"},
+      {"second", "s"},      {"seconds", "s"},
+      {"msec", "ms"},       {"minutes", "min"},
+      {"hours", "h"},       {"micron", "um"},
+      {"microns", "um"},    {"micrometer", "um"},
+      {"in", "inch"},       {"inches", "inch"},
+      {"in2", "in^2"},      {"newton", "N"},
+      {"N/mm2", "N/mm^2"},  {"mm2", "mm^2"},
+      {"celsius", "degC"},  {"deg c", "degC"},
+      {"deg. c", "degC"},   {"hr", "h"},
+      {"hrs", "h"},         {"hour", "h"},
+      {"day", "d"},         {"days", "d"},
+      {"\"", "inch"},       {"kips", "kip"},
+      {"kp", "kgf"},        {"KN", "kN"},
+      {"MM", "mm"},         {"UM", "um"},
+      {"MPA", "MPa"},       {"KPA", "kPa"},
+      {"GPA", "GPa"},       {"BAR", "bar"},
+      {"PSI", "psi"},       {"MM/S", "mm/s"},
+      {"MM/MIN", "mm/min"}, {"kgf/cm2", "kgf/cm^2"},
+      {"deg f", "degF"}};
+    for (const auto &[written, plain] : words)
+      if (unit == written || lower_case(unit) == written)
+        return plain;
+    return unit;
+  }
 
 
 
+  namespace
+  {
     const Unit *find_unit(const std::string &name, const Dimension dimension)
     {
       for (const Unit &known : entry(dimension).units)

@@ -270,6 +270,14 @@ namespace
       "Columns/Friction = mu[-]",
       "Columns/Pressure = sigma_n[MPa] in MPa"},
      {}},
+    {"not_ascii.csv",
+     "t [s];Vitesse (\xC2\xB5m/s);Normal stress (kgf/cm\xC2\xB2);mu;T \xC2\xB0"
+     "F;Druck [N/mm\xB2]\n0;1;20;0.1;99;2\n1;1;20;0.1;99;2\n"
+     "2;1;20;0.1;99;2\n",
+     {"Columns/Speed = column 2 in um/s",
+      "Columns/Pressure = column 3 in kgf/cm^2",
+      "Columns/Temperature = column 5 in degF"},
+     {}},
     {"reversed.txt",
      "Time [s]\tNormal [uN]\tPosition [mm]\tFriction [uN]\n"
      "0\t5e6\t0\t-1e6\n1\t5e6\t1\t-2e6\n2\t5e6\t2\t-2e6\n3\t5e6\t1\t2e6\n",
@@ -416,7 +424,8 @@ namespace
     {"magnitudes.csv",
      "t [s],Position [mm],Distance [mm],COF,p [MPa]\n0,0,0,0.1,5\n"
      "1,1,1,0.1,5\n2,2,2,0.1,5\n3,1,3,0.1,5\n4,0,4,0.1,5\n5,1,5,0.1,5\n",
-     {"Columns/Displacement = Position [mm] in mm"},
+     {"Columns/Displacement = Position [mm] in mm",
+      "Convention/Friction sign = of the motion"},
      {}},
     {"set_and_actual.csv",
      "t [s],Position set [mm],Position act [mm],p [MPa],mu\n"

@@ -64,6 +64,10 @@ namespace SlipStep
     }
   };
 
+  /// A unit as column headers have it, in ASCII: "um" for "µm" (in UTF-8 or
+  /// Latin-1), "kgf/cm^2" for "kgf/cm²", "degF" for "°F", "s" for "sec".
+  std::string plain_unit(std::string unit);
+
   /// The conversion from a unit as column headers have it: "um", "µm" (in
   /// UTF-8 or Latin-1), "mm/min", "N/mm²", "°C".
   /// @throws InputError if it is no unit of the dimension, naming the known
