@@ -134,6 +134,8 @@ namespace SlipStep
           parameter.from_scaled(std::clamp(scaled, 0., 1.)));
       };
       out.value  = value(model.scaled[i]);
+      out.least  = value(0.);
+      out.most   = value(1.);
       out.before = parameter.in_unit(parameter.start);
       Simulator simulator(*model.campaign);
       out.is_at_bound =

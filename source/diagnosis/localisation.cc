@@ -125,6 +125,16 @@ namespace SlipStep
 
 
 
+    // What one covariate explains beyond noise is beyond it, even if all of
+    // them, which noise can do much with, explain no more.
+    double share_of(const ScoreTest::Together &alone, const GapTest &gap)
+    {
+      const double all = std::max(alone.excess, gap.excess);
+      return all > 0. ? alone.excess / all : 0.;
+    }
+
+
+
     // The clearest wave along the track.
     void add_track_wave(const Workspace           &workspace,
                         const Model               &base,
@@ -146,10 +156,9 @@ namespace SlipStep
         return;
       const Covariate &covariate = covariate_called("position");
       Localisation     place;
-      place.covariate = covariate.name;
-      place.unit      = covariate.unit;
-      // The excess knows other waves only.
-      place.share = together.excess / std::max(together.excess, gap.excess);
+      place.covariate  = covariate.name;
+      place.unit       = covariate.unit;
+      place.share      = share_of(together, gap);
       place.wavelength = wavelength;
       find_members(workspace,
                    together.explained,
@@ -184,10 +193,9 @@ namespace SlipStep
             !(together.excess > least_share_told * gap.excess))
           continue;
         Localisation place;
-        place.covariate = covariate.name;
-        place.unit      = covariate.unit;
-        place.share =
-          gap.excess > 0. ? std::min(1., together.excess / gap.excess) : 0.;
+        place.covariate                 = covariate.name;
+        place.unit                      = covariate.unit;
+        place.share                     = share_of(together, gap);
         const Eigen::VectorXd strengths = test.mixture();
         Eigen::VectorXd       correction =
           Eigen::VectorXd::Zero(workspace.comparison.n_rows());

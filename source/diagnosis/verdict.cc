@@ -218,7 +218,8 @@ namespace SlipStep
       if (none_of(view.candidates,
                   [](const CandidateView &seen) { return seen.is_unstable; }))
         return false;
-      return any_of(localise(workspace, model, judgement.remainder),
+      return judgement.remainder.excess > 0. &&
+             any_of(localise(workspace, model, judgement.remainder),
                     [](const Localisation &place) {
                       return place.covariate == "speed" && place.share > much;
                     });

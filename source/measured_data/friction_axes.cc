@@ -81,37 +81,83 @@ namespace SlipStep
 
 
 
-    // Where the noise along x and y clearly hangs together, the axes along
-    // which it does not (R. Gnanadesikan and J. R. Kettenring, Biometrics 28,
-    // 1972: variances of sums and differences, by a robust estimate).
+    std::vector<double> bends_of(const std::vector<double> &values)
+    {
+      std::vector<double> bends;
+      for (std::size_t i = 1; i + 1 < values.size(); ++i)
+        bends.push_back(values[i - 1] - 2. * values[i] + values[i + 1]);
+      return bends;
+    }
+
+
+
+    /// Of second differences along x and y, which are noise for the most part.
+    struct Covariance
+    {
+      double xx = 0., xy = 0., yy = 0.;
+
+      double correlation() const
+      {
+        return xy / std::sqrt(xx * yy);
+      }
+
+      double angle() const
+      {
+        return 0.5 * std::atan2(2. * xy, xx - yy);
+      }
+    };
+
+    // Without the largest, in which friction itself bends. No medians: of few
+    // digits they are as coarse as these.
+    Covariance covariance_of_bends(const MeasuredTest &test)
+    {
+      constexpr double share_left_out = 0.05;
+
+      const std::vector<double> x = bends_of(test.friction);
+      const std::vector<double> y = bends_of(test.friction_y);
+      const double xx = sum_of_products(x, x), yy = sum_of_products(y, y);
+      std::vector<std::size_t> rows(x.size());
+      std::iota(rows.begin(), rows.end(), 0);
+      const auto size = [&](const std::size_t i) {
+        return x[i] * x[i] / xx + y[i] * y[i] / yy;
+      };
+      std::sort(rows.begin(),
+                rows.end(),
+                [&](const std::size_t a, const std::size_t b) {
+                  return std::make_pair(size(a), a) <
+                         std::make_pair(size(b), b);
+                });
+      rows.resize(rows.size() - std::lround(share_left_out * rows.size()));
+      Covariance result;
+      for (const std::size_t i : rows)
+        {
+          result.xx += x[i] * x[i];
+          result.xy += x[i] * y[i];
+          result.yy += y[i] * y[i];
+        }
+      return result;
+    }
+
+
+
+    // Where the noise along x and y clearly hangs together, the axis along
+    // which most of it is.
     FrictionAxis independent_axis(const MeasuredTest &test,
                                   const Principal    &principal)
     {
       constexpr double clearly = 0.5, many_deviations = 6., alike = 0.01,
-                       near = 0.1;
+                       near = 0.25;
 
       const FrictionAxis x;
-      const double       of_x = noise_along(x, test);
-      const double       of_y = noise_along(across(x), test);
-      if (std::min(of_x, of_y) <= digits * typical_friction(test))
+      if (std::min(noise_along(x, test), noise_along(across(x), test)) <=
+          digits * typical_friction(test))
         return x;
-      const auto of_sum = [&](const double sign) {
-        std::vector<double> sum;
-        for (std::size_t i = 0; i < test.friction.size(); ++i)
-          sum.push_back(test.friction[i] / of_x +
-                        sign * test.friction_y[i] / of_y);
-        return std::pow(noise_level(sum), 2);
-      };
-      const double sum = of_sum(1.), difference = of_sum(-1.);
-      const double correlation = (sum - difference) / (sum + difference);
-      if (!(std::abs(correlation) >
-            std::max(clearly,
-                     many_deviations /
-                       std::sqrt(static_cast<double>(test.friction.size())))))
+      const Covariance covariance = covariance_of_bends(test);
+      const double     n          = test.friction.size();
+      if (!(std::abs(covariance.correlation()) >
+            std::max(clearly, many_deviations / std::sqrt(n))))
         return x;
-      const FrictionAxis found =
-        axis_at(0.5 * std::atan2(2. * correlation * of_x * of_y,
-                                 of_x * of_x - of_y * of_y));
+      const FrictionAxis found = axis_at(covariance.angle());
       // Of one sensor friction itself tells the direction better.
       return principal.share_across < alike &&
                  std::abs(across(found).of(principal.axis.cosine,

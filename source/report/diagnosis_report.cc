@@ -107,9 +107,9 @@ namespace SlipStep
 
     std::string parameters(const Diagnosis &diagnosis)
     {
-      TableLines lines = {table_head("parameter added | value | unit | " +
+      TableLines  lines = {table_head("parameter added | value | unit | " +
                                      interval_name(diagnosis.confidence))};
-      bool       is_any_at_bound = false;
+      std::string at_bounds;
       for (const DiagnosedParameter &parameter : named_parameters(diagnosis))
         {
           lines.push_back({label_text(parameter),
@@ -117,10 +117,14 @@ namespace SlipStep
                              value_text(parameter, parameter.value),
                            parameter.unit,
                            interval_text(parameter)});
-          is_any_at_bound = is_any_at_bound || parameter.is_at_bound;
+          if (parameter.is_at_bound)
+            at_bounds += (at_bounds.empty() ? "" : ", ") +
+                         label_text(parameter) + ' ' + bounds_text(parameter);
         }
       return table_paragraph(lines) +
-             (is_any_at_bound ? "  * at a bound\n" : "") +
+             (at_bounds.empty() ?
+                "" :
+                wrapped_text("* at a bound of the diagnosis: " + at_bounds)) +
              wrapped_text(interval_reservation(diagnosis));
     }
 

@@ -71,7 +71,9 @@ namespace SlipStep
                          parameter.effect.empty() ? "–" :
                                                     "new",
                          value_text(parameter, parameter.value) +
-                           (parameter.is_at_bound ? " (at bound)" : ""),
+                           (parameter.is_at_bound ?
+                              " (bound: " + bounds_text(parameter) + ")" :
+                              ""),
                          interval_text(parameter)});
     }
 

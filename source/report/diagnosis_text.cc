@@ -521,6 +521,18 @@ namespace SlipStep
 
 
 
+  std::string bounds_text(const DiagnosedParameter &parameter)
+  {
+    const double reach = 0.01 * std::abs(parameter.value);
+    return parameter.value > parameter.least + reach &&
+               parameter.value < parameter.most - reach ?
+             "beyond which the law takes no values" :
+             short_text(parameter.least, 4) + " … " +
+               short_text(parameter.most, 4);
+  }
+
+
+
   std::string interval_reservation(const Diagnosis &diagnosis)
   {
     return diagnosis.is_incomplete ?

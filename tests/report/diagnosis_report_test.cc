@@ -251,6 +251,26 @@ TEST(DiagnosisHeadline, ItBeginsWithANumberThatIsHeldInThePlaceOfAName)
 
 
 // Intervals do not know what remains.
+// The bounds of what was added are the diagnosis' own, and stand in no case.
+TEST(DiagnosisReport, ItTellsTheBoundsWhereOneIsMet)
+{
+  Diagnosis           diagnosis = SyntheticDiagnosis::named();
+  DiagnosedParameter &parameter = diagnosis.candidates[0].parameters[0];
+  EXPECT_FALSE(contains(diagnosis_table(diagnosis), "at a bound"));
+  parameter.is_at_bound = true;
+  parameter.least       = 1e-4;
+  parameter.most        = parameter.value;
+  EXPECT_TRUE(contains(diagnosis_table(diagnosis),
+                       "* at a bound of the diagnosis: overstress/Viscosity "
+                       "0.0001 … 0.0123"));
+  EXPECT_TRUE(contains(page_of(diagnosis), "(bound: 0.0001 … 0.0123)"));
+  parameter.most = 1.;
+  EXPECT_TRUE(contains(diagnosis_table(diagnosis),
+                       "overstress/Viscosity beyond which the law takes no"));
+}
+
+
+
 TEST(DiagnosisReport, ItTellsThatIntervalsAreThoseOfNoise)
 {
   const std::string reservation = "The intervals are those of noise alone";

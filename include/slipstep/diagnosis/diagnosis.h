@@ -48,6 +48,9 @@ namespace SlipStep
     std::string unit;
     double before = std::numeric_limits<double>::quiet_NaN(); ///< of the start
     bool   is_at_bound = false;
+    /// Bounds of the fit.
+    double      least = std::numeric_limits<double>::quiet_NaN();
+    double      most  = std::numeric_limits<double>::quiet_NaN();
     std::string effect; ///< "" for a parameter of the starting model
   };
 

@@ -76,6 +76,10 @@ namespace SlipStep
   /// "0.041 … 0.049"; "≥ 0.041", "≤ 0.049" or "open" where it has no end.
   std::string interval_text(const DiagnosedParameter &parameter);
 
+  /// "2 … 16", the bounds at which a parameter may be, or that it is a
+  /// condition of the law.
+  std::string bounds_text(const DiagnosedParameter &parameter);
+
   /// What the intervals do not hold, as a sentence; "" if nothing remains.
   std::string interval_reservation(const Diagnosis &diagnosis);
 

@@ -316,6 +316,22 @@ TEST_F(CampaignFolder, WavesWithoutANameAreDescribed)
 
 
 
+// Many directions together may see no more than noise where a few do.
+TEST_F(CampaignFolder, PlacesAreThereThoughNothingIsSeenOfAll)
+{
+  plant(CampaignClass::one, 9);
+  const Judgement judgement = judged();
+  GapTest         none      = judgement.gap;
+  none.excess               = 0.;
+  const std::vector<Localisation> where =
+    localise(*ingested.workspace, judgement.base, none);
+  ASSERT_FALSE(where.empty());
+  for (const Localisation &place : where)
+    EXPECT_EQ(place.share, 1.);
+}
+
+
+
 // What a verdict rests on is stated where it is not measured.
 TEST_F(CampaignFolder, StatesTheNoiseWithoutReplicates)
 {
