@@ -290,8 +290,9 @@ namespace SlipStep
                    {with_partner, now.range},
                    candidate,
                    reasons);
+      // Alone it may be a formula of another name.
       if (candidate.formulas.empty() && !reasons.empty())
-        candidate.why_not = reasons.front();
+        candidate.why_not = "beside " + partner + ", where " + reasons.front();
       if (!has_partner)
         candidate.only_beside = partner;
       return candidate;

@@ -25,6 +25,10 @@ namespace SlipStep
 
 
 
+    using Variants = std::vector<Variant>;
+
+
+
     /// The runs of a sweep of two keys.
     struct Grid
     {
@@ -41,16 +45,34 @@ namespace SlipStep
 
 
 
+    /// What a variant changes, without what all of them change to the same: a
+    /// member of a sweep may be swept further.
+    std::vector<Variant::Override> own_changes(const Variant  &variant,
+                                               const Variants &all)
+    {
+      std::vector<Variant::Override> own;
+      for (const Variant::Override &change : variant.overrides)
+        if (!all_of(all, [&](const Variant &other) {
+              return any_of(other.overrides, [&](const auto &its) {
+                return its.path == change.path && its.value == change.value;
+              });
+            }))
+          own.push_back(change);
+      return own;
+    }
+
+
+
     /// An empty one if the variants are no grid.
-    Grid grid_of(const std::vector<Variant> &variants)
+    Grid grid_of(const Variants &variants)
     {
       Grid grid;
       for (const Variant &variant : variants)
         {
-          if (variant.overrides.size() != 2)
+          const auto own = own_changes(variant, variants);
+          if (own.size() != 2)
             return {};
-          const Variant::Override &slow = variant.overrides[0],
-                                  &fast = variant.overrides[1];
+          const Variant::Override &slow = own[0], &fast = own[1];
           if (grid.cells.empty())
             {
               grid.y.path = slow.path;

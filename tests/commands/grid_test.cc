@@ -119,6 +119,19 @@ TEST_F(Grid, SweepsAMemberOfASweep)
                            "all/Exponent_" + exponent + "_Speed_" + speed +
                              "_mm-min/history.csv"))
         << exponent << " " << speed;
+  // What all have in common is no key of the sweep.
+  run({"point",
+       "sweep.prm",
+       "--variant",
+       "1 mm/min",
+       "--sweep",
+       "Friction/overstress/Exponent=8|16",
+       "--sweep",
+       "Friction/Static coefficient=0.1|0.2",
+       "--output",
+       "two",
+       "--quiet"});
+  EXPECT_FALSE(process.read("two/report/grid_kinetic.dat").empty());
 }
 
 

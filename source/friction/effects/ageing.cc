@@ -66,10 +66,12 @@ namespace SlipStep
         // Alone, friction that falls with speed makes sliding jump; without
         // rests it is a candidate of its own.
         info.search.other_forms = {[=](const Circumstances &now) {
-          return now.has("overstress") && now.range.longest_rest > 0. ?
+          return !(now.range.longest_rest > 0.) ?
+                   TrialFormula::none("nothing rested") :
+                 now.has("overstress") ?
                    aged(now) :
-                   TrialFormula::none("nothing rested, or nothing holds "
-                                      "friction that falls with speed");
+                   TrialFormula::none(
+                     "nothing holds friction that falls with speed");
         }};
         return info;
       }

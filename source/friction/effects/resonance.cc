@@ -75,7 +75,8 @@ namespace SlipStep
         const double slowest = now.range.slowest, fastest = now.range.fastest;
         // Within less it is any other function of speed.
         if (!(fastest > 10. * slowest))
-          return TrialFormula::none("the speed hardly varies");
+          return TrialFormula::none(
+            "speeds differ by less than a factor of ten");
         TrialFormula formula;
         formula.is_one_sided = true;
         // A resonance outside of what was tested is a slope of another name.
