@@ -14,38 +14,44 @@ namespace SlipStep
 {
   const std::vector<KeyWords> &key_words()
   {
-    // Words stand between blanks.
+    // Words stand between blanks; also in Japanese and Chinese, in UTF-8.
     static const std::vector<KeyWords> all = {
-      {"Time", "time zeit elapsed temps", "t", "step date tempera temp_ temp."},
+      {"Time",
+       "time zeit elapsed temps 時間 时间",
+       "t",
+       "step date tempera temp_ temp."},
       {"Displacement",
        "disp position distance weg stroke travel slip verschiebung strecke "
-       "crosshead traverse extension encoder depl d\xC3\xA9pl d\xE9pl",
+       "crosshead traverse extension encoder depl d\xC3\xA9pl d\xE9pl "
+       "変位 位移 滑り",
        "x y u s d pos path hub course",
        "wear verschlei radius thick dicke width height norm nor_ vertical "
        "penetr eindring depth tiefe gap spalt"},
       // Not "geschWINDigkeit" or "umFANgs...".
       {"Speed",
-       "speed veloc geschw vitesse",
+       "speed veloc geschw vitesse 速度",
        "v",
        "set soll target wind_ winds windg fan_ fans"},
       {"Friction",
-       "coefficient fric reibwert reibungszahl beiwert reibungskoeff",
+       "coefficient fric reibwert reibungszahl beiwert reibungskoeff "
+       "摩擦係数 摩擦系数",
        "mu cof \xC2\xB5 \xCE\xBC \xB5 f",
        "force kraft load stress torque moment"},
       {"Tangential load",
        "fric tangenti reibkraft reibungskraft shear lateral pull zugkraft "
-       "frottement",
+       "frottement 摩擦力 切向力",
        "ft fx fy f_t f_x f_y ff fr f_r t f force kraft",
        "coefficient stress norm torque"},
       {"Normal load",
-       "norm nor_ load anpress last vertical clamp clamp_force clamping",
+       "norm nor_ load anpress last vertical clamp clamp_force clamping "
+       "荷重 载荷 法向力 正压力",
        "fn fz f_n f_z n p charge",
        "stress fric frottement tangenti shear shr_"},
       {"Pressure",
-       "pressure stress druck pressung pression spannung norm nor_",
+       "pressure stress druck pressung pression spannung norm nor_ 圧力",
        "p sigma sigma_n sn",
        "shear shr_ tau schub oil fric atmos disp force load last"},
-      {"Temperature", "temp", "t theta", "temps"}};
+      {"Temperature", "temp 温度", "t theta", "temps"}};
     return all;
   }
 

@@ -259,6 +259,19 @@ namespace SlipStep
           }
       }
 
+      // A strip between two tools is pressed on both sides.
+      std::string twin_doubt(const KeyWords &words) const
+      {
+        if (words.key == "Normal load" || words.key == "Pressure")
+          for (std::size_t i = 0; i < values.size(); ++i)
+            if (is_called_normal(proposal.columns[i].name) &&
+                !has_word(proposal.columns[i].name, ordered_words()) &&
+                score(words, i) > 0)
+              return "; " + reference(i) +
+                     " is called like one, too: which counts, or do both?";
+        return "";
+      }
+
       void guess_column(const KeyWords &words, const std::size_t column)
       {
         const std::string &key      = words.key;
@@ -276,7 +289,8 @@ namespace SlipStep
                                   rounded_text(seen.least, n_digits) + " to " +
                                   rounded_text(seen.most, n_digits);
         const std::string doubt =
-          words.is_along_axis && axis_of(seen.name) != '\0' ? axis_doubt : "";
+          words.is_along_axis && axis_of(seen.name) != '\0' ? axis_doubt :
+                                                              twin_doubt(words);
         if (dimension == Dimension::number)
           {
             const bool may_be_force = seen.name == "f" && seen.unit.empty();

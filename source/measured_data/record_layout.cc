@@ -218,6 +218,13 @@ namespace SlipStep
              dimension_of_unit(std::string(cell)).has_value();
     }
 
+    std::string without_brackets(const std::string_view unit)
+    {
+      const bool has_brackets =
+        unit.size() > 2 && (unit.front() == '[' || unit.front() == '(');
+      return std::string(has_brackets ? unit.substr(1, unit.size() - 2) : unit);
+    }
+
     // Mostly units and gaps.
     bool is_line_of_units(const Cells &cells)
     {
@@ -294,6 +301,14 @@ namespace SlipStep
         std::sregex_token_iterator(text.begin(), text.end(), between, -1), {}};
       if (layout.names.size() != layout.n_cells)
         layout.names.clear();
+      if (layout.units_line == 0)
+        return;
+      const Cells units =
+        cells_of(without_hash(lines[layout.units_line - 1]), layout.delimiter);
+      for (std::size_t i = 0;
+           i < layout.names.size() && units.size() == layout.n_cells;
+           ++i)
+        layout.names[i] += " [" + without_brackets(units[i]) + "]";
     }
 
 

@@ -278,6 +278,31 @@ namespace
       "Columns/Pressure = column 3 in kgf/cm^2",
       "Columns/Temperature = column 5 in degF"},
      {}},
+    // Names of several words, with their units below.
+    {"two_lines.dat",
+     "  Elapsed Time   Crosshead Pos.   Friction Force    Normal Force\n"
+     "           (s)             (in)            (lbf)           (lbf)\n"
+     "         0.000         0.000000          0.01698        67.36013\n"
+     "         0.050         0.000787          9.42382        67.50979\n"
+     "         0.100         0.001575         14.12786        67.35305\n",
+     {"Columns/Time = column 1 in s",
+      "Columns/Displacement = column 2 in in",
+      "Columns/Tangential load = column 3 in lbf",
+      "Columns/Normal load = column 4 in lbf"},
+     {}},
+    {"strip.csv",
+     "Time s,Crosshead mm,Pull force kN,Clamp force 1 kN,Clamp force 2 kN\n"
+     "0,0,0,1.50,1.5\n1,1,.6,1.51,1.51\n2,2,.6,1.5,1.5\n",
+     {"? Columns/Normal load = Clamp force 1 kN in kN"},
+     {}},
+    {"japanese.csv",
+     "時間[s],変位[mm],摩擦力[N],垂直荷重[N]\n"
+     "0,0,0,300\n1,1,42,300\n2,2,42,301\n",
+     {"Columns/Time = column 1 in s",
+      "Columns/Displacement = column 2 in mm",
+      "Columns/Tangential load = column 3 in N",
+      "Columns/Normal load = column 4 in N"},
+     {}},
     {"reversed.txt",
      "Time [s]\tNormal [uN]\tPosition [mm]\tFriction [uN]\n"
      "0\t5e6\t0\t-1e6\n1\t5e6\t1\t-2e6\n2\t5e6\t2\t-2e6\n3\t5e6\t1\t2e6\n",
