@@ -1,21 +1,31 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/numbers.h>
+
 #include <slipstep/experiment/point_driver.h>
+#include <slipstep/measured_data/friction_axes.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/report/run_figures.h>
 #include <slipstep/utilities/exceptions.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <tuple>
 
 namespace SlipStep
 {
   namespace
   {
-    /// A measured test beside the run that it is compared with.
+    /// A measured test, along an axis, beside the run that it is compared with.
     struct MeasuredBeside
     {
-      MeasuredTest test;
+      MeasuredTest test; ///< along the axis
       std::size_t  run         = 0;
       bool         is_repeated = false; ///< by the programme, row by row
       double       start_time  = 0.;    ///< in the run [s]
       double       start       = 0.;    ///< displacement in the run [mm]
+      FrictionAxis axis        = {};
     };
 
 
@@ -52,6 +62,65 @@ namespace SlipStep
 
 
 
+    bool is_along_x(const FrictionAxis &axis)
+    {
+      return axis.sine == 0.;
+    }
+
+
+
+    /// " along y", nothing along x.
+    std::string words_of(const FrictionAxis &axis)
+    {
+      return is_along_x(axis) ?
+               "" :
+             axis.cosine == 0. ?
+               " along y" :
+               " at " +
+                 rounded_text(std::atan2(axis.sine, axis.cosine) /
+                                dealii::numbers::PI * 180.,
+                              3) +
+                 " deg to x";
+    }
+
+
+
+    /// "_along_y"
+    std::string file_name_of(std::string words)
+    {
+      std::replace_if(
+        words.begin(),
+        words.end(),
+        [](const unsigned char c) { return std::isalnum(c) == 0; },
+        '_');
+      return words;
+    }
+
+
+
+    /// Along the line on which all of its friction lies, or along x and y.
+    void add_along_axes(const MeasuredBeside       &measured,
+                        const dealii::Tensor<1, 2> &origin,
+                        ManyBeside                 &result)
+    {
+      std::vector<FrictionAxis> axes = friction_axes(measured.test);
+      if (axes.size() > 1)
+        axes = {{1., 0., 0.}, {0., 1., 0.}};
+      for (const FrictionAxis &axis : axes)
+        {
+          MeasuredBeside      along = measured;
+          const MeasuredTest &test  = measured.test;
+          along.axis                = axis;
+          along.test.friction       = axis.of(test.friction, test.friction_y);
+          along.test.displacement =
+            axis.of(test.displacement, test.displacement_y);
+          along.start = axis.of(origin[0], origin[1]);
+          result.push_back(along);
+        }
+    }
+
+
+
     ManyBeside measured_tests(const RunFigures &figures)
     {
       const Parameters &parameters = figures.parameters;
@@ -63,15 +132,14 @@ namespace SlipStep
               const Programme programme =
                 parse_programme(figures.parameters_of(figures.runs[i]));
               for (const FollowedTest &followed : programme.followed())
-                result.push_back({followed.test,
-                                  i,
-                                  true,
-                                  followed.start_time,
-                                  followed.origin[0]});
+                add_along_axes({followed.test, i, true, followed.start_time},
+                               followed.origin,
+                               result);
             }
           for (const std::string &name : parameters.list("Report/Measured"))
-            result.push_back(
-              {read_measured_test(parameters.resolve(name)), 0, false, 0., 0.});
+            add_along_axes({read_measured_test(parameters.resolve(name))},
+                           {},
+                           result);
         }
       catch (const InputError &error)
         {
@@ -84,8 +152,17 @@ namespace SlipStep
 
 
 
-    /// Friction of a run at a time, NaN outside.
-    double friction_at(const RunResults &run, const double time)
+    double friction_of(const HistoryRow &row, const FrictionAxis &axis)
+    {
+      return axis.of(row.friction, row.friction_y);
+    }
+
+
+
+    /// Friction of a run along an axis at a time, NaN outside.
+    double friction_at(const RunResults   &run,
+                       const FrictionAxis &axis,
+                       const double        time)
     {
       const auto &rows  = run.history;
       const auto  after = std::lower_bound(rows.begin(),
@@ -96,11 +173,13 @@ namespace SlipStep
                                           });
       if (after == rows.end() || (after == rows.begin() && after->time > time))
         return std::numeric_limits<double>::quiet_NaN();
+      const double next = friction_of(*after, axis);
       if (after == rows.begin())
-        return after->friction;
+        return next;
       const HistoryRow &before = *(after - 1);
       const double share = (time - before.time) / (after->time - before.time);
-      return before.friction + share * (after->friction - before.friction);
+      const double last  = friction_of(before, axis);
+      return last + share * (next - last);
     }
 
 
@@ -116,6 +195,7 @@ namespace SlipStep
         {
           const double simulated =
             friction_at(run,
+                        measured.axis,
                         measured.start_time + measured.test.time[i] -
                           measured.test.time[0]);
           if (!std::isfinite(simulated))
@@ -193,11 +273,14 @@ namespace SlipStep
                        const ManyBeside &measured,
                        const bool        is_over_time)
     {
-      const Runs       &runs = figures.runs;
-      const std::string over = is_over_time ? "time" : "displacement";
-      Figure            figure =
-        figures.figure("measured_over_" + over,
-                       "Measured and simulated friction over " + over,
+      const Runs        &runs  = figures.runs;
+      const FrictionAxis axis  = measured.front().axis;
+      const std::string  along = words_of(axis);
+      const std::string  over  = is_over_time ? "time" : "displacement";
+      Figure             figure =
+        figures.figure("measured_over_" + over + file_name_of(along),
+                       "Measured and simulated friction" + along + " over " +
+                         over,
                        // The legend is below.
                        390 + 12 * (measured.size() + runs.size()));
       Range             friction;
@@ -214,8 +297,10 @@ namespace SlipStep
             continue;
           Rows points;
           for (const HistoryRow &row : runs[i].history)
-            points.push_back(
-              {is_over_time ? row.time : row.displacement, row.friction});
+            points.push_back({is_over_time ?
+                                row.time :
+                                axis.of(row.displacement, row.displacement_y),
+                              friction_of(row, axis)});
           if (!points.empty())
             plot_run(figure, runs[i], i, {over, "friction"}, points, 1.8);
         }
@@ -224,12 +309,13 @@ namespace SlipStep
                          "set xrange [] noextend\n"
                       << (friction.lower >= -1e-3 ? "set yrange [0:*]\n" : "")
                       << "set xlabel '"
-                      << (is_over_time ? "Time  [s]" :
-                                         "Displacement of the drive  [mm]")
-                      << "'\nset ylabel 'Friction  (tangential / normal "
-                         "load)'\n";
+                      << (is_over_time ?
+                            "Time  [s]" :
+                            "Displacement of the drive" + along + "  [mm]")
+                      << "'\nset ylabel 'Friction" << along
+                      << "  (tangential / normal load)'\n";
       figures.add(figure,
-                  "Measured and simulated",
+                  "Measured and simulated" + along,
                   differences.empty() ?
                     "" :
                     "Root mean square of their difference: " + differences +
@@ -241,7 +327,8 @@ namespace SlipStep
 
   void add_measured_pictures(RunFigures &figures)
   {
-    ManyBeside over[2];
+    // One picture for every axis, along x first.
+    std::map<std::tuple<double, double, bool>, ManyBeside> pictures;
     for (const MeasuredBeside &measured : measured_tests(figures))
       {
         // Rests and strokes lie on top of each other over displacement.
@@ -249,10 +336,10 @@ namespace SlipStep
         const double band = 0.01 * range_of(x);
         const bool   has_turns =
           measured.is_repeated && !turning_rows(x, band).empty();
-        over[has_turns].push_back(measured);
+        const double sine = measured.axis.sine;
+        pictures[{std::abs(sine), sine, has_turns}].push_back(measured);
       }
-    for (const bool is_over_time : {false, true})
-      if (!over[is_over_time].empty())
-        draw_measured(figures, over[is_over_time], is_over_time);
+    for (const auto &[kind, measured] : pictures)
+      draw_measured(figures, measured, std::get<2>(kind));
   }
 } // namespace SlipStep

@@ -97,3 +97,42 @@ TEST(RunPoint, ATestThatIsFollowedIsDrawnBesideIt)
   EXPECT_FALSE(contains(without, "Measured and simulated"));
   EXPECT_TRUE(contains(without, "no measured tests in the pictures"));
 }
+
+
+
+// Along the line on which its friction lies: the picture of a slide along y was
+// one of zeros.
+TEST(RunPoint, DrawsMeasuredTestsAlongTheirOwnAxis)
+{
+  SlipstepProcess process;
+  const auto      page_of = [&](const std::string &axis) {
+    const bool  is_y = axis == "y";
+    std::string rows = "time_s,displacement_mm,displacement_y_mm,"
+                            "pressure_MPa,friction,friction_y\n";
+    for (unsigned int i = 0; i <= 20; ++i)
+      {
+        const std::string place = std::to_string(0.01 * i);
+        const std::string mu    = i == 0 ? "0" : "0.2";
+        rows += std::to_string(0.1 * i) + ',' +
+                (is_y ? "0," + place : place + ",0") + ",5," +
+                (is_y ? "0," + mu : mu + ",0") + '\n';
+      }
+    process.write(axis + ".csv", rows);
+    process.write(axis + ".prm",
+                  "set Loading/Programme = press 5 MPa in 1 s; follow " + axis +
+                    ".csv\nset Friction/Static coefficient = 0.1\n");
+    const auto result = process.run({"point", axis + ".prm", "--output", axis});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return process.read(axis + "/report.html");
+  };
+  const auto difference = [](const std::string &page) {
+    const std::size_t begin = page.find("of their difference: ");
+    return begin == std::string::npos ?
+             "" :
+             page.substr(begin + 24, page.find('<', begin) - begin - 24);
+  };
+  const std::string along_x = page_of("x"), along_y = page_of("y");
+  EXPECT_TRUE(contains(along_y, "Measured and simulated along y"));
+  EXPECT_TRUE(contains(difference(along_x), " % of friction"));
+  EXPECT_EQ(difference(along_y), difference(along_x));
+}
