@@ -62,19 +62,12 @@ namespace SlipStep
 
 
 
-    bool is_along_x(const FrictionAxis &axis)
+    /// " along y"; nothing for x, unless there are others.
+    std::string words_of(const FrictionAxis &axis, const bool has_others)
     {
-      return axis.sine == 0.;
-    }
-
-
-
-    /// " along y", nothing along x.
-    std::string words_of(const FrictionAxis &axis)
-    {
-      return is_along_x(axis) ?
-               "" :
-             axis.cosine == 0. ?
+      if (axis.sine == 0.)
+        return has_others ? " along x" : "";
+      return axis.cosine == 0. ?
                " along y" :
                " at " +
                  rounded_text(std::atan2(axis.sine, axis.cosine) /
@@ -271,11 +264,12 @@ namespace SlipStep
 
     void draw_measured(RunFigures       &figures,
                        const ManyBeside &measured,
-                       const bool        is_over_time)
+                       const bool        is_over_time,
+                       const bool        has_others)
     {
       const Runs        &runs  = figures.runs;
       const FrictionAxis axis  = measured.front().axis;
-      const std::string  along = words_of(axis);
+      const std::string  along = words_of(axis, has_others);
       const std::string  over  = is_over_time ? "time" : "displacement";
       Figure             figure =
         figures.figure("measured_over_" + over + file_name_of(along),
@@ -340,6 +334,10 @@ namespace SlipStep
         pictures[{std::abs(sine), sine, has_turns}].push_back(measured);
       }
     for (const auto &[kind, measured] : pictures)
-      draw_measured(figures, measured, std::get<2>(kind));
+      draw_measured(figures,
+                    measured,
+                    std::get<2>(kind),
+                    std::get<1>(pictures.begin()->first) !=
+                      std::get<1>(pictures.rbegin()->first));
   }
 } // namespace SlipStep
