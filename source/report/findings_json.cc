@@ -103,7 +103,6 @@ namespace SlipStep
               {"unit", parameter.unit},
               {"before", parameter.before},
               {"at_bound", parameter.is_at_bound},
-              {"bounds", {parameter.least, parameter.most}},
               {"profile", parameter.profile}};
   }
 
