@@ -3,6 +3,7 @@
 
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/measured_data/friction_axes.h>
+#include <slipstep/measured_data/odd_rows.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/report/run_figures.h>
 #include <slipstep/utilities/exceptions.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -99,6 +101,8 @@ namespace SlipStep
       std::vector<FrictionAxis> axes = friction_axes(measured.test);
       if (axes.size() > 1)
         axes = {{1., 0., 0.}, {0., 1., 0.}};
+      const std::vector<std::size_t> unloaded =
+        rows_without_load(measured.test);
       for (const FrictionAxis &axis : axes)
         {
           MeasuredBeside      along = measured;
@@ -108,6 +112,8 @@ namespace SlipStep
           along.test.displacement =
             axis.of(test.displacement, test.displacement_y);
           along.start = axis.of(origin[0], origin[1]);
+          for (const std::size_t row : unloaded)
+            along.test.friction[row] = std::numeric_limits<double>::quiet_NaN();
           result.push_back(along);
         }
     }
@@ -191,7 +197,7 @@ namespace SlipStep
                         measured.axis,
                         measured.start_time + measured.test.time[i] -
                           measured.test.time[0]);
-          if (!std::isfinite(simulated))
+          if (!std::isfinite(simulated - measured.test.friction[i]))
             continue;
           squares += std::pow(simulated - measured.test.friction[i], 2);
           friction += std::pow(measured.test.friction[i], 2);
@@ -229,6 +235,8 @@ namespace SlipStep
               Rows points;
               for (std::size_t i = 0; i < test.time.size(); ++i)
                 {
+                  if (!std::isfinite(test.friction[i]))
+                    continue;
                   points.push_back(
                     {is_over_time ?
                        beside.start_time + test.time[i] - test.time[0] :
