@@ -240,7 +240,7 @@ namespace SlipStep
       step_data(start, end, end.slip_rate * time_step, time_step);
     if (!(start.normal_traction > 0.))
       step.way = TwoStages::carry * first.slip_increment + last.slip_increment -
-                 true_slip(isotropic_traction(end.traction) / alpha_t);
+                 elastic_slip(end.traction);
     const Contributions all = contributions(step);
     const double        strength =
       end.normal_traction * end.coefficient * all.factor.value + all.sum.value;

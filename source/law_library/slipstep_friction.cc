@@ -423,6 +423,26 @@ void slipstep_initial_state(const slipstep_law *const law, double *const state)
 
 
 
+void slipstep_elastic_slip(const slipstep_law *const law,
+                           const double *const       traction,
+                           double *const             slip)
+{
+  const dealii::Tensor<1, 2> elastic =
+    law->law.elastic_slip(dealii::Tensor<1, 2>({traction[0], traction[1]}));
+  slip[0] = elastic[0];
+  slip[1] = elastic[1];
+}
+
+
+
+double slipstep_stored_energy(const slipstep_law *const law,
+                              const double *const       state)
+{
+  return law->law.stored_energy(law->numbers.read(state));
+}
+
+
+
 double slipstep_tangential_stiffness(const slipstep_law *const law)
 {
   return law->law.tangential_stiffness();

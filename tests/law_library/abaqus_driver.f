@@ -4,7 +4,7 @@ C     which only the last is kept.
 C       abaqus_driver FOLDER NAME DEPVAR NFDIR < INCREMENTS > STRESSES
 C     A line of increments: time, slip in both directions, pressure at the end,
 C     angle by which vectors of the surface turn in the slip directions.
-C     A line of stresses: TAU, DDTDDG column by column, DDTDDP, SFD.
+C     A line of stresses: TAU, DDTDDG column by column, DDTDDP, SFD, SED, DSLIP.
       PROGRAM DRIVER
       IMPLICIT NONE
       INTEGER, PARAMETER :: MOST=64
@@ -56,8 +56,8 @@ C     A line of stresses: TAU, DDTDDG column by column, DDTDDP, SFD.
         LAST_PRESS=PRESS
         SLIP(1:NFDIR)=SLIP(1:NFDIR)+READ_SLIP(1:NFDIR)
         TIME=TIME+DTIME
-        WRITE(*,'(9ES26.17)') TAU(1:NFDIR),DDTDDG(1:NFDIR*NFDIR),
-     1   DDTDDP(1:NFDIR),SFD
+        WRITE(*,'(12ES26.17)') TAU(1:NFDIR),DDTDDG(1:NFDIR*NFDIR),
+     1   DDTDDP(1:NFDIR),SFD,SED,DSLIP(1:NFDIR)
       END DO
       END
 

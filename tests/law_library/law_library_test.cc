@@ -192,7 +192,7 @@ TEST_P(LawLibrary, TheUserSubroutineRepeatsThePoint)
   double        largest = 0.;
   for (const Increment &increment : increments)
     {
-      double row[9];
+      double row[12];
       for (double &value : row)
         ASSERT_TRUE(stresses >> value);
       for (unsigned int i = 0; i < 2; ++i)

@@ -251,12 +251,12 @@ TEST(UserSubroutine, ItFollowsTheAxesOfTheSurface)
   std::ifstream stresses(test_folder() / "stresses");
   double        largest = 0.;
   for (const Answer &answer : exact)
-    for (unsigned int part = 0; part < 5; ++part)
+    for (unsigned int part = 0; part < 6; ++part)
       {
         Vector told = {};
-        ASSERT_TRUE(stresses >> told[0] && (part == 4 || stresses >> told[1]));
-        if (part == 4)
-          continue; // the energy
+        ASSERT_TRUE(stresses >> told[0] >> told[1]);
+        if (part > 3)
+          continue; // the energies and the slip
         const double error = distance(told, answer[part]) * strength;
         // Derivatives are differences over a millionth of what matters.
         ASSERT_LT(error,
@@ -268,5 +268,73 @@ TEST(UserSubroutine, ItFollowsTheAxesOfTheSurface)
           largest = std::max(largest, error);
       }
   std::cout << "largest difference " << largest << " MPa" << std::endl;
+}
+
+
+
+// What goes in is stored or dissipated, and what is no slip goes back: with a
+// stiffness of alpha_t rho^2 along the weak axis, and a core that stores, too.
+TEST(UserSubroutine, ItBalancesEnergyAndSlip)
+{
+  constexpr double ratio = 0.5, tangential_stiffness = 100.;
+  for (const std::string effect : {"anisotropy", "elastic_core"})
+    {
+      const bool        is_core = effect == "elastic_core";
+      const std::string text =
+        "set Static coefficient = 0.2\nset Tangential stiffness = 100\n"
+        "set Effects = subloading, overstress, " +
+        effect + "\nsubsection " + effect +
+        (is_core ? "\nset Rate = 300\nset Limit = 0.7\nend\n" :
+                   "\nset Ratio = 0.5\nend\n");
+      ParsedLaw point(text);
+      std::ofstream(test_folder() / "slipstep.prm") << "subsection Friction\n"
+                                                    << text << "end\n";
+      // A circle, and back a little without slip.
+      std::ofstream       increments(test_folder() / "increments");
+      constexpr int       n_turning = 8000, n_back = 200;
+      Vector              all = {};
+      std::vector<Vector> motions;
+      for (int i = 0; i < n_turning + n_back; ++i)
+        {
+          const double angle = 4. * std::acos(0.) * i / n_turning;
+          const double size  = i < n_turning ? 1e-4 : -1e-6;
+          motions.push_back({size * std::cos(angle), size * std::sin(angle)});
+          increments << "1e-3 " << motions.back()[0] << ' ' << motions.back()[1]
+                     << " 5 0\n";
+        }
+      increments.close();
+      ASSERT_EQ(std::system(("cd " + test_folder().string() + " && " +
+                             SLIPSTEP_ABAQUS_DRIVER + " . SLIPSTEP " +
+                             std::to_string(point.state.size() + 1) +
+                             " 2 < increments > stresses")
+                              .c_str()),
+                0);
+      std::ifstream stresses(test_folder() / "stresses");
+      double        work = 0., dissipated = 0., stored = 0.;
+      Vector        before = {}, slip = {};
+      for (const Vector &motion : motions)
+        {
+          double row[12];
+          for (double &value : row)
+            ASSERT_TRUE(stresses >> value);
+          for (unsigned int i = 0; i < 2; ++i)
+            {
+              work += 0.5 * (row[i] + before[i]) * motion[i];
+              before[i] = row[i];
+              all[i] += motion[i];
+              slip[i] += row[10 + i];
+            }
+          dissipated += row[8];
+          stored = row[9];
+        }
+      EXPECT_GT(stored, 0.005) << effect;
+      EXPECT_NEAR(work, dissipated + stored, 2e-4) << effect;
+      for (unsigned int i = 0; i < 2; ++i)
+        EXPECT_NEAR(all[i] - slip[i],
+                    before[i] / (tangential_stiffness *
+                                 (i == 1 && !is_core ? ratio * ratio : 1.)),
+                    1e-6)
+          << effect;
+    }
 }
 #endif

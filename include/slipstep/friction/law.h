@@ -147,6 +147,13 @@ namespace SlipStep
       return alpha_t * cone * cone;
     }
 
+    /// Slip [mm] that goes back if the traction does.
+    dealii::Tensor<1, 2>
+    elastic_slip(const dealii::Tensor<1, 2> &traction) const
+    {
+      return true_slip(isotropic_traction(traction) / alpha_t);
+    }
+
     /// Energy stored per area in the tangential stiffness and the elastic core
     /// [MPa mm].
     double stored_energy(const ContactState &state) const

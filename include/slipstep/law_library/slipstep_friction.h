@@ -56,6 +56,16 @@ void slipstep_initial_state(const slipstep_law *law, double *state);
 double slipstep_tangential_stiffness(const slipstep_law *law);
 double slipstep_normal_stiffness(const slipstep_law *law);
 
+/** Slip that goes back with a traction along the plane: two numbers [mm] of two
+ * [MPa]. Through the stiffness, but where anisotropy stretches that. */
+void slipstep_elastic_slip(const slipstep_law *law,
+                           const double       *traction,
+                           double             *slip);
+
+/** Energy that a state stores per area, in the tangential stiffness and in an
+ * elastic core [MPa mm]. */
+double slipstep_stored_energy(const slipstep_law *law, const double *state);
+
 /** A step in which slip and pressure change evenly, by the two implicit stages
  * that slipstep makes: in parts, if need be, so short that the error estimated
  * of each, and what two halves of it make otherwise, is at most a thousandth
