@@ -3,6 +3,7 @@
 #include <slipstep/commands/commands.h>
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/experiment/case_identity.h>
+#include <slipstep/experiment/programme.h>
 #include <slipstep/experiment/summary.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/measured_data/measured_test.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace SlipStep
@@ -21,6 +23,10 @@ namespace SlipStep
 
   namespace
   {
+    const char *const programme_key = "Loading/Programme";
+
+
+
     /// Results that one argument names: a run, or all runs of a sweep.
     struct Source
     {
@@ -168,6 +174,37 @@ namespace SlipStep
 
 
 
+    // With the paths of the tests that it follows as they are from here.
+    std::string programme_from_here(const Parameters &parameters)
+    {
+      return relocated_programme(parameters.text(programme_key),
+                                 parameters.resolve("."),
+                                 std::filesystem::current_path());
+    }
+
+
+
+    // Files of one name may hold different tests, and copies the same.
+    bool is_same_motion(const Parameters &one, const Parameters &other)
+    {
+      const auto motion_of = [](const Parameters &parameters) {
+        std::optional<std::uint32_t> motion;
+        try
+          {
+            motion = CaseIdentity(parameters).programme;
+          }
+        catch (const InputError &)
+          {} // the file is gone
+        return motion;
+      };
+      if (programme_from_here(one) == programme_from_here(other))
+        return true;
+      const auto motion = motion_of(one);
+      return motion.has_value() && motion == motion_of(other);
+    }
+
+
+
     // A column for each key in which the cases differ; lines and columns
     // exchanged where that is the narrower table.
     std::vector<TableLine>
@@ -193,9 +230,9 @@ namespace SlipStep
           TableLine values;
           for (std::size_t i = 0; i < runs.size(); ++i)
             values.push_back(
-              inactive[i].count(path.substr(0, path.rfind('/'))) > 0 ?
-                off :
-                used[i].text(path));
+              inactive[i].count(path.substr(0, path.rfind('/'))) > 0 ? off :
+              path == programme_key ? programme_from_here(used[i]) :
+                                      used[i].text(path));
           const auto is_first = [&](const std::string &value) {
             return value == values[0] ||
                    (value != off && values[0] != off &&
@@ -203,7 +240,12 @@ namespace SlipStep
                                   values[0],
                                   value));
           };
-          if (all_of(values, is_first))
+          if (path == programme_key ?
+                all_of(used,
+                       [&](const Parameters &other) {
+                         return is_same_motion(used[0], other);
+                       }) :
+                all_of(values, is_first))
             continue;
           values.insert(values.begin(), path);
           keys.push_back(values);

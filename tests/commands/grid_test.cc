@@ -335,6 +335,35 @@ TEST_F(Grid, IsComparedWithOtherResults)
 
 
 // Of a run without them the defaults would be another's.
+// Files of one name with different motions, and the same file from elsewhere.
+TEST_F(Grid, OfFollowedTestsTellsTheMotions)
+{
+  const std::string head = "time_s,displacement_mm,pressure_MPa,friction\n";
+  for (const std::string folder : {"a", "b", "c"})
+    {
+      fs::create_directory(process.folder() / folder);
+      process.write(folder + "/t.csv",
+                    head + "0,0,5,0\n1," + (folder == "b" ? "0.5" : "1") +
+                      ",5,0.1\n");
+      process.write(
+        folder + "/f.prm",
+        "set Loading/Programme = press 5 MPa in 1 s; follow t.csv\n");
+      run({"point", folder + "/f.prm", "--output", folder + "/out", "--quiet"});
+    }
+  const auto differing = [&](const std::string &one, const std::string &other) {
+    run({"compare", one, other, "--output", "both", "--quiet"});
+    const std::string page = process.read("both/report.html");
+    return page.substr(page.find("What differs</h2>"), 600);
+  };
+  EXPECT_TRUE(contains(differing("a/out", "b/out"), "follow b/t.csv"));
+  EXPECT_TRUE(contains(differing("a/out", "c/out"), "the cases say the same"));
+  run({"point", "a/f.prm", "--output", "a/deep/er", "--quiet"});
+  EXPECT_TRUE(
+    contains(differing("a/out", "a/deep/er"), "the cases say the same"));
+}
+
+
+
 TEST_F(Grid, TellsThatParametersAreUnknown)
 {
   for (const std::string name : {"1", "2", "3"})
