@@ -64,6 +64,15 @@ namespace SlipStep
         axis.of(test.rows.displacement, test.rows.displacement_y);
       result.measured  = test.friction(axis);
       result.simulated = axis.of(curve.friction, curve.friction_y);
+      result.noise_1   = axis.noise;
+      if (test.axes.size() < 2)
+        return result;
+      const FrictionAxis &second = test.axes[1];
+      result.displacement_2 =
+        second.of(test.rows.displacement, test.rows.displacement_y);
+      result.measured_2  = test.friction(second);
+      result.simulated_2 = second.of(curve.friction, curve.friction_y);
+      result.noise_2     = second.noise;
       return result;
     }
 

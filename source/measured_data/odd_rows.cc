@@ -93,38 +93,55 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // They show no scatter.
+    constexpr std::size_t few_rows = 6;
+
+    // How friction scatters in a stretch of rows, of which few may be one end
+    // of a rise.
+    double scatter_of(const std::vector<double> &friction,
+                      const std::size_t          begin,
+                      const std::size_t          end)
+    {
+      if (end - begin >= few_rows)
+        return noise_level({friction.begin() + begin, friction.begin() + end});
+      double largest = 0.;
+      for (std::size_t i = begin; i < end && i + 1 < friction.size(); ++i)
+        largest = std::max(largest, std::abs(friction[i] - friction[i + 1]));
+      return largest;
+    }
+  } // namespace
+
+
+
   std::vector<std::size_t> rows_without_load(const MeasuredTest &test)
   {
-    constexpr double hardly = 0.05, far = 3.;
-
-    const double load     = median(test.pressure);
-    const auto   friction = [&](const std::size_t i) {
-      return std::hypot(test.friction[i],
-                        test.friction_y.empty() ? 0. : test.friction_y[i]);
-    };
-    std::vector<double> loaded;
+    constexpr double    hardly = 0.05, far = 5., least_share = 0.1;
+    const double        load = median(test.pressure);
+    std::vector<double> friction, loaded;
     for (std::size_t i = 0; i < test.time.size(); ++i)
-      if (test.pressure[i] >= 0.5 * load)
-        loaded.push_back(friction(i));
-    const double limit      = far * usual_size(loaded);
-    const auto   is_erratic = [&](const std::size_t i) {
-      const double size = friction(i);
-      for (const std::size_t j : {i - 1, i + 1})
-        if (size > limit && j < test.time.size() && friction(j) < 0.5 * size)
-          return true;
-      return false;
-    };
+      {
+        friction.push_back(
+          std::hypot(test.friction[i],
+                     test.friction_y.empty() ? 0. : test.friction_y[i]));
+        if (test.pressure[i] >= 0.5 * load)
+          loaded.push_back(friction[i]);
+      }
+    // Adhesion makes more of friction there, too, but smoothly.
+    const double usual = usual_size(loaded);
+    const double at_least =
+      std::max(least_share * usual, far * noise_of_friction(test));
     std::vector<std::size_t> rows;
-    // All of a stretch, if one of it is. What adhesion holds rises smoothly.
     for (std::size_t begin = 0, end; begin < test.time.size(); begin = end + 1)
       {
-        bool is_far = false;
         for (end = begin;
-             end < test.time.size() && test.pressure[end] < hardly * load;
-             ++end)
-          is_far = is_far || is_erratic(end);
-        for (std::size_t i = begin; is_far && i < end; ++i)
-          rows.push_back(i);
+             end < test.time.size() && test.pressure[end] < hardly * load;)
+          ++end;
+        if (scatter_of(friction, begin, end) >
+            (end - begin < few_rows ? 3. * usual : at_least))
+          for (std::size_t i = begin; i < end; ++i)
+            rows.push_back(i);
       }
     return rows;
   }
@@ -199,9 +216,16 @@ namespace SlipStep
       for (std::size_t i = 1; i < x.size(); ++i)
         if (std::abs(x[i] - x[i - 1]) > 0.)
           steps.push_back(x[i] - x[i - 1]);
-      // What hardly ever changes has no usual step.
-      const double usual =
-        steps.size() > 4 * most_rows ? usual_size(steps) : 0.;
+      // What hardly ever changes has no usual step. In few rows two excursions,
+      // forth and back, are not usual yet.
+      constexpr std::size_t n_left_out = 4;
+      std::sort(steps.begin(), steps.end(), [](const double a, const double b) {
+        return std::abs(a) < std::abs(b);
+      });
+      const bool has_usual = steps.size() > 4 * most_rows;
+      if (has_usual)
+        steps.resize(steps.size() - n_left_out);
+      const double usual = has_usual ? usual_size(steps) : 0.;
       const double limit = std::max(least, far * usual);
       if (!(limit > 0.))
         return {};

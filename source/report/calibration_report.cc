@@ -390,17 +390,40 @@ namespace SlipStep
     std::vector<DrawnTest> drawn_tests(const Calibration &calibration)
     {
       std::vector<DrawnTest> tests;
-      for (const TestMisfit &test : calibration.tests)
+      const auto             add = [&](const TestMisfit          &test,
+                           const std::string         &condition,
+                           const std::vector<double> &displacement,
+                           const std::vector<double> &measured,
+                           const std::vector<double> &simulated,
+                           const double               noise) {
         tests.push_back({test.name,
-                         test.condition,
+                         condition,
                          test.time,
-                         test.displacement,
-                         test.measured,
+                         displacement,
+                         measured,
                          {},
-                         test.simulated,
-                         std::isfinite(test.noise) ? test.noise : 0.,
+                         simulated,
+                         std::isfinite(noise) ? noise : 0.,
                          test.noise > 0. ? noise_ratio(test) : test.rms,
                          {}});
+      };
+      for (const TestMisfit &test : calibration.tests)
+        {
+          add(test,
+              test.condition,
+              test.displacement,
+              test.measured,
+              test.simulated,
+              test.noise_1 > 0. ? test.noise_1 : test.noise);
+          if (!test.measured_2.empty())
+            add(test,
+                (test.condition.empty() ? test.name : test.condition) +
+                  ", second axis",
+                test.displacement_2,
+                test.measured_2,
+                test.simulated_2,
+                test.noise_2);
+        }
       return tests;
     }
 

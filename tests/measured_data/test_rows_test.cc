@@ -513,13 +513,24 @@ TEST(TestRows, RowsThatComeBackAtOnceAreTold)
   EXPECT_TRUE(changed(2, 60, 1.).warnings.empty());
   // Before it is pressed: noise over noise, or nothing, over a load of noise.
   for (const bool is_zero : {false, true})
-    EXPECT_TRUE(slide_with([&](const int i, double(&row)[4]) {
-                  row[3] += noise(random);
-                  if (i >= 40)
-                    return;
-                  row[2] = 0.002 + std::abs(noise(random));
-                  row[3] = is_zero ? 0. : 100. * noise(random);
-                }).warnings.empty());
+    {
+      const MeasuredTest test = slide_with([&](const int i, double(&row)[4]) {
+        row[3] += noise(random);
+        if (i >= 40)
+          return;
+        row[2] = 0.002 + std::abs(noise(random));
+        row[3] = is_zero ? 0. : 100. * noise(random);
+      });
+      EXPECT_EQ(test.warnings.size(), is_zero ? 0u : 1u);
+      EXPECT_EQ(rows_without_load(test).size(), is_zero ? 0u : 40u);
+    }
+  // Of few rows, which move along x half of the time.
+  std::string rows;
+  for (int i = 0; i < 70; ++i)
+    rows += std::to_string(i) + "," +
+            (i == 20 ? "-999" : std::to_string(0.05 * std::min(i, 35))) +
+            ",5,0.15\n";
+  expect_warning(read(rows), "displacement goes to -999 mm there and back");
   // A rest of two rows, after which friction peaks; strokes of few rows.
   EXPECT_TRUE(slide_with([&](const int i, double(&row)[4]) {
                 row[3] += noise(random) + (i == 120 ? 0.08 : 0.);

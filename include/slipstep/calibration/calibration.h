@@ -99,6 +99,13 @@ namespace SlipStep
     std::vector<double> measured;
     std::vector<double> simulated;
     ///@}
+
+    /// @name Those along the second axis, where there is one, and the noise of
+    ///   each by itself.
+    ///@{
+    std::vector<double> displacement_2, measured_2, simulated_2;
+    double              noise_1 = 0., noise_2 = 0.;
+    ///@}
   };
 
   /// One of the starts of the search.
