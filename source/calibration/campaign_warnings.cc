@@ -135,12 +135,9 @@ namespace SlipStep
       std::size_t n_others = 0;
       for (const CampaignTest &test : tests)
         {
-          const FrictionAxis &axis  = test.axes[0];
-          MeasuredTest        along = test.rows;
-          along.friction            = test.friction(axis);
-          along.displacement =
-            axis.of(test.rows.displacement, test.rows.displacement_y);
-          const auto found = find_stick_slip(along, axis.noise);
+          const FrictionAxis &axis = test.axes[0];
+          const auto          found =
+            find_stick_slip(along(axis, test.rows), axis.noise);
           if (!found.has_value() ||
               std::abs(std::log(found->stiffness / of_case)) < std::log(alike))
             continue;

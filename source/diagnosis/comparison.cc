@@ -99,9 +99,6 @@ namespace SlipStep
           series.hum.push_back(means);
         }
     }
-
-
-
   } // namespace
 
 
@@ -119,12 +116,11 @@ namespace SlipStep
         compared.begin   = n;
         for (const FrictionAxis &axis : test.axes)
           compared.series.push_back(series_of(compared, test, axis));
-        if (!test.hum.empty())
-          for (std::size_t s = 0; s < test.axes.size(); ++s)
-            add_hum(test.hum[s],
-                    test.rows.time,
-                    compared.borders,
-                    compared.series[s]);
+        for (std::size_t s = 0; s < test.hum.size(); ++s)
+          add_hum(test.hum[s],
+                  test.rows.time,
+                  compared.borders,
+                  compared.series[s]);
         compared.size = compared.series.size() * compared.n_bins();
         n += compared.size;
         // A test that names no condition is one by itself.

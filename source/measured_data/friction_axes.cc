@@ -192,6 +192,16 @@ namespace SlipStep
 
 
 
+  MeasuredTest along(const FrictionAxis &axis, const MeasuredTest &test)
+  {
+    MeasuredTest result = test;
+    result.friction     = axis.of(test.friction, test.friction_y);
+    result.displacement = axis.of(test.displacement, test.displacement_y);
+    return result;
+  }
+
+
+
   double typical_friction(const MeasuredTest &rows)
   {
     double sum = 0.;

@@ -95,6 +95,19 @@ namespace SlipStep
 
   namespace
   {
+    // Of both axes.
+    std::vector<double> sizes_of_friction(const MeasuredTest &test)
+    {
+      std::vector<double> sizes;
+      for (std::size_t i = 0; i < test.friction.size(); ++i)
+        sizes.push_back(
+          std::hypot(test.friction[i],
+                     test.friction_y.empty() ? 0. : test.friction_y[i]));
+      return sizes;
+    }
+
+
+
     // They show no scatter.
     constexpr std::size_t few_rows = 6;
 
@@ -117,17 +130,16 @@ namespace SlipStep
 
   std::vector<std::size_t> rows_without_load(const MeasuredTest &test)
   {
-    constexpr double    hardly = 0.05, far = 5., least_share = 0.1;
-    const double        load = median(test.pressure);
-    std::vector<double> friction, loaded;
-    for (std::size_t i = 0; i < test.time.size(); ++i)
-      {
-        friction.push_back(
-          std::hypot(test.friction[i],
-                     test.friction_y.empty() ? 0. : test.friction_y[i]));
-        if (test.pressure[i] >= 0.5 * load)
-          loaded.push_back(friction[i]);
-      }
+    constexpr double hardly = 0.05, far = 5., least_share = 0.1;
+    const double     load = median(test.pressure);
+    if (none_of(test.pressure,
+                [&](const double p) { return p < hardly * load; }))
+      return {};
+    const std::vector<double> friction = sizes_of_friction(test);
+    std::vector<double>       loaded;
+    for (std::size_t i = 0; i < friction.size(); ++i)
+      if (test.pressure[i] >= 0.5 * load)
+        loaded.push_back(friction[i]);
     // Adhesion makes more of friction there, too, but smoothly.
     const double usual = usual_size(loaded);
     const double at_least =
@@ -265,12 +277,8 @@ namespace SlipStep
         constexpr double fastest = 2e5;  // mm/s
         constexpr double slowest = 1e-8; // mm/s, a third of a mm a year
 
-        std::vector<double> friction;
-        for (std::size_t i = 0; i < test.time.size(); ++i)
-          friction.push_back(
-            std::hypot(test.friction[i],
-                       test.friction_y.empty() ? 0. : test.friction_y[i]));
-        const double usual = usual_size(friction);
+        const std::vector<double> friction = sizes_of_friction(test);
+        const double              usual    = usual_size(friction);
         if (usual > largest_friction)
           warn(
             "friction reaches " + rounded_text(usual, 3) +

@@ -209,20 +209,18 @@ namespace SlipStep
       return table;
     }
 
-    bool is_unit(const std::string_view cell)
+    std::string_view without_brackets(const std::string_view unit)
     {
       const bool has_brackets =
-        cell.size() > 2 && ((cell.front() == '[' && cell.back() == ']') ||
-                            (cell.front() == '(' && cell.back() == ')'));
-      return has_brackets || cell == "%" || cell == "V" || cell == "mV" ||
-             dimension_of_unit(std::string(cell)).has_value();
+        unit.size() > 2 && ((unit.front() == '[' && unit.back() == ']') ||
+                            (unit.front() == '(' && unit.back() == ')'));
+      return has_brackets ? unit.substr(1, unit.size() - 2) : unit;
     }
 
-    std::string without_brackets(const std::string_view unit)
+    bool is_unit(const std::string_view cell)
     {
-      const bool has_brackets =
-        unit.size() > 2 && (unit.front() == '[' || unit.front() == '(');
-      return std::string(has_brackets ? unit.substr(1, unit.size() - 2) : unit);
+      return without_brackets(cell) != cell || cell == "%" || cell == "V" ||
+             cell == "mV" || dimension_of_unit(std::string(cell)).has_value();
     }
 
     // Mostly units and gaps.
@@ -308,7 +306,7 @@ namespace SlipStep
       for (std::size_t i = 0;
            i < layout.names.size() && units.size() == layout.n_cells;
            ++i)
-        layout.names[i] += " [" + without_brackets(units[i]) + "]";
+        layout.names[i] += " [" + std::string(without_brackets(units[i])) + "]";
     }
 
 

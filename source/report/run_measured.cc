@@ -105,16 +105,14 @@ namespace SlipStep
         rows_without_load(measured.test);
       for (const FrictionAxis &axis : axes)
         {
-          MeasuredBeside      along = measured;
-          const MeasuredTest &test  = measured.test;
-          along.axis                = axis;
-          along.test.friction       = axis.of(test.friction, test.friction_y);
-          along.test.displacement =
-            axis.of(test.displacement, test.displacement_y);
-          along.start = axis.of(origin[0], origin[1]);
+          MeasuredBeside beside = measured;
+          beside.axis           = axis;
+          beside.test           = along(axis, measured.test);
+          beside.start          = axis.of(origin[0], origin[1]);
           for (const std::size_t row : unloaded)
-            along.test.friction[row] = std::numeric_limits<double>::quiet_NaN();
-          result.push_back(along);
+            beside.test.friction[row] =
+              std::numeric_limits<double>::quiet_NaN();
+          result.push_back(beside);
         }
     }
 

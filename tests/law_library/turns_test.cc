@@ -215,6 +215,17 @@ namespace
       }
     return answers;
   }
+
+
+
+  // From the increments of the test's folder to its stresses.
+  int drive(const std::size_t depvar)
+  {
+    return std::system(("cd " + test_folder().string() + " && " +
+                        SLIPSTEP_ABAQUS_DRIVER + " . SLIPSTEP " +
+                        std::to_string(depvar) + " 2 < increments > stresses")
+                         .c_str());
+  }
 } // namespace
 
 
@@ -242,12 +253,7 @@ TEST(UserSubroutine, ItFollowsTheAxesOfTheSurface)
   std::ofstream             seen(test_folder() / "increments");
   const std::vector<Answer> exact = random_path(point, seen);
   seen.close();
-  ASSERT_EQ(std::system(("cd " + test_folder().string() + " && " +
-                         SLIPSTEP_ABAQUS_DRIVER + " . SLIPSTEP " +
-                         std::to_string(point.state.size() + 1) +
-                         " 2 < increments > stresses")
-                          .c_str()),
-            0);
+  ASSERT_EQ(drive(point.state.size() + 1), 0);
   std::ifstream stresses(test_folder() / "stresses");
   double        largest = 0.;
   for (const Answer &answer : exact)
@@ -303,12 +309,7 @@ TEST(UserSubroutine, ItBalancesEnergyAndSlip)
                      << " 5 0\n";
         }
       increments.close();
-      ASSERT_EQ(std::system(("cd " + test_folder().string() + " && " +
-                             SLIPSTEP_ABAQUS_DRIVER + " . SLIPSTEP " +
-                             std::to_string(point.state.size() + 1) +
-                             " 2 < increments > stresses")
-                              .c_str()),
-                0);
+      ASSERT_EQ(drive(point.state.size() + 1), 0);
       std::ifstream stresses(test_folder() / "stresses");
       double        work = 0., dissipated = 0., stored = 0.;
       Vector        before = {}, slip = {};

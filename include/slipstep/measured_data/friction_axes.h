@@ -35,6 +35,9 @@ namespace SlipStep
   /// correlation of the noise along these.
   std::vector<FrictionAxis> friction_axes(const MeasuredTest &test);
 
+  /// A test with friction and displacement along an axis for those along x.
+  MeasuredTest along(const FrictionAxis &axis, const MeasuredTest &test);
+
   /// Root mean square of the friction of a test, of both axes.
   double typical_friction(const MeasuredTest &rows);
 
