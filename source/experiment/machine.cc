@@ -429,24 +429,27 @@ namespace SlipStep
 
 
 
-  // As of the law: half of the difference that the rates of the second stage
-  // alone would make, of position and velocity. The stage itself lets a part of
-  // it through; of oscillations far quicker than it little is left. Of a swing
-  // the scheme itself errs far less than this, so a part of it counts.
-  double Machine::error_of_motion(const MachineStep &step,
-                                  const double       body) const
+  Tensor<1, 2> MachineStep::difference_of_orders() const
   {
-    const double       stage_time = TwoStages::gamma * step.time_step;
-    const Tensor<1, 2> position   = 0.5 * TwoStages::carry * stage_time *
-                                  (step.first.velocity - step.slider.velocity);
-    const Tensor<1, 2> velocity =
-      0.5 * TwoStages::carry *
-      ((step.first.velocity - step.start.velocity) -
-       (step.slider.velocity - step.second.velocity));
-    constexpr double part = 0.3;
-    const double     all  = stiffness() + step.contact.d_slip.norm();
-    return part * all * (position + stage_time * velocity).norm() /
-           (1. + all * stage_time * stage_time / (areal_mass + body));
+    return 0.5 * TwoStages::carry * TwoStages::gamma * time_step *
+           ((first.velocity - slider.velocity) +
+            (first.velocity - start.velocity) -
+            (slider.velocity - second.velocity));
+  }
+
+
+
+  // As of the law, half of the difference of two orders. The stage itself lets
+  // a part of it through; of oscillations far quicker than it little is left.
+  // Of a swing the scheme itself errs far less than this, so a part of it
+  // counts.
+  double Machine::error_of_motion(const MachineStep &step) const
+  {
+    const double     stage_time = TwoStages::gamma * step.time_step;
+    constexpr double part       = 0.3;
+    const double     all        = stiffness() + step.contact.d_slip.norm();
+    return part * all * step.difference_of_orders().norm() /
+           (1. + all * stage_time * stage_time / areal_mass);
   }
 
 

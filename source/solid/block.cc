@@ -145,11 +145,11 @@ namespace SlipStep
       {
         const double weight =
           programme.weight_of_error(control.time(), control.end_of_step());
-        error = contact.step_error(communicator);
-        error.at_end =
-          std::max({error.at_end * weight,
-                    drive.error(drive_springs, driven_mass, totals.limit_load),
-                    error_of_motion(totals)});
+        error        = contact.step_error(communicator);
+        error.at_end = std::max(
+          {error.at_end * weight,
+           inertia.exists() ? error_of_motion(totals) :
+                              drive.error(drive_springs, totals.limit_load)});
         error.of_line *= weight;
       }
     if (mesh_is_new)

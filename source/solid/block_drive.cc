@@ -133,6 +133,22 @@ namespace SlipStep
 
 
 
+  // Motion of the frame that a force on the drive makes, as far as block,
+  // contact and drive let it; the block follows by its modes.
+  // @throws RunError if nothing resists
+  template <int dim>
+  Tensor<1, 2> Block<dim>::yielding_of_drive(const Tensor<1, 2> &force) const
+  {
+    Tensor<2, 2> resistance = drive_springs;
+    for (unsigned int i = 0; i < 2; ++i)
+      resistance[i][i] += i < dim - 1 ? drive.stiffness() : 1.;
+    if (determinant(resistance) > 0. && trace(resistance) > 0.)
+      return invert(resistance) * force;
+    throw RunError("nothing resists a further motion of the drive");
+  }
+
+
+
   // @param[in,out] update of the displacements while the frame rests, then with
   // its motion
   // @return that motion
@@ -146,11 +162,8 @@ namespace SlipStep
     const Tensor<1, 2> missing =
       force_missing_on_drive() - force_on_drive(changes);
 
-    Vector       correction(update);
-    Tensor<2, 2> resistance;
-    resistance[1][1] = 1.; // of a block in 2-D
-    drive_springs    = Tensor<2, 2>();
-    driven_mass      = std::numeric_limits<double>::max();
+    Vector correction(update);
+    drive_springs = Tensor<2, 2>();
     for (unsigned int j = 0; j < dim - 1; ++j)
       {
         Tensor<1, 2> unit;
@@ -168,23 +181,11 @@ namespace SlipStep
         compute_force_changes(drive_modes[j], unit, changes);
         const Tensor<1, 2> force = force_on_drive(changes);
         for (unsigned int i = 0; i < dim - 1; ++i)
-          resistance[i][j] = drive_springs[i][j] = force[i];
-        // What resists with the square of the time is no spring: shorter steps
-        // would not make its error less.
-        const double mass =
-          inertia.mass_of(drive_modes[j],
-                          parameters.template in_plane<dim>(unit));
-        drive_springs[j][j] -= mass / (stage_time * stage_time);
-        driven_mass = std::min(driven_mass, mass);
+          drive_springs[i][j] = force[i];
       }
 
-    Tensor<2, 2> all = resistance;
-    for (unsigned int i = 0; i < dim - 1; ++i)
-      all[i][i] += drive.stiffness();
-    const bool         resists = determinant(all) > 0. && trace(all) > 0.;
-    const Tensor<1, 2> motion  = resists ? invert(all) * missing : missing;
-    if (!resists ||
-        !(motion.norm() <= parameters.size[parameters.normal_axis()]))
+    const Tensor<1, 2> motion = yielding_of_drive(missing);
+    if (!(motion.norm() <= parameters.size[parameters.normal_axis()]))
       throw RunError("nothing resists a further motion of the drive");
     update.zero_out_ghost_values();
     for (unsigned int j = 0; j < dim - 1; ++j)

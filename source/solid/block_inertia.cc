@@ -61,6 +61,40 @@ namespace SlipStep
 
 
 
+  // Displacements, in space, that forces make which act through a stage.
+  // @param on_drive force on the drive besides
+  // @param[in,out] forces on the block, then its displacement
+  // @return that of the driven faces where it is unknown
+  template <int dim>
+  Tensor<1, 2> Block<dim>::let_through(const Tensor<1, 2> &on_drive,
+                                       Vector             &forces)
+  {
+    Vector moved(forces);
+    move_to_masters(hanging_constraints, moved);
+    const Tensor<1, 2> missing = on_drive + force_on_drive(moved);
+    move_to_masters(homogeneous_constraints, forces);
+    Vector displacement(forces);
+    count_linear_iterations(
+      system->solve(displacement, forces, 0.1 * forces.l2_norm()));
+    constrain(displacement);
+    Tensor<1, 2> motion;
+    if (drive.is_unknown() && newton.n_iterations > 0)
+      {
+        displacement.update_ghost_values();
+        compute_force_changes(displacement, Tensor<1, 2>(), moved);
+        motion = yielding_of_drive(missing - force_on_drive(moved));
+        displacement.zero_out_ghost_values();
+        for (unsigned int j = 0; j < dim - 1; ++j)
+          displacement.add(motion[j], drive_modes[j]);
+        inertia.add_frame(parameters.template in_plane<dim>(motion),
+                          displacement);
+      }
+    forces.swap(displacement);
+    return motion;
+  }
+
+
+
   // As of the machine (Machine::error_of_motion): the stage lets a part of the
   // difference e of two orders through,
   // @f$\delta = (\mathbf K + \mathbf C + m)^{-1} m e@f$ with
@@ -77,27 +111,32 @@ namespace SlipStep
     Vector difference(right_hand_side);
     difference = 0.;
     inertia.difference_of_orders(stage_time, difference);
+    Tensor<1, 2> of_drive;
+    if (drive.is_unknown())
+      of_drive = drive.difference_of_orders();
     Vector &forces = right_hand_side;
     forces         = 0.;
     inertia.add_force_changes(difference, Tensor<1, dim>(), stage_time, forces);
-    move_to_masters(homogeneous_constraints, forces);
-    Vector passed(forces);
+    Vector       passed(forces);
+    Tensor<1, 2> passed_by_drive;
     try
       {
-        count_linear_iterations(
-          system->solve(passed, forces, 0.1 * forces.l2_norm()));
+        passed_by_drive = let_through(drive.inertia() * of_drive, passed);
       }
     catch (const RunError &)
       {
         // Not known: a shorter step will tell.
         return std::numeric_limits<double>::infinity();
       }
-    constrain(passed);
 
     difference -= passed;
+    of_drive -= passed_by_drive;
     forces = 0.;
     inertia.add_force_changes(difference, Tensor<1, dim>(), stage_time, forces);
-    const double energy = std::abs(forces * passed) / 2.;
+    const double energy =
+      std::abs(forces * passed +
+               drive.inertia() * (of_drive * passed_by_drive)) /
+      2.;
     if (energy == 0.)
       return 0.;
 

@@ -100,21 +100,27 @@ namespace SlipStep
 
 
 
-  double Drive::error(const Tensor<2, 2> &springs,
-                      const double        body,
-                      const double        strength) const
+  MachineStep Drive::step() const
+  {
+    MachineStep step;
+    step.start     = at_start;
+    step.first     = first;
+    step.second    = stage_start;
+    step.slider    = stage_end;
+    step.time_step = stage_time / TwoStages::gamma;
+    return step;
+  }
+
+
+
+  double Drive::error(const Tensor<2, 2> &springs, const double strength) const
   {
     if (machine.mass() == 0.)
       return 0.;
-    MachineStep step;
+    MachineStep step    = this->step();
     step.contact.d_slip = springs / area;
-    step.start          = at_start;
-    step.first          = first;
-    step.second         = stage_start;
-    step.slider         = stage_end;
-    step.time_step      = stage_time / TwoStages::gamma;
     StepError error;
-    error.at_end = machine.error_of_motion(step, body / area) /
+    error.at_end = machine.error_of_motion(step) /
                    std::max(strength / area, stage_end.load.norm());
     return error.measure();
   }

@@ -112,16 +112,11 @@ namespace SlipStep
 
 
   template <int dim>
-  double Inertia<dim>::mass_of(const Vector         &mode,
-                               const Tensor<1, dim> &frame) const
+  void Inertia<dim>::add_frame(const Tensor<1, dim> &frame,
+                               Vector               &displacement) const
   {
-    double sum = 0.;
     for (unsigned int i = 0; i < component.size(); ++i)
-      {
-        const double motion = mode.local_element(i) + frame[component[i]];
-        sum += lumped_mass.local_element(i) * motion * motion;
-      }
-    return sum_of_ranks(sum);
+      displacement.local_element(i) += frame[component[i]];
   }
 
 

@@ -174,6 +174,40 @@ TEST(BlockMachine, sticks_and_slips_as_the_point)
 
 
 
+// Of an elastic block the waves that a machine sends into it are quicker than
+// its own swing, and hold next to no energy.
+TEST(BlockMachine, makes_steps_as_long_with_the_mass_in_drive_and_body)
+{
+  const auto with = [](const Settings &masses) {
+    return run_block_case<2>(make_parameters(
+      Settings{{"Friction/Tangential stiffness", "500"},
+               {"Block/Dimension", "2"},
+               {"Block/Size", "10 mm, 10 mm"},
+               {"Block/Subdivisions", "1, 1"},
+               {"Block/Degree", "1"},
+               {"Block/Faces/top", "pressure programme; drive; flat"},
+               {"Loading/Programme",
+                "press 5 MPa in 1 s; slide 1 mm/s for 2 mm"}} +
+        masses,
+      "stick_slip/stick_slip.prm"));
+  };
+  const auto in_drive = with({{"Loading/Machine mass", "178.5 kg/m^2"}});
+  const auto in_both  = with(
+    {{"Loading/Machine mass", "100 kg/m^2"}, {"Block/Density", "7850 kg/m^3"}});
+  EXPECT_EQ(in_both.failure, "");
+  const std::size_t n = in_drive.history.size();
+  EXPECT_GT(n, 300u);
+  EXPECT_LT(in_both.history.size(), 1.5 * n);
+  EXPECT_GT(in_both.history.size(), n / 1.5);
+  const auto last_friction = [](const auto &result) {
+    return result.history.back().friction;
+  };
+  EXPECT_NEAR(last_friction(in_both), last_friction(in_drive), 1e-3);
+  expect_balanced(in_both.history);
+}
+
+
+
 // The shorter the steps, the more round-off of where it is the forces of its
 // inertia hold.
 TEST(BlockMachine, comes_to_rest_after_a_long_way)

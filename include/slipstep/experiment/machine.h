@@ -36,6 +36,11 @@ namespace SlipStep
     double work     = 0.;    ///< of the load point, per area [MPa mm]
     bool   holds    = true;  ///< false if friction cannot hold a push
     bool   jumps    = false; ///< see Machine::step()
+
+    /// Half of what a method of first order, which has the rates of the second
+    /// stage only, would add to displacement and velocity times the time of a
+    /// stage [mm].
+    dealii::Tensor<1, 2> difference_of_orders() const;
   };
 
   /// The machine that moves a contact point or a block: a spring in series, the
@@ -118,9 +123,7 @@ namespace SlipStep
                     const MachineStep  &step) const;
 
     /// Estimated error of the load that the motion of the mass makes [MPa].
-    /// @param body mass per area that moves with it [MPa s^2/mm]
-    double error_of_motion(const MachineStep &step,
-                           const double       body = 0.) const;
+    double error_of_motion(const MachineStep &step) const;
 
     /// What the probes of a history are, in the order of probes().
     static std::vector<std::string> probe_names();

@@ -204,6 +204,8 @@ namespace SlipStep
     const Vector          &strained_displacement();
     dealii::Tensor<1, dim> frame_motion_in_stage() const;
     double                 damped_energy_of_stage();
+    dealii::Tensor<1, 2>   let_through(const dealii::Tensor<1, 2> &on_drive,
+                                       Vector                     &forces);
     double                 error_of_motion(const ContactTotals &totals);
     std::vector<Vector *>  fields_of_state();
 
@@ -213,6 +215,8 @@ namespace SlipStep
     dealii::Tensor<1, 2> force_on_drive(const Vector &forces) const;
     dealii::Tensor<1, 2> force_missing_on_drive() const;
     void                 begin_modes();
+    dealii::Tensor<1, 2>
+    yielding_of_drive(const dealii::Tensor<1, 2> &force) const;
     dealii::Tensor<1, 2> move_drive(Vector &update);
     void                 compute_force_changes(const Vector               &displacement,
                                                const dealii::Tensor<1, 2> &frame,
@@ -303,13 +307,11 @@ namespace SlipStep
     double               trial_damped_energy = 0.; // likewise, by viscosity
 
     // The drive; how the block follows it where that is unknown, the forces
-    // that has to balance, the springs of block and contact in it [N/mm], and
-    // the mass of the block that moves along [t].
+    // that has to balance, and how block and contact resist it [N/mm].
     Drive                       drive;
     std::array<Vector, dim - 1> drive_modes;
     std::array<double, dim - 1> mode_scale;
     dealii::Tensor<2, 2>        drive_springs;
-    double                      driven_mass = 0.;
 
     // Newton's method in the present step.
     struct NewtonRecord

@@ -92,14 +92,25 @@ namespace SlipStep
     double work_beyond(const dealii::Tensor<1, 2> &reaction) const;
 
     /// Estimated error of the motion of the mass in the step that ended, as
-    /// StepError::measure().
+    /// StepError::measure(), with a block that has none.
     /// @param springs of block and contact against a motion of the driven
     ///   faces [N/mm]
-    /// @param body mass of the block that such a motion takes along [t]
     /// @param strength of the contact [N]
     double error(const dealii::Tensor<2, 2> &springs,
-                 const double                body,
                  const double                strength) const;
+
+    /// Of the motion of the driven faces (MachineStep::difference_of_orders())
+    /// [mm].
+    dealii::Tensor<1, 2> difference_of_orders() const
+    {
+      return step().difference_of_orders();
+    }
+
+    /// m / (gamma h)^2 in the stage that ended [N/mm].
+    double inertia() const
+    {
+      return area * machine.mass() / (stage_time * stage_time);
+    }
 
     /// At the end of the last step; `slip` is the displacement of the driven
     /// faces.
@@ -148,6 +159,8 @@ namespace SlipStep
     }
 
   private:
+    MachineStep step() const;
+
     /// Of the spring, where it is moved.
     dealii::Tensor<1, 2>
     spring_load(const dealii::Tensor<1, 2> &displacement) const

@@ -99,11 +99,9 @@ namespace SlipStep
                            const double                  time,
                            Vector                       &forces) const;
 
-    /// Mass that a mode moves: the sum of m (v + frame)^2 [t]. All ranks take
-    /// part.
-    /// @param mode, frame displacement of the block in the frame, and its own
-    double mass_of(const Vector                 &mode,
-                   const dealii::Tensor<1, dim> &frame) const;
+    /// Make a displacement in the frame one in space.
+    void add_frame(const dealii::Tensor<1, dim> &frame,
+                   Vector                       &displacement) const;
 
     /// Take over the motion in the stage that ended; arguments as of
     /// add_forces().
@@ -120,8 +118,7 @@ namespace SlipStep
     /// At the end of the stage that ended [N mm].
     double kinetic_energy() const;
 
-    /// What the method of first order that has the rates of the second stage
-    /// only would add to the displacement, half of it (Machine::error()) [mm].
+    /// As MachineStep::difference_of_orders(), in space [mm].
     /// @param time of a stage [s]
     void difference_of_orders(const double time, Vector &difference) const;
 
