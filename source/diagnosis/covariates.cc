@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/numbers.h>
+
 #include <slipstep/diagnosis/covariates.h>
 #include <slipstep/measured_data/test_rows.h>
 
@@ -89,18 +91,17 @@ namespace SlipStep
     void RowReader::find_motion()
     {
       // A record may tremble by its last digits.
-      const std::vector<double> x =
-        trembles(rows.displacement) ?
-          without_jitter(rows.displacement,
-                         4. * noise_level(rows.displacement)) :
-          rows.displacement;
+      const auto calm = [](const std::vector<double> &displacement) {
+        return trembles(displacement) ?
+                 without_jitter(displacement, 4. * noise_level(displacement)) :
+                 displacement;
+      };
+      const std::vector<double> x = calm(rows.displacement),
+                                y = calm(rows.displacement_y);
       for (std::size_t i = 1; i < n; ++i)
         {
           const double dx = x[i] - x[i - 1];
-          const double dy =
-            rows.displacement_y.empty() ?
-              0. :
-              rows.displacement_y[i] - rows.displacement_y[i - 1];
+          const double dy = y.empty() ? 0. : y[i] - y[i - 1];
           result.speed(i) =
             std::hypot(dx, dy) / (rows.time[i] - rows.time[i - 1]);
           result.angle(i) = std::atan2(dy, dx);
@@ -118,9 +119,6 @@ namespace SlipStep
           result.speed(0) = result.speed(1);
           result.angle(0) = result.angle(1);
         }
-      for (std::size_t i = 0; i < n; ++i)
-        if (result.speed(i) > 0. && std::cos(result.angle(i)) < -0.5)
-          result.is_reverse(i) = 1.;
     }
 
 
@@ -317,13 +315,60 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    bool is_motion(const Covariates &rows, const Eigen::Index row)
+    {
+      return rows.speed(row) > 0. && rows.phase[row] != Phase::hold;
+    }
+
+
+
+    // See TestedRange.
+    double main_line(const Covariates &rows)
+    {
+      constexpr int       half_turn = 180, near = 3; // [deg]
+      std::vector<double> lines(half_turn);
+      for (Eigen::Index k = 0; k < rows.speed.size(); ++k)
+        if (is_motion(rows, k))
+          for (int i = -near; i <= near; ++i)
+            {
+              const long degrees =
+                std::lround(rows.angle(k) * half_turn / dealii::numbers::PI) +
+                i;
+              lines[(degrees % half_turn + half_turn) % half_turn] +=
+                1. - 0.01 * i * i;
+            }
+      const auto commonest = std::max_element(lines.begin(), lines.end());
+      if (lines[0] > 0.5 * *commonest)
+        return 0.;
+      const int degrees = commonest - lines.begin();
+      return (degrees > half_turn / 2 ? degrees - half_turn : degrees) *
+             dealii::numbers::PI / half_turn;
+    }
+
+
+
+    void follow_main_line(Covariates &rows, const Eigen::VectorXd &across)
+    {
+      const double line = rows.main_line = main_line(rows);
+      rows.track = std::cos(line) * rows.position + std::sin(line) * across;
+      for (Eigen::Index k = 0; k < rows.speed.size(); ++k)
+        rows.is_reverse(k) =
+          rows.speed(k) > 0. && std::cos(rows.angle(k) - line) < -0.5;
+    }
+  } // namespace
+
+
+
   Covariates find_covariates(const Comparison                &comparison,
                              const std::vector<CampaignTest> &tests,
                              const Eigen::VectorXd           &friction,
                              const double elastic_slip_per_pressure)
   {
-    Covariates result = zeros(comparison.n_rows());
-    result.friction   = friction;
+    Covariates result      = zeros(comparison.n_rows());
+    result.friction        = friction;
+    Eigen::VectorXd across = Eigen::VectorXd::Zero(comparison.n_rows());
     for (std::size_t t = 0; t < tests.size(); ++t)
       {
         const ComparedTest &test = comparison.tests[t];
@@ -340,9 +385,12 @@ namespace SlipStep
                 (result.*covariate.values)(k) = (rows.*covariate.values)(row);
               result.since_rest(k) = rows.since_rest(row);
               result.phase[k]      = rows.phase[row];
-              result.axis(k)       = s;
+              if (!tests[t].rows.displacement_y.empty())
+                across(k) = tests[t].rows.displacement_y[row];
+              result.axis(k) = s;
             }
       }
+    follow_main_line(result, across);
     follow_pressure(comparison, tests, result);
     const double length = 0.1 * result.path.maxCoeff();
     if (length > 0.)
@@ -363,8 +411,9 @@ namespace SlipStep
   {
     TestedRange         result;
     std::vector<double> moving, angles, frictions;
+    result.main_line = covariates.main_line;
     for (Eigen::Index k = 0; k < comparison.n_rows(); ++k)
-      if (covariates.speed(k) > 0. && covariates.phase[k] != Phase::hold)
+      if (is_motion(covariates, k))
         {
           moving.push_back(covariates.speed(k));
           angles.push_back(covariates.angle(k));

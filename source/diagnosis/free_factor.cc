@@ -169,7 +169,8 @@ namespace SlipStep
         parameters.list("Friction/Effects");
       const bool has_texture = holds(effects, "texture");
       // A position along the first axis is all that a factor knows.
-      if (has_texture && parameters.number("Friction/texture/Angle") != 0.)
+      if (has_texture ? parameters.number("Friction/texture/Angle") != 0. :
+                        workspace.range.main_line != 0.)
         return {};
       const double wavelength =
         has_texture ? parameters.number("Friction/texture/Wavelength") :

@@ -28,9 +28,9 @@ namespace SlipStep
           if (i != Eigen::Index(test.n_bins()))
             {
               const Eigen::Index row = test.begin + i;
-              result(row)            = std::abs(covariates.position(row) -
-                                     covariates.position(row - 1));
-              result(row - 1)        = std::max(result(row - 1), result(row));
+              result(row) =
+                std::abs(covariates.track(row) - covariates.track(row - 1));
+              result(row - 1) = std::max(result(row - 1), result(row));
             }
       return (covariates.speed.array() > 0.)
         .select(result, std::numeric_limits<double>::infinity());
@@ -40,7 +40,7 @@ namespace SlipStep
 
     double track_of(const ComparedTest &test, const Covariates &covariates)
     {
-      const auto x = covariates.position.segment(test.begin, test.size);
+      const auto x = covariates.track.segment(test.begin, test.size);
       return x.maxCoeff() - x.minCoeff();
     }
 
@@ -111,7 +111,7 @@ namespace SlipStep
             direction.friction(i) *=
               distance(i) > most_of_wave * wavelength ?
                 0. :
-                std::cos(PI * (2. * covariates.position(i) / wavelength -
+                std::cos(PI * (2. * covariates.track(i) / wavelength -
                                double(k) / n_shifts));
           result.push_back(direction);
         }

@@ -199,8 +199,12 @@ TEST(Candidates, HaveOtherForms)
     return result;
   };
   using Forms = std::vector<std::string>;
-  EXPECT_EQ(forms("anisotropy", "Form"), (Forms{"associated", "opposite"}));
-  EXPECT_EQ(forms("direction", "Form"), (Forms{"cosine", "reversed"}));
+  EXPECT_EQ(forms("anisotropy", "Form"), (Forms{"associated", "associated", "opposite"}));
+  // Along the line of motion, and along any other.
+  EXPECT_EQ(forms("direction", "Form"),
+            (Forms{"cosine", "reversed", "cosine", "reversed"}));
+  EXPECT_EQ(forms("direction", "Forward angle"),
+            (Forms{"0", "0", "45 deg", "45 deg"}));
   EXPECT_EQ(forms("viscous", "Exponent"), (Forms{"1", "0.5"}));
   // Alone, with harmonics, and as the second of those.
   EXPECT_EQ(forms("texture", "Wavelength"),

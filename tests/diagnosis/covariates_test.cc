@@ -85,7 +85,7 @@ TEST(Covariates, KnowTheHistoryOfEveryRow)
 // There and back, also along another line, is no second line.
 TEST(Covariates, TellLinesOfMotionApart)
 {
-  const auto widest_angle = [](const double of_first, const double of_second) {
+  const auto range = [](const double of_first, const double of_second) {
     MeasuredTest      test = slide_rest_return();
     const std::size_t n    = test.time.size();
     test.displacement_y.resize(n);
@@ -107,12 +107,21 @@ TEST(Covariates, TellLinesOfMotionApart)
     const Covariates covariates = covariates_of(test, comparison);
     return tested_range(comparison,
                         {{test, {{1., 0., 0.001}}, true, Replay(test)}},
-                        covariates)
-      .widest_angle;
+                        covariates);
   };
-  EXPECT_NEAR(widest_angle(0., 0.), 0., 1e-6);
-  EXPECT_NEAR(widest_angle(0.7, 0.7), 0., 1e-6);
-  EXPECT_NEAR(widest_angle(0.2, 0.7), 0.5, 1e-6);
+  EXPECT_NEAR(range(0., 0.).widest_angle, 0., 1e-6);
+  EXPECT_NEAR(range(0.7, 0.7).widest_angle, 0., 1e-6);
+  EXPECT_NEAR(range(0.2, 0.7).widest_angle, 0.5, 1e-6);
+  // In whole degrees; the first axis where tests move along it.
+  const auto main_line = [&](const double of_first, const double of_second) {
+    return range(of_first, of_second).main_line * 180. / std::acos(-1.);
+  };
+  EXPECT_EQ(main_line(0., 0.), 0.);
+  EXPECT_EQ(main_line(0., 0.7), 0.);
+  EXPECT_EQ(main_line(0.7, 0.), 0.);
+  EXPECT_NEAR(main_line(0.7, 0.7), 40., 1e-9);
+  EXPECT_NEAR(main_line(-1., -1.), -57., 1e-9);
+  EXPECT_NEAR(main_line(std::acos(-1.) / 2., std::acos(-1.) / 2.), 90., 1e-9);
 }
 
 

@@ -19,6 +19,7 @@ namespace SlipStep
     Eigen::VectorXd pressure; ///< [MPa]
     Eigen::VectorXd path;     ///< [mm], since the beginning of the test
     Eigen::VectorXd position; ///< displacement along the first axis [mm]
+    Eigen::VectorXd track;    ///< displacement along the main line [mm]
     /// Slip since the last start, stop or reversal [mm].
     Eigen::VectorXd since_start;
     /// Duration of the last rest [s], 0 before any.
@@ -37,6 +38,7 @@ namespace SlipStep
     /// lagging_change() over a tenth of the longest path.
     Eigen::VectorXd    pressure_change, speed_change;
     std::vector<Phase> phase;
+    double             main_line = 0.; ///< as TestedRange
   };
 
   /// @param friction simulated, as Comparison::measured

@@ -28,6 +28,9 @@ namespace SlipStep
     double typical_friction = 0.;
     double widest_angle     = 0.;    ///< between lines of motion, to pi/2 [rad]
     bool   has_two_axes     = false; ///< friction across the motion is measured
+    /// Along which tests move mostly, the first axis if it is one such: from
+    /// -pi/2 to pi/2, whole degrees [rad].
+    double main_line = 0.;
     /// Length of the wave along the track that the model leaves, beyond chance
     /// [mm]; 0 if there is none.
     double track_wave = 0.;

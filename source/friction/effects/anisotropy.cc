@@ -8,6 +8,8 @@
 
 namespace SlipStep
 {
+  using dealii::numbers::PI;
+
   namespace
   {
     /// Friction differs along two axes of the surface that are normal to each
@@ -103,11 +105,14 @@ namespace SlipStep
         info.typical_settings   = {{"Ratio", "0.6"}, {"Angle", "35 deg"}};
         info.search             = {"a ratio in off-axis tests", search};
         info.search.other_forms = {[](const Circumstances &now) {
-          TrialFormula formula = search(now);
-          if (formula.why_not.empty())
-            formula.texts = {{"Form", "opposite"}};
-          return formula;
-        }};
+                                     return search_from(now, PI / 2.);
+                                   },
+                                   [](const Circumstances &now) {
+                                     TrialFormula formula = search(now);
+                                     if (formula.why_not.empty())
+                                       formula.texts = {{"Form", "opposite"}};
+                                     return formula;
+                                   }};
         info.search.along       = "angle";
         info.create             = create;
         return info;
@@ -132,17 +137,26 @@ namespace SlipStep
     private:
       static TrialFormula search(const Circumstances &now)
       {
+        return search_from(now, 0.);
+      }
+
+      // A ratio and its inverse with the axes exchanged make the same friction
+      // of a rigid contact; an elastic one is softer along the second axis.
+      static TrialFormula search_from(const Circumstances &now,
+                                      const double         middle)
+      {
         if (now.range.widest_angle < 0.1 && !now.range.has_two_axes)
           return TrialFormula::none("all tests move along one line");
-        const double quarter = dealii::numbers::PI / 4.;
-        TrialFormula formula;
-        formula.parameters = {{"Ratio", 0.3, 3., true},
-                              {"Angle", -quarter, quarter, false, true, true}};
-        for (const double phi : {0., 0.9 * quarter})
+        constexpr double reach = PI / 4.;
+        TrialFormula     formula;
+        formula.parameters = {
+          {"Ratio", 0.3, 3., true},
+          {"Angle", middle - reach, middle + reach, false, true, true}};
+        for (const double phi : {0., 0.9 * reach})
           formula.shapes.push_back([=](const double strength) {
             return Values{{"Ratio",
                            std::clamp(1. + just_noticed * strength, 0.35, 2.9)},
-                          {"Angle", phi}};
+                          {"Angle", middle + phi}};
           });
         return formula;
       }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/numbers.h>
+
 #include <slipstep/friction/effect.h>
 
 #include <algorithm>
@@ -42,11 +44,7 @@ namespace SlipStep
         info.typical_settings   = {{"Change", "0.5"},
                                    {"Forward angle", "20 deg"}};
         info.search             = {"an offset on reverse strokes", search};
-        info.search.other_forms = {[](const Circumstances &now) {
-          TrialFormula formula = search(now);
-          formula.texts        = {{"Form", "reversed"}};
-          return formula;
-        }};
+        info.search.other_forms = {reversed(search), turned, reversed(turned)};
         info.search.along       = "angle";
         return info;
       }
@@ -76,12 +74,45 @@ namespace SlipStep
       }
 
     private:
-      static TrialFormula search(const Circumstances &)
+      // Forward is the line along which tests move.
+      static TrialFormula search(const Circumstances &now)
       {
         TrialFormula formula;
-        formula.set_proportional("Change", 1., -0.8, 3.);
+        formula.set_proportional("Change", 1., least, most);
+        if (now.range.main_line != 0.)
+          formula.settings = {{"Forward angle", now.range.main_line}};
         return formula;
       }
+
+      // Forward is any direction.
+      static TrialFormula turned(const Circumstances &now)
+      {
+        using dealii::numbers::PI;
+        if (now.range.widest_angle < 0.1)
+          return TrialFormula::none("all tests move along one line");
+        const double line = now.range.main_line;
+        TrialFormula formula;
+        for (const double angle : {PI / 4., PI / 2., 3. * PI / 4.})
+          formula.add_shape("Change",
+                            0.9 * least,
+                            0.9 * most,
+                            {{"Forward angle", line + angle}});
+        formula.parameters = {
+          {"Change", least, most, false},
+          {"Forward angle", line - PI, line + 2. * PI, false, true, true}};
+        return formula;
+      }
+
+      static TrialFormula::Form reversed(const TrialFormula::Form &form)
+      {
+        return [form](const Circumstances &now) {
+          TrialFormula formula = form(now);
+          formula.texts        = {{"Form", "reversed"}};
+          return formula;
+        };
+      }
+
+      static constexpr double least = -0.8, most = 3.; // looked for
 
       const double         d;
       const bool           only_reversed;

@@ -190,8 +190,10 @@ namespace SlipStep
         TrialFormula formula = search_at(now, {-PI / 4., PI / 4.});
         if (formula.why_not.empty() && now.range.widest_angle < 0.1)
           return TrialFormula::none("all tests move along one line");
+        const double line = now.range.main_line;
         if (formula.why_not.empty())
-          formula.parameters.push_back({"Angle", -0.45 * PI, 0.45 * PI, false});
+          formula.parameters.push_back(
+            {"Angle", line - 0.45 * PI, line + 0.45 * PI, false});
         return formula;
       }
 
@@ -207,6 +209,9 @@ namespace SlipStep
         formula.parameters = {{"Amplitude", 0., 0.9, false},
                               {"Wavelength", 0.5 * along, 1.5 * along, true},
                               {"Phase", -2. * PI, 2. * PI, false}};
+        const double line  = now.range.main_line;
+        if (angles.size() < 2 && line != 0.)
+          formula.settings = {{"Angle", line}};
         for (const double angle : angles)
           for (const double shift : {0., PI / 2.})
             formula.shapes.push_back([=](const double strength) {
@@ -216,7 +221,7 @@ namespace SlipStep
                 {"Wavelength", along * std::cos(angle)},
                 {"Phase", strength < 0. ? shift - PI : shift}};
               if (angle != 0.)
-                values["Angle"] = angle;
+                values["Angle"] = line + angle;
               return values;
             });
         return formula;

@@ -4,6 +4,7 @@
 // of measurements is read: no law of the catalogue made them.
 
 #include <tests/diagnosis/hidden/trial.h>
+#include <tests/experiment/point_run.h>
 
 #include <gtest/gtest.h>
 
@@ -242,6 +243,57 @@ TEST_F(OwnRecords, AlongOtherAxesTheyTellTheSame)
 
 
 
+// The contact is softer along the second axis of an ellipse, whichever is the
+// weak one: an ellipse turned by 90 degrees is none with a ratio above 1.
+TEST_F(OwnRecords, AnEllipseHasItsWeakAxisAlongEitherOne)
+{
+  const std::string contact = "set Friction/Tangential stiffness = 10\n"
+                              "set Friction/subloading/Rate = 500\n";
+  for (const std::string turned : {"0", "90"})
+    {
+      std::filesystem::create_directories(folder.path() / "measured");
+      unsigned int number = 0;
+      for (const std::string way : {"0", "45", "90", "200", "0", "90"})
+        {
+          std::ofstream(folder.path() / "truth.prm")
+            << "set Loading/Programme = press 5 MPa in 1 s; slide 0.2 mm/s for "
+               "4 mm at "
+            << way << " deg; slide -0.2 mm/s for 3 mm at " << way
+            << " deg\nset Friction/Effects = subloading, anisotropy\n"
+               "set Friction/Static coefficient = 0.2\n"
+               "set Time stepping/Equal steps per statement = 60\n"
+               "set Friction/anisotropy/Ratio = 0.85\n"
+               "set Friction/anisotropy/Angle = "
+            << turned << " deg\n"
+            << contact;
+          Parameters truth;
+          declare_loading_parameters(truth);
+          FrictionLaw::declare_parameters(truth);
+          truth.read(folder.path() / "truth.prm");
+          std::ofstream out(folder.path() / "measured" /
+                            ("t" + std::to_string(++number) + ".csv"));
+          out << "time_s,displacement_mm,displacement_y_mm,pressure_MPa,"
+                 "friction,friction_y\n";
+          for (const HistoryRow &row : point_history(truth))
+            out << row.time << ',' << row.displacement << ','
+                << row.displacement_y << ',' << row.pressure << ','
+                << row.friction + 0.002 * normal(random) << ','
+                << row.friction_y + 0.002 * normal(random) << '\n';
+        }
+      parameters = Parameters();
+      const Judgement judgement =
+        judged("subloading",
+               "set Calibration/Parameters = Friction/Static coefficient from "
+               "0.02 to 0.6",
+               contact);
+      EXPECT_EQ(effect_names(judgement.found.model.parts),
+                std::vector<std::string>{"anisotropy"})
+        << turned;
+    }
+}
+
+
+
 // Of a rigid machine, flanks are far shorter than the distance of rows; so are
 // those of a spring a little softer.
 TEST_F(OwnRecords, ASoftSpringIsFoundBetweenDistantRows)
@@ -326,6 +378,48 @@ TEST_F(OwnRecords, ContactsOfTheModelMayBeOldAtFirst)
                        3600.),
               0.,
               1.5);
+}
+
+
+
+// Records of a machine whose axis is the second one, or neither.
+TEST_F(OwnRecords, BackAndForthIsAlongTheLineOfMotion)
+{
+  for (const double degrees : {90., -60.})
+    {
+      angle = degrees * std::acos(-1.) / 180.;
+      write([this]() {
+        return [this](const double friction,
+                      const double speed,
+                      const double,
+                      const double step) {
+          const double strength = speed < 0. ? 0.212 : 0.2;
+          return std::clamp(friction + stiffness * speed * step,
+                            speed == 0. ? -1. : -strength,
+                            speed == 0. ? 1. : strength);
+        };
+      });
+      parameters                = Parameters();
+      const Judgement judgement = judged("subloading", "");
+      EXPECT_EQ(effect_names(judgement.found.model.parts),
+                std::vector<std::string>{"direction"})
+        << degrees;
+      EXPECT_EQ(judgement.found.model.simulator
+                  ->with(judgement.found.model.scaled)
+                  .text("Friction/direction/Forward angle"),
+                std::to_string(int(degrees)) + " deg");
+    }
+}
+
+
+
+TEST_F(OwnRecords, AWaveIsSeenAlongTheLineOfMotion)
+{
+  angle = std::acos(-1.) / 2.;
+  write(0., [](const double y) { return 1. + 0.03 * std::sin(2. * y); });
+  const Judgement judgement = judged("subloading", "");
+  EXPECT_EQ(effect_names(judgement.found.model.parts),
+            std::vector<std::string>{"texture"});
 }
 
 
