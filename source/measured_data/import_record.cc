@@ -318,10 +318,7 @@ namespace SlipStep
                   load.push_back(value * *area);
                 notes["area"] = exact_text(*area) + " mm^2";
               }
-            // Before the first touch there is no load, and no friction.
-            for (std::size_t i = 0; i < result.size(); ++i)
-              result[i] =
-                load[i] == 0. && result[i] == 0. ? 0. : result[i] / load[i];
+            divide_by_load(load, result);
           }
         const std::string sign = map.text("Convention/Friction sign");
         if (sign == "reversed")
@@ -331,6 +328,21 @@ namespace SlipStep
           map.attempt("Convention/Friction sign",
                       [&] { give_sign_of_motion(time, motion, result); });
         return result;
+      }
+
+      // Before the first touch there is no load, and no friction but what the
+      // sensor's noise is.
+      static void divide_by_load(const std::vector<double> &load,
+                                 std::vector<double>       &tangential)
+      {
+        constexpr double noise = 0.02;
+
+        const double most = range_of(tangential);
+        for (std::size_t i = 0; i < tangential.size(); ++i)
+          tangential[i] =
+            load[i] == 0. && std::abs(tangential[i]) <= noise * most ?
+              0. :
+              tangential[i] / load[i];
       }
 
       // What a sensor of force shows without force is the less of a coefficient

@@ -499,7 +499,7 @@ namespace SlipStep
     if (n_all > frames.size())
       caption += std::to_string(n_all - frames.size()) + " of " +
                  std::to_string(n_all) +
-                 " conditions are left out: those met best. ";
+                 " pictures are left out: those met best. ";
     return frames;
   }
 

@@ -133,11 +133,11 @@ namespace
 
     Track()
     {
-      covariates.position.resize(comparison.n_rows());
+      covariates.track.resize(comparison.n_rows());
       covariates.speed = Eigen::VectorXd::Ones(comparison.n_rows());
       for (const ComparedTest &test : comparison.tests)
         for (Eigen::Index i = 0; i < test.size; ++i)
-          covariates.position(test.begin + i) = 0.01 * i;
+          covariates.track(test.begin + i) = 0.01 * i;
       covariates.friction = comparison.measured;
     }
 
@@ -149,8 +149,8 @@ namespace
       RowMatrix wave(comparison.n_rows(), 2);
       for (Eigen::Index i = 0; i < wave.rows(); ++i)
         wave.row(i) << strength * 0.1 *
-                         std::sin(phase + 2. * M_PI * covariates.position(i) /
-                                            wavelength),
+                         std::sin(phase +
+                                  2. * M_PI * covariates.track(i) / wavelength),
           0.1;
       comparison.whiten(wave);
       Model model;
@@ -204,7 +204,7 @@ TEST(TrackWaves, AreOnlyWhereRowsTellThem)
 {
   Track               track;
   const ComparedTest &far = track.comparison.tests[2];
-  track.covariates.position.segment(far.begin, far.size) *= 10.;
+  track.covariates.track.segment(far.begin, far.size) *= 10.;
   for (const Direction &wave :
        track_waves(track.comparison, track.covariates, {0.039}))
     EXPECT_EQ(wave.friction.norm(), 0.);
@@ -227,7 +227,7 @@ TEST(TrackWaves, AreNotAtRest)
     {
       const ComparedTest &test = track.comparison.tests[t];
       for (Eigen::Index i = 0; i < test.size; ++i)
-        track.covariates.position(test.begin + i) = 1e-6 * (i % 2);
+        track.covariates.track(test.begin + i) = 1e-6 * (i % 2);
     }
   track.covariates.speed.head(100).setZero();
   const std::vector<double> wavelengths =
@@ -247,7 +247,7 @@ TEST(TrackWaves, AreNotAtRest)
 TEST(TrackWaves, WithoutMotionThereAreNone)
 {
   Track track;
-  track.covariates.position.setConstant(1.);
+  track.covariates.track.setConstant(1.);
   EXPECT_TRUE(track_wavelengths(track.comparison, track.covariates).empty());
   EXPECT_EQ(track.find(3, 0.01, 0.3).p, 1.);
 }

@@ -174,3 +174,25 @@ TEST(Import, ClocksAndHeadersOfSeveralWordsAreProposed)
   EXPECT_TRUE(contains(cycles, "\n  set Comment marks = Cycle\n"));
   EXPECT_TRUE(contains(cycles, "\n  set Friction = mu [-]\n"));
 }
+
+
+
+// A test rig that records before it loads: what its cell shows then is noise,
+// which divided by no load is nothing.
+TEST(Import, RowsBeforeTheLoadIsOnHaveNoFriction)
+{
+  const auto imported = [](const std::string &first) {
+    return import_test(map_of({{"Columns/Time", "t in s"},
+                               {"Columns/Displacement", "x in mm"},
+                               {"Columns/Tangential load", "F in N"},
+                               {"Columns/Normal load", "N in N"},
+                               {"Constants/Area", "10 mm^2"}}),
+                       write("early.csv",
+                             "t,x,F,N\n0,0," + first +
+                               ",0\n1,0,0.1,50\n2,0.1,10,50\n3,0.2,10,50\n"));
+  };
+  EXPECT_EQ(imported("0").friction, imported("-0.1").friction);
+  EXPECT_EQ(imported("-0.1").friction[0], 0.);
+  EXPECT_EQ(imported("-0.1").friction[2], 0.2);
+  EXPECT_THROW(imported("5"), InputError);
+}
