@@ -199,7 +199,8 @@ TEST(Candidates, HaveOtherForms)
     return result;
   };
   using Forms = std::vector<std::string>;
-  EXPECT_EQ(forms("anisotropy", "Form"), (Forms{"associated", "associated", "opposite"}));
+  EXPECT_EQ(forms("anisotropy", "Form"),
+            (Forms{"associated", "associated", "opposite"}));
   // Along the line of motion, and along any other.
   EXPECT_EQ(forms("direction", "Form"),
             (Forms{"cosine", "reversed", "cosine", "reversed"}));
