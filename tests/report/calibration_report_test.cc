@@ -181,7 +181,7 @@ TEST(CalibrationReport, OfManyConditionsTheWorstAreShown)
       calibration.tests.back().rms = 0.001 * (i + 1);
     }
   const std::string page = page_of(calibration);
-  EXPECT_TRUE(contains(page, "8 of 20 conditions are left out"));
+  EXPECT_TRUE(contains(page, "8 of 20 pictures are left out"));
   const auto data = [](const int i) {
     return content(test_folder() / "report" /
                    ("curves_" + std::to_string(i) + ".dat"));
