@@ -37,12 +37,12 @@ namespace SlipStep
       std::size_t n = 0, n_driving = 0;
     };
 
-    void add_work(const std::vector<double> &displacement,
-                  const std::vector<double> &friction,
-                  Work                      &work)
+    Work work_along(const std::vector<double> &displacement,
+                    const std::vector<double> &friction)
     {
+      Work work;
       if (displacement.empty() || friction.empty())
-        return;
+        return work;
       // Measured positions tremble, and the tremble knows no direction.
       const std::vector<double> smooth =
         without_jitter(displacement, 0.005 * range_of(displacement));
@@ -55,6 +55,21 @@ namespace SlipStep
           work.n += done != 0.;
           work.n_driving += done < 0.;
         }
+      return work;
+    }
+
+    Work operator+(const Work &a, const Work &b)
+    {
+      return {a.done + b.done,
+              a.possible + b.possible,
+              a.n + b.n,
+              a.n_driving + b.n_driving};
+    }
+
+    /// Nearly throughout.
+    bool drives(const Work &work)
+    {
+      return work.done < -0.5 * work.possible;
     }
 
     // A single row, of an error code or a spike, has no say.
@@ -235,15 +250,32 @@ namespace SlipStep
 
       void check_sign_of_friction()
       {
-        Work work;
-        add_work(test.displacement, bounded(test.friction), work);
-        add_work(test.displacement_y, bounded(test.friction_y), work);
-        std::size_t row = 0;
+        const Work along_x =
+          work_along(test.displacement, bounded(test.friction));
+        const Work along_y =
+          work_along(test.displacement_y, bounded(test.friction_y));
+        const Work  work = along_x + along_y;
+        std::size_t row  = 0;
         while (test.friction[row] == 0. && row + 1 < kept.size())
           ++row;
-        if (work.done >= -0.5 * work.possible)
+        if (!drives(work))
           {
             check_friction_has_sign();
+            // An ellipse lets a little of one axis drive.
+            constexpr double clear = 0.1;
+            if (drives(along_x) != drives(along_y) &&
+                std::min(along_x.possible, along_y.possible) >
+                  clear * work.possible)
+              {
+                const std::string axis = drives(along_x) ? "x" : "y";
+                warn("friction along " + axis +
+                       " drives the motion instead of resisting it, nearly "
+                       "throughout, and along the other axis it resists: is "
+                       "the sign of one of the columns of " +
+                       axis + " to be reversed?",
+                     kept[row]);
+                return;
+              }
             // And not in a jump of a counter only, nor as a spring does.
             if (work.done < 0.5 * work.possible &&
                 10 * work.n_driving > work.n &&
@@ -358,8 +390,7 @@ namespace SlipStep
           known_displacement.push_back(displacement[i]);
           known_friction.push_back(friction[i]);
         }
-    Work work;
-    add_work(known_displacement, bounded(known_friction), work);
+    const Work work = work_along(known_displacement, bounded(known_friction));
     return work.possible > 0. ? work.done / work.possible : 0.;
   }
 

@@ -135,6 +135,36 @@ TEST(TestRows, AWrongSignIsAskedNotGuessed)
 
 
 
+// Of two sensors one may be wired the other way round.
+TEST(TestRows, FrictionThatDrivesAlongOneAxisIsTold)
+{
+  const auto warnings = [](const double sign_x, const double sign_y) {
+    const auto file = test_folder() / "two_axes.csv";
+    {
+      std::ofstream out(file);
+      out << "time_s,displacement_mm,displacement_y_mm,pressure_MPa,friction,"
+             "friction_y\n";
+      for (int i = 0; i < 100; ++i)
+        {
+          const double way = i < 50 ? i : 100 - i, f = i < 50 ? 0.2 : -0.2;
+          out << i << ',' << 0.08 * way << ',' << 0.04 * way << ",5,"
+              << sign_x * 0.89 * f << ',' << sign_y * 0.45 * f << '\n';
+        }
+    }
+    std::string all;
+    for (const std::string &warning : read_measured_test(file).warnings)
+      all += warning;
+    return all;
+  };
+  EXPECT_EQ(warnings(1., 1.), "");
+  EXPECT_TRUE(contains(warnings(1., -1.),
+                       "friction along y drives the motion instead of"));
+  EXPECT_TRUE(contains(warnings(-0.2, 1.),
+                       "friction along x drives the motion instead of"));
+}
+
+
+
 // Friction forth and back over a way that only grows.
 TEST(TestRows, FrictionThatDrivesHalfTheTimeIsTold)
 {
