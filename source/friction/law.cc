@@ -307,9 +307,11 @@ namespace SlipStep
       return;
     const Tensor<1, 2> &a = local.stage.path_start;
     const Tensor<1, 2>  b = local.trial - local.stage.path_base;
-    double              s;
-    const double        smallest =
-      smallest_ratio(a, b, start_strength, end.strength, local.core.centre, s);
+    // Nothing slips along the path, so the core rests.
+    const Tensor<1, 2> c = local.core.centre - local.stage.core_motion;
+    double             s;
+    const double       smallest =
+      smallest_ratio(a, b, start_strength, end.strength, c, s);
     if (s == 0.)
       return;
     const Tensor<1, 2> traction = a + s * b;
@@ -324,9 +326,8 @@ namespace SlipStep
         local.d_start_ratio_d_strength = -s * smallest / strength;
         if (has_core())
           {
-            const Tensor<1, 2> &c = local.core.centre;
-            const Tensor<1, 2>  n = similarity(traction, strength, c).normal;
-            const double        scale   = s / ((1. - c * n) * strength);
+            const Tensor<1, 2> n     = similarity(traction, strength, c).normal;
+            const double       scale = s / ((1. - c * n) * strength);
             local.d_start_ratio_d_trial = scale * n;
             local.d_start_ratio_d_strength -= scale * (c * n);
           }

@@ -95,8 +95,12 @@ namespace SlipStep
 
     const Tensor<1, 2> normal = slip_normal(first.end);
     if (has_core())
-      core->remember_core(
-        moved_core(first.end, first.end.strength, normal, more), state);
+      {
+        core->remember_core(
+          moved_core(first.end, first.end.strength, normal, more), state);
+        result.core_motion =
+          core->core(state).centre - core->core(first.end).centre;
+      }
     state.slip_path = first.end.slip_path + rest.path;
     state.dissipation =
       TwoStages::carried(start.dissipation, first.end.dissipation);

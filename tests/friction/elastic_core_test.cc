@@ -171,6 +171,56 @@ TEST(ElasticCore, follows_its_rate_equations_in_cycles)
 
 
 
+// From no load on, where a core moves farther in a step than r_s reaches. By
+// the rate equations, of which ln(r_s) is the time.
+TEST(ElasticCore, begins_as_its_rate_equations_say)
+{
+  constexpr double u = 50., C = 1000., chi = 0.9, stiffness = 9200.,
+                   pressure = 5., length = pressure * 0.2 / stiffness;
+  const auto law = make_law({{"Effects", "subloading, elastic_core"},
+                             {"Static coefficient", "0.2"},
+                             {"Tangential stiffness", "9200"},
+                             {"subloading/Form", "log"},
+                             {"subloading/Rate", "50"},
+                             {"elastic_core/Rate", "1000"},
+                             {"elastic_core/Limit", "0.9"}});
+
+  using Values = std::array<double, 3>; // core, x, displacement
+  Values values{};
+  namespace odeint = boost::numeric::odeint;
+  odeint::integrate_adaptive(
+    odeint::make_controlled<odeint::runge_kutta_dopri5<Values>>(1e-12, 1e-12),
+    [&](const Values &y, Values &rate, const double time) {
+      const double r = std::exp(time), slip = -r / (u * time);
+      const double core = C * (chi - y[0]) * slip;
+      const double x    = (1. - y[0]) * r + (1. - r) * core;
+      rate              = {{core, x, slip + x * length}};
+    },
+    values,
+    -60.,
+    -1.5,
+    1e-3);
+
+  const int    n_steps = 2. + values[2] / 2e-6;
+  ContactPoint point(*law);
+  point.update(*law, vector(0.), pressure, 1.);
+  point.commit();
+  for (int step = 0; step < n_steps; ++step)
+    {
+      const Tensor<1, 2> way  = vector(TwoStages::gamma * values[2] / n_steps);
+      const double       time = TwoStages::gamma * 2e-5;
+      point.update(*law, way, pressure, time);
+      point.begin_second_stage(*law);
+      point.update(*law, way, pressure, time);
+      point.commit();
+    }
+  EXPECT_NEAR(point.committed().normal_ratio, std::exp(-1.5), 1e-4);
+  EXPECT_NEAR(core_of(point.committed())[0], values[0], 1e-4);
+  EXPECT_NEAR(point.committed().traction[0], values[1], 1e-4);
+}
+
+
+
 // A quick core and an elastic range as wide as the cycles: they end.
 TEST(ElasticCore, cycles_shake_down)
 {

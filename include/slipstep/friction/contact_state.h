@@ -141,6 +141,8 @@ namespace SlipStep
     /// [MPa], and what of the trial traction is counted from there: the
     /// traction, in the second stage less what slip will take.
     dealii::Tensor<1, 2> path_start, path_base;
+    /// By how much the elastic core has moved since there, of the strength.
+    dealii::Tensor<1, 2> core_motion;
     double normal_traction = 0.; ///< from which that changes [MPa]
   };
 
