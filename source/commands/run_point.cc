@@ -96,8 +96,10 @@ namespace SlipStep
           },
           machine);
         recorder.summary.rejected_steps = control.n_rejected();
-        if (const std::string warning = control.warning(); !warning.empty())
-          recorder.summary.warnings.push_back(warning);
+        for (const std::string &warning :
+             {control.warning(), control.warning_of_swing()})
+          if (!warning.empty())
+            recorder.summary.warnings.push_back(warning);
         recorder.finish();
       }
     catch (const RunError &error)

@@ -454,6 +454,20 @@ namespace SlipStep
 
 
 
+  // Of a mass whose velocity is at once what it would be without inertia.
+  double Machine::lost_swing(const MachineStep &step) const
+  {
+    if (areal_mass == 0.)
+      return 0.;
+    const double all  = stiffness() + step.contact.d_slip.norm();
+    const double time = TwoStages::gamma * step.time_step;
+    const double lost = 1. / (1. + areal_mass / (all * time * time));
+    return lost * lost * std::sqrt(areal_mass * all) *
+           (step.first.velocity - step.start.velocity).norm();
+  }
+
+
+
   std::vector<std::string> Machine::probe_names()
   {
     return {"displacement of the contact [mm]",

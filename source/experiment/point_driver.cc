@@ -181,8 +181,13 @@ namespace SlipStep
         StepError error = machine.error(law, point, step);
         error.at_end *= weight;
         error.of_line *= weight;
+        const bool is_first = control.is_first_of_segment();
         if (!control.accept(error))
           continue;
+        if (is_first && to.pressure > 0.)
+          control.note_lost_swing(machine.lost_swing(step) /
+                                    point.trial().strength,
+                                  control.time() - time_step);
 
         work += normal_energy(law, point.trial()) -
                 normal_energy(law, point.committed()) + step.work;

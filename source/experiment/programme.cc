@@ -3,6 +3,7 @@
 
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/measured_data/sensor_noise.h>
+#include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/paths.h>
 #include <slipstep/utilities/lists.h>
@@ -447,6 +448,7 @@ namespace SlipStep
             warnings.insert(warnings.end(),
                             read.warnings.begin(),
                             read.warnings.end());
+            warn_of_late_pressure(read);
             tests[name.text] = read;
             followed.push_back(
               {read,
@@ -465,6 +467,18 @@ namespace SlipStep
                 test.pressure[i],
                 origin + moved);
           }
+      }
+
+      /// What presses in the first row comes on until the second is reached.
+      void warn_of_late_pressure(const MeasuredTest &test)
+      {
+        const double way = test.displacement[1] - test.displacement[0];
+        if (std::abs(test.pressure[0] / present.pressure - 1.) > 0.01 &&
+            std::abs(way) > 0.01 * range_of(test.displacement))
+          warnings.push_back(test.file.filename().string() +
+                             ": the pressure of the first row comes on over " +
+                             rounded_text(std::abs(way), 3) +
+                             " mm; 'press' to it before 'follow'");
       }
 
       /// The part behind a keyword, which has to be there.

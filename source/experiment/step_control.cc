@@ -329,6 +329,32 @@ namespace SlipStep
 
 
 
+  void StepControl::note_lost_swing(const double share, const double time)
+  {
+    if (share <= lost_swing)
+      return;
+    lost_swing    = share;
+    time_of_swing = time;
+  }
+
+
+
+  std::string StepControl::warning_of_swing() const
+  {
+    constexpr double much = 0.01;
+
+    if (!(lost_swing > much))
+      return "";
+    return "the machine's mass begins to swing at t = " +
+           rounded_text(time_of_swing, 6) + " s, by " +
+           percent_text(lost_swing) +
+           " of the friction; the steps are too long to follow that, so it is "
+           "over at once, and contacts that it would have shaken are not: a "
+           "smaller Time stepping/Tolerance follows it";
+  }
+
+
+
   void StepControl::cut(const std::string &reason)
   {
     // After so many cuts something else is wrong than the step.

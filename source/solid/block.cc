@@ -96,11 +96,16 @@ namespace SlipStep
         const StepError     error       = error_of_step(totals);
         if (control.would_accept(error.measure()) && adapt_to_trial(output))
           continue;
+        const bool is_first = control.is_first_of_segment();
         if (!control.accept(error, remedy_of_jumps()))
           {
             make_again();
             continue;
           }
+        if (is_first && drive.is_unknown() && !inertia.exists())
+          control.note_lost_swing(drive.lost_swing(drive_springs,
+                                                   totals.limit_load),
+                                  start);
 
         HistoryRow row;
         row.time      = control.time();

@@ -360,6 +360,7 @@ namespace SlipStep
                                       warning_of_wear(),
                                       warning_of_solver(),
                                       control.warning(),
+                                      control.warning_of_swing(),
                                       is_multigrid ?
                                         warning_of_subdivisions(parameters) :
                                         ""};

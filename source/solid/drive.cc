@@ -127,6 +127,16 @@ namespace SlipStep
 
 
 
+  double Drive::lost_swing(const Tensor<2, 2> &springs,
+                           const double        strength) const
+  {
+    MachineStep step    = this->step();
+    step.contact.d_slip = springs / area;
+    return strength > 0. ? machine.lost_swing(step) / (strength / area) : 0.;
+  }
+
+
+
   void Drive::accept(const double pressure)
   {
     this->pressure = pressure;

@@ -11,6 +11,7 @@
 
 #include "../friction/law_test_tools.h"
 #include "point_run.h"
+#include "tests/file_text.h"
 
 using namespace SlipStep;
 using namespace SlipStep::Testing;
@@ -465,4 +466,35 @@ TEST(Machine, an_event_that_friction_bounds_is_no_jump)
                   end.stored_energy + end.dissipated_energy,
                   balance * end.external_work);
     }
+}
+
+
+
+// A heavy mass that stops: its swing shakes the friction down, unless the first
+// step of the rest is too long for it. A leapfrog of its own: 0.0009.
+TEST(Machine, tells_of_a_swing_that_steps_lose)
+{
+  const auto stop = [](const std::string &tolerance) {
+    std::vector<HistoryRow> history;
+    const StepControl       control =
+      run_point(point_parameters(
+                  {{"Friction/Effects", "subloading"},
+                   {"Friction/Static coefficient", "0.2"},
+                   {"Friction/Tangential stiffness", "2590"},
+                   {"Friction/subloading/Rate", "125"},
+                   {"Loading/Machine stiffness", "257 MPa/mm"},
+                   {"Loading/Machine mass", "1e5 kg/m^2"},
+                   {"Time stepping/Tolerance", tolerance},
+                   {"Loading/Programme",
+                    "press 3.78 MPa in 1 s; slide 0.114 mm/s for 0.5 mm; hold "
+                    "0.8 s"}}),
+                history);
+    return std::make_pair(history.back().friction, control.warning_of_swing());
+  };
+  const auto [lost, warning] = stop("5e-4");
+  EXPECT_GT(lost, 0.19);
+  EXPECT_TRUE(contains(warning, "swing at t = 5.38596 s, by 9.4"));
+  const auto [followed, none] = stop("5e-5");
+  EXPECT_NEAR(followed, 0.0009, 0.002);
+  EXPECT_EQ(none, "");
 }

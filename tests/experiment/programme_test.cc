@@ -305,9 +305,16 @@ TEST(Programme, WarningsOfAFollowedTestArePassedOn)
   std::ofstream(folder / "gap.csv")
     << "time_s,displacement_mm,pressure_MPa,friction\n"
        "0,0,5,0\n1,,5,0\n2,2,5,0.1\n";
-  const Programme programme("follow gap.csv", default_speed, folder);
-  ASSERT_EQ(programme.warnings().size(), 1u);
-  EXPECT_TRUE(contains(programme.warnings()[0], "left out: 1"));
+  const auto warnings = [&](const std::string &text) {
+    return Programme(text, default_speed, folder).warnings();
+  };
+  const auto pressed = warnings("press 5 MPa in 1 s; follow gap.csv");
+  ASSERT_EQ(pressed.size(), 1u);
+  EXPECT_TRUE(contains(pressed[0], "left out: 1"));
+  // The contact would slide all of the way under a part of the pressure.
+  const auto late = warnings("follow gap.csv");
+  ASSERT_EQ(late.size(), 2u);
+  EXPECT_TRUE(contains(late[1], "comes on over 2 mm; 'press' to it before"));
 }
 
 
@@ -348,12 +355,14 @@ TEST(Programme, ARepeatedTestIsReadAndWarnedOfOnce)
   std::ofstream(folder / "data" / "gap.csv")
     << "time_s,displacement_mm,pressure_MPa,friction\n"
        "0,0,5,0\n1,,5,0\n2,2,5,0.1\n";
-  const std::string text = "repeat 3 times { follow gap.csv; hold 1 s }";
-  const Programme   programme(text, default_speed, folder / "data");
+  const std::string text =
+    "press 5 MPa in 1 s; repeat 3 times { follow gap.csv; hold 1 s }";
+  const Programme programme(text, default_speed, folder / "data");
   EXPECT_EQ(programme.warnings().size(), 1u);
   EXPECT_DOUBLE_EQ(programme.at(programme.end_time()).displacement[0], 6.);
-  EXPECT_EQ(relocated_programme(text, folder / "data", folder),
-            "repeat 3 times { follow data/gap.csv; hold 1 s }");
+  EXPECT_EQ(
+    relocated_programme(text, folder / "data", folder),
+    "press 5 MPa in 1 s; repeat 3 times { follow data/gap.csv; hold 1 s }");
 }
 
 

@@ -125,6 +125,10 @@ namespace SlipStep
     /// Estimated error of the load that the motion of the mass makes [MPa].
     double error_of_motion(const MachineStep &step) const;
 
+    /// Load of the swing that begins where a statement changes the speed, as
+    /// far as the step, its first, is too long to follow it [MPa].
+    double lost_swing(const MachineStep &step) const;
+
     /// What the probes of a history are, in the order of probes().
     static std::vector<std::string> probe_names();
 

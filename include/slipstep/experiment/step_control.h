@@ -100,6 +100,13 @@ namespace SlipStep
     /// What to warn of: steps at rest so long that friction is off; else "".
     std::string warning() const;
 
+    /// A swing of the machine's mass was lost in the first step of a segment.
+    /// @param share of the strength
+    void note_lost_swing(const double share, const double time);
+
+    /// Of the largest one; "" if none is worth a word.
+    std::string warning_of_swing() const;
+
     unsigned int n_accepted() const
     {
       return accepted;
@@ -122,8 +129,9 @@ namespace SlipStep
     void serialize(Archive &archive, const unsigned int)
     {
       archive &segment &begin &end &largest_step &first_step &full_step
-        &first_of_segment &accepted &rejected &tries &smallest_step &
-          steps_of_statement &rows_of_statement &largest_error &time_of_largest;
+        &first_of_segment &accepted &rejected &tries &smallest_step
+          &steps_of_statement &rows_of_statement &largest_error &time_of_largest
+            &lost_swing &time_of_swing;
     }
 
   private:
@@ -159,6 +167,8 @@ namespace SlipStep
     unsigned int rows_of_statement  = 0;  ///< of a test that is followed
     double       largest_error      = 0.; ///< at the end of a step at rest
     double       time_of_largest    = 0.; ///< its end [s]
+    double       lost_swing         = 0.; ///< the largest, of the strength
+    double       time_of_swing      = 0.; ///< [s]
   };
 } // namespace SlipStep
 

@@ -99,6 +99,11 @@ namespace SlipStep
     double error(const dealii::Tensor<2, 2> &springs,
                  const double                strength) const;
 
+    /// As Machine::lost_swing(), as a share of the strength, with a block that
+    /// has no mass.
+    double lost_swing(const dealii::Tensor<2, 2> &springs,
+                      const double                strength) const;
+
     /// Of the motion of the driven faces (MachineStep::difference_of_orders())
     /// [mm].
     dealii::Tensor<1, 2> difference_of_orders() const
