@@ -15,6 +15,11 @@ namespace SlipStep
     /// turning.
     constexpr double least_stroke = 0.005;
 
+    /// Friction follows the direction of motion: a chord that leaves an arc by
+    /// 1e-3 of its width is off by up to 4 degrees, by this share of that by a
+    /// quarter of one.
+    constexpr double share_on_curves = 0.004;
+
     /// Chooses the rows to keep.
     class Selection
     {
@@ -33,10 +38,14 @@ namespace SlipStep
               channel->name == "pressure" ?
                 *std::max_element(values.begin(), values.end()) :
                 range_of(values);
+            const bool is_on_curve =
+              moves_along_both_axes() &&
+              channel->name.rfind("displacement", 0) == 0;
             series.push_back(
               {&values,
                std::max(options.noise_multiple * noise_level(values),
-                        options.least_share * extent)});
+                        options.least_share *
+                          (is_on_curve ? share_on_curves : 1.) * extent)});
           }
         keep_landmarks();
       }
@@ -59,6 +68,13 @@ namespace SlipStep
       }
 
     private:
+      bool moves_along_both_axes() const
+      {
+        return !test.displacement_y.empty() &&
+               std::min(range_of(test.displacement),
+                        range_of(test.displacement_y)) > 0.;
+      }
+
       // A stroke ends at the farthest point before the displacement turns.
       void keep_landmarks()
       {

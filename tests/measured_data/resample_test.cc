@@ -278,3 +278,34 @@ TEST(Resample, TakesNoStairsForRests)
     }
   EXPECT_LT(resample(test).rows.size(), 60u);
 }
+
+
+
+// Friction goes by the direction of motion, which a coarse polygon has only
+// roughly.
+TEST(Resample, ACircleKeepsItsDirections)
+{
+  MeasuredTest circle;
+  const int    n = 4000;
+  for (int i = 0; i <= n; ++i)
+    {
+      const double phase = 2. * M_PI * i / n;
+      circle.time.push_back(0.01 * i);
+      circle.displacement.push_back(0.3 * std::cos(phase));
+      circle.displacement_y.push_back(0.3 * std::sin(phase));
+      circle.pressure.push_back(5.);
+      circle.friction.push_back(-0.2 * std::sin(phase));
+      circle.friction_y.push_back(0.2 * std::cos(phase));
+    }
+  const std::vector<std::size_t> rows    = resample(circle).rows;
+  std::size_t                    longest = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    longest = std::max(longest, rows[i] - rows[i - 1]);
+  EXPECT_LT(360. * longest / n, 1.);
+  EXPECT_LT(rows.size(), 1500u);
+
+  // What goes along a line has no directions.
+  circle.displacement_y.assign(n + 1, 0.);
+  circle.friction_y.assign(n + 1, 0.);
+  EXPECT_LT(resample(circle).rows.size(), 150u);
+}
