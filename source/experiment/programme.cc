@@ -445,9 +445,8 @@ namespace SlipStep
             constexpr double felt = 5e-5; // [mm]
             MeasuredTest     read = read_measured_test(file);
             take_off_noise_of_motion(read, felt);
-            warnings.insert(warnings.end(),
-                            read.warnings.begin(),
-                            read.warnings.end());
+            for (const std::string &warning : read.warnings)
+              warnings.push_back(warning);
             warn_of_late_pressure(read);
             tests[name.text] = read;
             followed.push_back(
@@ -472,12 +471,13 @@ namespace SlipStep
       /// What presses in the first row comes on until the second is reached.
       void warn_of_late_pressure(const MeasuredTest &test)
       {
-        const double way = test.displacement[1] - test.displacement[0];
+        const double way = distance_between(test, 0, 1);
         if (std::abs(test.pressure[0] / present.pressure - 1.) > 0.01 &&
-            std::abs(way) > 0.01 * range_of(test.displacement))
+            way > 0.01 * std::hypot(range_of(test.displacement),
+                                    range_of(test.displacement_y)))
           warnings.push_back(test.file.filename().string() +
                              ": the pressure of the first row comes on over " +
-                             rounded_text(std::abs(way), 3) +
+                             rounded_text(way, 3) +
                              " mm; 'press' to it before 'follow'");
       }
 

@@ -23,6 +23,19 @@ namespace SlipStep
 
 
 
+  TrialFormula::Form TrialFormula::in_form(const std::string &name,
+                                           const Form        &formula)
+  {
+    return [name, formula](const Circumstances &now) {
+      TrialFormula result = formula(now);
+      if (result.why_not.empty())
+        result.texts = {{"Form", name}};
+      return result;
+    };
+  }
+
+
+
   namespace
   {
     TrialFormula state_of_contacts_in(const TestedRange &range,

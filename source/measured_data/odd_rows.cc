@@ -320,11 +320,7 @@ namespace SlipStep
         constexpr double      long_step = 20., slow = 0.05, moves = 0.2;
 
         const auto way = [&](const std::size_t from, const std::size_t to) {
-          return std::hypot(test.displacement[to] - test.displacement[from],
-                            test.displacement_y.empty() ?
-                              0. :
-                              test.displacement_y[to] -
-                                test.displacement_y[from]);
+          return distance_between(test, from, to);
         };
         std::vector<double> steps;
         for (std::size_t i = 1; i < test.time.size(); ++i)

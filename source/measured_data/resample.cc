@@ -28,6 +28,9 @@ namespace SlipStep
         : test(test)
         , options(options)
       {
+        const bool is_curved = !test.displacement_y.empty() &&
+                               std::min(range_of(test.displacement),
+                                        range_of(test.displacement_y)) > 0.;
         for (const Channel *channel : filled_channels(test))
           {
             const std::vector<double> &values = test.*(channel->values);
@@ -39,8 +42,7 @@ namespace SlipStep
                 *std::max_element(values.begin(), values.end()) :
                 range_of(values);
             const bool is_on_curve =
-              moves_along_both_axes() &&
-              channel->name.rfind("displacement", 0) == 0;
+              is_curved && channel->name.rfind("displacement", 0) == 0;
             series.push_back(
               {&values,
                std::max(options.noise_multiple * noise_level(values),
@@ -68,13 +70,6 @@ namespace SlipStep
       }
 
     private:
-      bool moves_along_both_axes() const
-      {
-        return !test.displacement_y.empty() &&
-               std::min(range_of(test.displacement),
-                        range_of(test.displacement_y)) > 0.;
-      }
-
       // A stroke ends at the farthest point before the displacement turns.
       void keep_landmarks()
       {

@@ -261,23 +261,9 @@ namespace SlipStep
         if (!drives(work))
           {
             check_friction_has_sign();
-            // An ellipse lets a little of one axis drive.
-            constexpr double clear = 0.1;
-            if (drives(along_x) != drives(along_y) &&
-                std::min(along_x.possible, along_y.possible) >
-                  clear * work.possible)
-              {
-                const std::string axis = drives(along_x) ? "x" : "y";
-                warn("friction along " + axis +
-                       " drives the motion instead of resisting it, nearly "
-                       "throughout, and along the other axis it resists: is "
-                       "the sign of one of the columns of " +
-                       axis + " to be reversed?",
-                     kept[row]);
-                return;
-              }
-            // And not in a jump of a counter only, nor as a spring does.
-            if (work.done < 0.5 * work.possible &&
+            // Not in a jump of a counter only, nor as a spring does.
+            if (!warn_of_axis_that_drives(along_x, along_y, kept[row]) &&
+                work.done < 0.5 * work.possible &&
                 10 * work.n_driving > work.n &&
                 is_mostly_constant(test.friction))
               warn("friction drives the motion in " +
@@ -294,6 +280,28 @@ namespace SlipStep
                       "nearly throughout: is its sign, or that of the "
                       "displacement, to be reversed? Say so in a map of "
                       "slipstep import (Convention)");
+      }
+
+      /// Whether friction drives along one axis and resists along the other.
+      bool warn_of_axis_that_drives(const Work       &along_x,
+                                    const Work       &along_y,
+                                    const std::size_t row)
+      {
+        // An ellipse lets a little of one axis drive.
+        constexpr double clear = 0.1;
+
+        if (drives(along_x) == drives(along_y) ||
+            std::min(along_x.possible, along_y.possible) <=
+              clear * (along_x + along_y).possible)
+          return false;
+        const std::string axis = drives(along_x) ? "x" : "y";
+        warn("friction along " + axis +
+               " drives the motion instead of resisting it, nearly "
+               "throughout, and along the other axis it resists: is "
+               "the sign of one of the columns of " +
+               axis + " to be reversed?",
+             row);
+        return true;
       }
 
       void check_friction_has_sign() const
@@ -418,6 +426,16 @@ namespace SlipStep
   {
     for (const Channel *channel : filled_channels(test))
       choose(test.*(channel->values), rows);
+  }
+
+
+
+  double distance_between(const MeasuredTest &test,
+                          const std::size_t   from,
+                          const std::size_t   to)
+  {
+    const std::vector<double> &x = test.displacement, &y = test.displacement_y;
+    return std::hypot(x[to] - x[from], y.empty() ? 0. : y[to] - y[from]);
   }
 
 

@@ -60,8 +60,7 @@ namespace SlipStep
       std::size_t last = 0;
       for (std::size_t i = 1; i < x.size(); ++i)
         {
-          const double distance =
-            std::hypot(x[i] - x[last], y.empty() ? 0. : y[i] - y[last]);
+          const double distance = distance_between(test, last, i);
           if (distance <= 2. * band && fixed.count(i) == 0)
             continue;
           path += distance;

@@ -7,7 +7,6 @@
 #include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 namespace SlipStep
@@ -135,7 +134,8 @@ namespace SlipStep
 
   // Motion of the frame that a force on the drive makes, as far as block,
   // contact and drive let it; the block follows by its modes.
-  // @throws RunError if nothing resists
+  // @throws RunError if nothing resists, or so little that it is farther than
+  //   the block is high
   template <int dim>
   Tensor<1, 2> Block<dim>::yielding_of_drive(const Tensor<1, 2> &force) const
   {
@@ -143,7 +143,11 @@ namespace SlipStep
     for (unsigned int i = 0; i < 2; ++i)
       resistance[i][i] += i < dim - 1 ? drive.stiffness() : 1.;
     if (determinant(resistance) > 0. && trace(resistance) > 0.)
-      return invert(resistance) * force;
+      {
+        const Tensor<1, 2> motion = invert(resistance) * force;
+        if (motion.norm() <= parameters.size[parameters.normal_axis()])
+          return motion;
+      }
     throw RunError("nothing resists a further motion of the drive");
   }
 
@@ -185,8 +189,6 @@ namespace SlipStep
       }
 
     const Tensor<1, 2> motion = yielding_of_drive(missing);
-    if (!(motion.norm() <= parameters.size[parameters.normal_axis()]))
-      throw RunError("nothing resists a further motion of the drive");
     update.zero_out_ghost_values();
     for (unsigned int j = 0; j < dim - 1; ++j)
       update.add(motion[j], drive_modes[j]);

@@ -69,16 +69,21 @@ namespace SlipStep
   Tensor<1, 2> Block<dim>::let_through(const Tensor<1, 2> &on_drive,
                                        Vector             &forces)
   {
-    Vector moved(forces);
-    move_to_masters(hanging_constraints, moved);
-    const Tensor<1, 2> missing = on_drive + force_on_drive(moved);
+    const bool   yields = drive.is_unknown() && newton.n_iterations > 0;
+    Vector       moved(forces);
+    Tensor<1, 2> missing = on_drive;
+    if (yields)
+      {
+        move_to_masters(hanging_constraints, moved);
+        missing += force_on_drive(moved);
+      }
     move_to_masters(homogeneous_constraints, forces);
     Vector displacement(forces);
     count_linear_iterations(
       system->solve(displacement, forces, 0.1 * forces.l2_norm()));
     constrain(displacement);
     Tensor<1, 2> motion;
-    if (drive.is_unknown() && newton.n_iterations > 0)
+    if (yields)
       {
         displacement.update_ghost_values();
         compute_force_changes(displacement, Tensor<1, 2>(), moved);
@@ -129,6 +134,7 @@ namespace SlipStep
         return std::numeric_limits<double>::infinity();
       }
 
+    // The drive moves with the machine's mass, the block with its own.
     difference -= passed;
     of_drive -= passed_by_drive;
     forces = 0.;

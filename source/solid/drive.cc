@@ -100,14 +100,15 @@ namespace SlipStep
 
 
 
-  MachineStep Drive::step() const
+  MachineStep Drive::step_against(const Tensor<2, 2> &springs) const
   {
     MachineStep step;
-    step.start     = at_start;
-    step.first     = first;
-    step.second    = stage_start;
-    step.slider    = stage_end;
-    step.time_step = stage_time / TwoStages::gamma;
+    step.start          = at_start;
+    step.first          = first;
+    step.second         = stage_start;
+    step.slider         = stage_end;
+    step.time_step      = stage_time / TwoStages::gamma;
+    step.contact.d_slip = springs / area;
     return step;
   }
 
@@ -117,10 +118,8 @@ namespace SlipStep
   {
     if (machine.mass() == 0.)
       return 0.;
-    MachineStep step    = this->step();
-    step.contact.d_slip = springs / area;
     StepError error;
-    error.at_end = machine.error_of_motion(step) /
+    error.at_end = machine.error_of_motion(step_against(springs)) /
                    std::max(strength / area, stage_end.load.norm());
     return error.measure();
   }
@@ -130,9 +129,9 @@ namespace SlipStep
   double Drive::lost_swing(const Tensor<2, 2> &springs,
                            const double        strength) const
   {
-    MachineStep step    = this->step();
-    step.contact.d_slip = springs / area;
-    return strength > 0. ? machine.lost_swing(step) / (strength / area) : 0.;
+    return strength > 0. ?
+             machine.lost_swing(step_against(springs)) / (strength / area) :
+             0.;
   }
 
 

@@ -315,6 +315,13 @@ TEST(Programme, WarningsOfAFollowedTestArePassedOn)
   const auto late = warnings("follow gap.csv");
   ASSERT_EQ(late.size(), 2u);
   EXPECT_TRUE(contains(late[1], "comes on over 2 mm; 'press' to it before"));
+  // The same across.
+  std::ofstream(folder / "across.csv")
+    << "time_s,displacement_mm,displacement_y_mm,pressure_MPa,friction,"
+       "friction_y\n0,0,0,5,0,0\n1,0,3,5,0,0.1\n2,0,5,5,0,0.1\n";
+  const auto across = warnings("follow across.csv");
+  ASSERT_EQ(across.size(), 1u);
+  EXPECT_TRUE(contains(across[0], "comes on over 3 mm;"));
 }
 
 

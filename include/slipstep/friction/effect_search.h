@@ -103,6 +103,9 @@ namespace SlipStep
 
     using Form = std::function<TrialFormula(const Circumstances &)>;
 
+    /// The same as @p formula with the effect's Form as given.
+    static Form in_form(const std::string &name, const Form &formula);
+
     /// Strength that grows with the logarithm of an age, which in steady
     /// sliding is a length over the speed: theta = L / V.
     /// @param length key of L, beside Growth and Time

@@ -84,6 +84,11 @@ namespace SlipStep
   /// Keep some rows of a test, in the order given.
   void keep_rows(MeasuredTest &test, const std::vector<std::size_t> &rows);
 
+  /// In the plane, in a straight line [mm].
+  double distance_between(const MeasuredTest &test,
+                          const std::size_t   from,
+                          const std::size_t   to);
+
   /// The upper one of an even number; 0 for none.
   double median(std::vector<double> values);
 

@@ -108,7 +108,7 @@ namespace SlipStep
     /// [mm].
     dealii::Tensor<1, 2> difference_of_orders() const
     {
-      return step().difference_of_orders();
+      return step_against({}).difference_of_orders();
     }
 
     /// m / (gamma h)^2 in the stage that ended [N/mm].
@@ -164,7 +164,10 @@ namespace SlipStep
     }
 
   private:
-    MachineStep step() const;
+    /// The step that ended.
+    /// @param springs of block and contact against a motion of the driven
+    ///   faces [N/mm]
+    MachineStep step_against(const dealii::Tensor<2, 2> &springs) const;
 
     /// Of the spring, where it is moved.
     dealii::Tensor<1, 2>

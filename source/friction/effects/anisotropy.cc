@@ -107,12 +107,7 @@ namespace SlipStep
         info.search.other_forms = {[](const Circumstances &now) {
                                      return search_from(now, PI / 2.);
                                    },
-                                   [](const Circumstances &now) {
-                                     TrialFormula formula = search(now);
-                                     if (formula.why_not.empty())
-                                       formula.texts = {{"Form", "opposite"}};
-                                     return formula;
-                                   }};
+                                   TrialFormula::in_form("opposite", search)};
         info.search.along       = "angle";
         info.create             = create;
         return info;

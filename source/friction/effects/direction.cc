@@ -44,7 +44,9 @@ namespace SlipStep
         info.typical_settings   = {{"Change", "0.5"},
                                    {"Forward angle", "20 deg"}};
         info.search             = {"an offset on reverse strokes", search};
-        info.search.other_forms = {reversed(search), turned, reversed(turned)};
+        info.search.other_forms = {TrialFormula::in_form("reversed", search),
+                                   turned,
+                                   TrialFormula::in_form("reversed", turned)};
         info.search.along       = "angle";
         return info;
       }
@@ -101,15 +103,6 @@ namespace SlipStep
           {"Change", least, most, false},
           {"Forward angle", line - PI, line + 2. * PI, false, true, true}};
         return formula;
-      }
-
-      static TrialFormula::Form reversed(const TrialFormula::Form &form)
-      {
-        return [form](const Circumstances &now) {
-          TrialFormula formula = form(now);
-          formula.texts        = {{"Form", "reversed"}};
-          return formula;
-        };
       }
 
       static constexpr double least = -0.8, most = 3.; // looked for

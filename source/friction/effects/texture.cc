@@ -151,7 +151,10 @@ namespace SlipStep
     private:
       static TrialFormula search(const Circumstances &now)
       {
-        return search_at(now, {0.});
+        TrialFormula formula = search_at(now, {0.});
+        if (formula.why_not.empty() && now.range.main_line != 0.)
+          formula.settings = {{"Angle", now.range.main_line}};
+        return formula;
       }
 
       // With harmonics; the wave that is seen may be the second of a longer
@@ -210,8 +213,6 @@ namespace SlipStep
                               {"Wavelength", 0.5 * along, 1.5 * along, true},
                               {"Phase", -2. * PI, 2. * PI, false}};
         const double line  = now.range.main_line;
-        if (angles.size() < 2 && line != 0.)
-          formula.settings = {{"Angle", line}};
         for (const double angle : angles)
           for (const double shift : {0., PI / 2.})
             formula.shapes.push_back([=](const double strength) {
