@@ -532,6 +532,7 @@ namespace SlipStep
     damped_energy += trial_damped_energy;
     inertia.accept();
     check_balance_of_forces();
+    note_lean(totals);
     drive.accept(totals.normal_load / parameters.nominal_contact_area());
 
     const double load = totals.normal_load;

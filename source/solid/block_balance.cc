@@ -77,6 +77,36 @@ namespace SlipStep
 
 
 
+  // Loads act on the undeformed block. Where its head leans by delta, the
+  // normal load N would turn it by N delta more than the friction T at the foot
+  // of its height, T H. That moves the pressure towards an edge, by 6 delta / L
+  // of the mean, and lets less force hold the lean of a block that bends.
+  template <int dim>
+  void Block<dim>::note_lean(const ContactTotals &totals)
+  {
+    constexpr double slender = 2., least_eccentricity = 0.01;
+
+    const double height = parameters.size[parameters.normal_axis()];
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      {
+        const double length = parameters.size[parameters.tangential_axis(i)];
+        const double distance =
+          std::abs(Utilities::MPI::sum(head_against_foot[i].dot(solution),
+                                       communicator));
+        lean.share = std::max(lean.share, distance / length);
+        if (height < slender * length)
+          continue;
+        lean.moment_of_load =
+          std::max(lean.moment_of_load, totals.normal_load * distance);
+        lean.moment_of_friction =
+          std::max({lean.moment_of_friction,
+                    std::abs(totals.tangential_load[i]) * height,
+                    least_eccentricity * totals.normal_load * length});
+      }
+  }
+
+
+
   // u . K u / 2, where K u is what the residual says of it, unless there is
   // more in it. The motion of the frame stores nothing.
   template <int dim>

@@ -219,6 +219,19 @@ namespace SlipStep
 
 
 
+    // Linear elements cannot bend without changing their volume.
+    std::string warning_of_locking(const BlockParameters &parameters)
+    {
+      constexpr double largest = 0.45;
+      if (parameters.degree > 1 || parameters.poisson_ratio < largest)
+        return "";
+      return "elements of degree 1 are too stiff with a Poisson's ratio of " +
+             short_text(parameters.poisson_ratio, 4) +
+             ", above all in bending: 'set Degree = 2' in section Block";
+    }
+
+
+
     std::string warning_of_map(const double strength_error)
     {
       constexpr double noticed = 0.005;
@@ -301,6 +314,33 @@ namespace SlipStep
 
 
 
+  template <int dim>
+  std::string Block<dim>::warning_of_lean() const
+  {
+    constexpr double small_share = 0.01, small_moment = 0.05;
+
+    const bool   is_flat = !parameters.surface.is_curved();
+    const double moment =
+      lean.moment_of_load / std::max(lean.moment_of_friction, 1e-300);
+    if (!(is_flat && lean.share > small_share) && moment <= small_moment)
+      return "";
+    const std::string pressure = "the pressure at its edges is off by some " +
+                                 rounded_text(600. * lean.share, 2) +
+                                 " % of the mean";
+    const std::string force = "the force that bends it by some " +
+                              rounded_text(100. * moment, 2) + " %";
+    return "the head of the block leans against its foot by " +
+           rounded_text(100. * lean.share, 2) +
+           " % of its length, and loads act as on the undeformed block: " +
+           (moment <= small_moment ? pressure :
+            is_flat                ? pressure + ", " + force :
+                                     force) +
+           "; it tips over later than a real one (guide/limits.md, 'Large "
+           "deformation')";
+  }
+
+
+
   // What is worn away has given way, but is still there in the mesh.
   template <int dim>
   std::string Block<dim>::warning_of_wear() const
@@ -357,6 +397,8 @@ namespace SlipStep
                                       warning_of_penetration(),
                                       warning_of_map(strength_error),
                                       warning_of_opening(),
+                                      warning_of_lean(),
+                                      warning_of_locking(parameters),
                                       warning_of_wear(),
                                       warning_of_solver(),
                                       control.warning(),

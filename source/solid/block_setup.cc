@@ -178,8 +178,11 @@ namespace SlipStep
 
   // Tractions are dead loads on the undeformed faces, as small strains allow.
   template <int dim>
-  void Block<dim>::assemble_load(const LoadPart part, Vector &load) const
+  void Block<dim>::assemble_tractions(
+    const std::function<Tensor<1, 3>(const types::boundary_id)> &traction_on,
+    Vector                                                      &load) const
   {
+    load = 0.;
     FEFaceValues<dim>                    fe_values(fe,
                                 contact.quadrature(),
                                 update_values | update_JxW_values);
@@ -190,8 +193,8 @@ namespace SlipStep
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary())
             {
-              const Tensor<1, 3> &traction =
-                parameters.faces[cell->face(f)->boundary_id()].tractions[part];
+              const Tensor<1, 3> traction =
+                traction_on(cell->face(f)->boundary_id());
               if (traction == Tensor<1, 3>())
                 continue;
               fe_values.reinit(cell, f);
@@ -212,12 +215,30 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::assemble_loads()
   {
+    Vector &load = right_hand_side;
     for (const LoadPart part : {programme_pressure, gradual, at_once})
       {
-        Vector &load = right_hand_side;
-        load         = 0.;
-        assemble_load(part, load);
+        assemble_tractions(
+          [&](const types::boundary_id face) {
+            return parameters.faces[face].tractions[part];
+          },
+          load);
         load_cases[part].force = FaceVector(load);
+      }
+    // Their dot product with displacements is the difference of two means.
+    const double area = parameters.nominal_contact_area();
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      {
+        assemble_tractions(
+          [&](const types::boundary_id face) {
+            Tensor<1, 3> traction;
+            if (face / 2 == parameters.normal_axis())
+              traction[parameters.tangential_axis(i)] =
+                (face == parameters.contact_face ? -1. : 1.) / area;
+            return traction;
+          },
+          load);
+        head_against_foot[i] = FaceVector(load);
       }
   }
 } // namespace SlipStep

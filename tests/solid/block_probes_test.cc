@@ -217,6 +217,75 @@ TEST(BlockProbes, a_bed_that_gives_is_told)
 
 
 
+// The load on a post of 10 mm x 200 mm whose foot sticks and whose head is
+// pushed aside: bent as a cantilever, N delta / (F H) = N H^2 / (3 E' I).
+TEST(BlockProbes, a_lean_that_turns_the_load_is_told)
+{
+  const Settings post = {{"Block/Dimension", "2"},
+                         {"Block/Size", "10 mm, 200 mm"},
+                         {"Block/Subdivisions", "2, 16"},
+                         {"Block/Degree", "2"},
+                         {"Block/Young modulus", "2e5 MPa"},
+                         {"Block/Poisson ratio", "0.3"},
+                         {"Block/Faces/bottom", "contact"},
+                         {"Block/Faces/top", "drive; pressure programme"},
+                         {"Friction/Effects", "subloading"},
+                         {"Friction/Static coefficient", "0.5"},
+                         {"Friction/Normal stiffness", "1e6"},
+                         {"Friction/Tangential stiffness", "1e6"}};
+  const auto     lean = [&](const double pressure, const double distance) {
+    const auto result = run_block_case<2>(
+      make_parameters(post + Settings{{"Loading/Programme",
+                                       "press " + std::to_string(pressure) +
+                                         " MPa in 1 s; slide 1 mm/s for " +
+                                         std::to_string(distance) + " mm"}}));
+    for (const std::string &warning : result.summary.warnings)
+      if (warning.find("leans") != std::string::npos)
+        return warning;
+    return std::string();
+  };
+  const auto share = [&](const std::string &warning, const std::string &what) {
+    const std::size_t at = warning.find(what + " some ");
+    return at == std::string::npos ?
+             0. :
+             std::stod(warning.substr(at + what.size() + 6));
+  };
+  // A foot that gives a little adds to 36.4 % of a cantilever.
+  for (const double distance : {0.05, 0.45})
+    {
+      const std::string warning = lean(50., distance);
+      EXPECT_NEAR(share(warning, "edges is off by"), 60. * distance, 0.5)
+        << warning;
+      EXPECT_NEAR(share(warning, "bends it by"), 36.4, 1.) << warning;
+    }
+  // Under less load it turns on its edge: F H = N L / 2.
+  EXPECT_NEAR(share(lean(5., 0.45), "bends it by"), 9., 1.1) << lean(5., 0.45);
+  // A lean that hardly counts.
+  EXPECT_EQ(lean(5., 0.05), "");
+}
+
+
+
+// The same post in elements that cannot bend without a change of volume.
+TEST(BlockProbes, elements_that_lock_are_told)
+{
+  const auto warnings = [](const std::string &degree,
+                           const std::string &poisson_ratio) {
+    return run_block_case<2>(
+             make_parameters(stuck(2) +
+                             Settings{{"Block/Degree", degree},
+                                      {"Block/Poisson ratio", poisson_ratio}}))
+      .summary.warnings;
+  };
+  EXPECT_TRUE(warnings("2", "0.49").empty());
+  EXPECT_TRUE(warnings("1", "0.4").empty());
+  ASSERT_EQ(warnings("1", "0.49").size(), 1u);
+  EXPECT_NE(warnings("1", "0.49")[0].find("Poisson's ratio of 0.49"),
+            std::string::npos);
+}
+
+
+
 // A block as high as long, with much friction, lifts at its rear edge.
 TEST(BlockProbes, opening_of_the_contact_is_told)
 {

@@ -132,7 +132,8 @@ namespace SlipStep
             .share &steps_since_check &most_cells_wanted &largest_jump
               &mesh_changes &mesh_is_new &tolerance &solver_in_use
                 &n_solver_failures &first_solver_failure &opening
-            .time &drive                                 &damped_energy;
+            .time &drive &damped_energy &lean.share &lean.moment_of_load &lean
+            .moment_of_friction;
     }
 
     /// Cells, unknowns and iterations so far.
@@ -154,7 +155,9 @@ namespace SlipStep
     void constrain(Vector &displacement) const;
     void find_groups_of_unknowns();
     void check_map_of_strength();
-    void assemble_load(const LoadPart part, Vector &load) const;
+    void assemble_tractions(const std::function<dealii::Tensor<1, 3>(
+                              const dealii::types::boundary_id)> &traction_on,
+                            Vector                               &load) const;
     void assemble_loads();
 
     // Linear systems.
@@ -231,6 +234,7 @@ namespace SlipStep
     // What an accepted step did to the energy and to the balance of forces.
     double                 work_of_stage();
     void                   check_balance_of_forces();
+    void                   note_lean(const ContactTotals &totals);
     dealii::Tensor<1, dim> sum_by_component(const Vector &forces) const;
     double                 elastic_energy();
 
@@ -245,6 +249,7 @@ namespace SlipStep
     std::string              warning_of_pressure() const;
     std::string              warning_of_penetration() const;
     std::string              warning_of_opening() const;
+    std::string              warning_of_lean() const;
     std::string              warning_of_wear() const;
     std::string              warning_of_solver() const;
     std::vector<std::string> warnings() const;
@@ -288,6 +293,9 @@ namespace SlipStep
     std::array<LoadCase, n_load_parts> load_cases;
     double                             first_step;
     LoadFactors                        load_factors = {};
+    // Mean motion along the plane of the face across from the contact face
+    // against that, as a dot product with displacements.
+    std::array<FaceVector, dim - 1> head_against_foot;
 
     // State: displacements at the end and the beginning of the step, and one
     // step before that.
@@ -357,6 +365,14 @@ namespace SlipStep
     double         worn_depth            = 0.; // mean over the load [mm]
     double         largest_contact_share = 0.; // that of a flat face is 1
     OpeningSummary opening;
+    // At worst so far: the head's lean as a share of the length of the block,
+    // and, of slender ones, the moments that it would give the normal load and
+    // that friction has [N mm].
+    struct Lean
+    {
+      double share = 0., moment_of_load = 0., moment_of_friction = 0.;
+    };
+    Lean lean;
   };
 } // namespace SlipStep
 

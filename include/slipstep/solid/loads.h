@@ -68,6 +68,15 @@ namespace SlipStep
         vector.local_element(entry.first) += factor * entry.second;
     }
 
+    /// Dot product, of the entries of this rank.
+    double dot(const Vector &vector) const
+    {
+      double sum = 0.;
+      for (const auto &entry : entries)
+        sum += entry.second * vector.local_element(entry.first);
+      return sum;
+    }
+
     double l2_norm() const
     {
       return norm;
