@@ -345,7 +345,7 @@ namespace SlipStep
                              " iterations: the forces are out of balance by " +
                              short_text(norm / newton.force_scale, 6) +
                              " of the contact force, allowed are " +
-                             short_text(parameters.newton_tolerance, 6);
+                             short_text(newton_tolerance(), 6);
             return false;
           }
 
@@ -374,6 +374,23 @@ namespace SlipStep
 
 
 
+  // A share e of the load out of balance moves a block that is far softer than
+  // its contact by e p H / E, which a contact that sticks again feels as
+  // alpha_t times that: no more than a part of what steps may err.
+  template <int dim>
+  double Block<dim>::newton_tolerance() const
+  {
+    constexpr double   part = 0.02, digits = 1e-12;
+    const FrictionLaw &law = contact.friction_law();
+    const double       share =
+      part * control.wanted_error() * law.static_coefficient() *
+      parameters.young_modulus /
+      (parameters.size[parameters.normal_axis()] * law.tangential_stiffness());
+    return std::min(parameters.newton_tolerance, std::max(share, digits));
+  }
+
+
+
   // What counts as balanced. The shorter a step, the larger the forces of
   // inertia into which the round-off of displacements turns, and no iteration
   // takes that away.
@@ -383,7 +400,7 @@ namespace SlipStep
     const double of_drive =
       drive.is_unknown() ? newton.drive_weight * drive.round_off() : 0.;
     return std::max(
-      {parameters.newton_tolerance * newton.force_scale,
+      {newton_tolerance() * newton.force_scale,
        of_drive,
        inertia.round_off(solution, loading.displacement.norm(), stage_time)});
   }
@@ -407,8 +424,7 @@ namespace SlipStep
   bool Block<dim>::only_round_off_is_left() const
   {
     const std::size_t n = newton.residual_norms.size();
-    return n > 2 &&
-           newton.residual_norms[n - 1] <= 10. * parameters.newton_tolerance &&
+    return n > 2 && newton.residual_norms[n - 1] <= 10. * newton_tolerance() &&
            newton.residual_norms[n - 1] > 0.5 * newton.residual_norms[n - 2];
   }
 

@@ -549,8 +549,9 @@ namespace SlipStep
                        "1e-8",
                        Quantity(Dimension::number, 1e-14, 1e-2),
                        "Norm of the unbalanced forces at which Newton's method "
-                       "stops, relative to the contact forces. Between 1e-14 "
-                       "and 0.01, no unit.");
+                       "stops, relative to the contact forces; that of a block "
+                       "far softer than its contact is less. Between 1e-14 and "
+                       "0.01, no unit.");
     parameters.declare("Block/Newton iterations",
                        "40",
                        Integer(2, 1000),

@@ -525,3 +525,35 @@ TEST(Block, keeps_its_place_where_it_lifts)
   // But for the shear of the block, some micrometres.
   EXPECT_NEAR(result.history.back().friction, -0.3, 3e-4);
 }
+
+
+
+// Rubber on a contact of 1e4 MPa/mm: what is out of balance moves it farther
+// than its contact gives way.
+TEST(Block, slides_where_it_is_far_softer_than_its_contact)
+{
+  struct Case
+  {
+    const char *degree, *subdivisions;
+    double      pressure; // [MPa]
+  };
+  for (const Case &now :
+       {Case{"2", "8, 4", 1e-3}, {"2", "5, 3", 3e-4}, {"1", "16, 8", 3e-3}})
+    {
+      const auto result = run_block_case<2>(
+        make_parameters({{"Block/Dimension", "2"},
+                         {"Block/Size", "40 mm, 20 mm"},
+                         {"Block/Subdivisions", now.subdivisions},
+                         {"Block/Degree", now.degree},
+                         {"Block/Young modulus", "1 MPa"},
+                         {"Block/Faces/bottom", "contact"},
+                         {"Block/Faces/top", "drive; pressure programme"},
+                         {"Friction/Effects", "subloading"},
+                         {"Friction/Static coefficient", "0.1"},
+                         {"Loading/Programme",
+                          "press " + std::to_string(now.pressure) +
+                            " MPa in 1 s; slide 1 mm/s for 0.02 mm"}}));
+      EXPECT_EQ(result.failure, "") << now.subdivisions;
+      EXPECT_GT(result.history.back().friction, 0.01) << now.subdivisions;
+    }
+}

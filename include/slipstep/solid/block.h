@@ -192,6 +192,7 @@ namespace SlipStep
     bool      solve_stage();
     double    compute_residual();
     double    least_force_scale() const;
+    double    newton_tolerance() const;
     double    wanted_norm() const;
     void      forget_iterations();
     bool      only_round_off_is_left() const;
