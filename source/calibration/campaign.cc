@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/calibration/campaign.h>
 #include <slipstep/measured_data/odd_rows.h>
+#include <slipstep/measured_data/raw_files.h>
 #include <slipstep/measured_data/rounded_motion.h>
 #include <slipstep/measured_data/sensor_noise.h>
 #include <slipstep/measured_data/resample.h>
@@ -39,8 +40,8 @@ namespace SlipStep
       "measured",
       Anything(),
       "Measured tests that 'slipstep calibrate' fits: a folder of .csv files, "
-      "or files separated by commas, relative to the folder of the case. "
-      "'slipstep check' reads them.");
+      "or files separated by commas (measured/wet_*.csv are all of such names), "
+      "relative to the folder of the case. 'slipstep check' reads them.");
     parameters.declare(
       "Calibration/Parameters",
       "",
@@ -363,16 +364,7 @@ namespace SlipStep
 
   std::vector<fs::path> Campaign::test_files(const Parameters &parameters)
   {
-    std::vector<fs::path> files;
-    for (const std::string &name : parameters.list(tests_key))
-      {
-        const fs::path  file = parameters.resolve(name);
-        std::error_code error;
-        if (!fs::exists(file, error))
-          parameters.reject(tests_key,
-                            "there is no " + excerpt(file.string(), 300));
-        files.push_back(file);
-      }
+    const std::vector<fs::path> files = named_files(parameters, tests_key);
     if (files.empty())
       parameters.reject(tests_key, "name a folder or files");
     return files;

@@ -2,6 +2,8 @@
 #include <slipstep/experiment/replay.h>
 #include <slipstep/experiment/step_control.h>
 
+#include <slipstep/measured_data/arc.h>
+#include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>
@@ -19,17 +21,6 @@ namespace SlipStep
   {
     // Least share of an interval: a jump of a soft machine takes no time.
     constexpr double least_share = 1e-9;
-
-
-
-    Tensor<1, 2> position(const MeasuredTest &test, const std::size_t row)
-    {
-      Tensor<1, 2> result;
-      result[0] = test.displacement[row];
-      if (!test.displacement_y.empty())
-        result[1] = test.displacement_y[row];
-      return result;
-    }
 
 
 
@@ -116,10 +107,20 @@ namespace SlipStep
       }
     result.n_before = result.intervals.size();
     for (std::size_t i = 1; i < test.time.size(); ++i)
-      result.intervals.push_back({position(test, i) - position(test, i - 1),
-                                  test.pressure[i - 1],
-                                  test.pressure[i],
-                                  test.time[i] - test.time[i - 1]});
+      {
+        const double duration = test.time[i] - test.time[i - 1];
+        const double change   = test.pressure[i] - test.pressure[i - 1];
+        double       begin    = 0.;
+        for (const PartOfWay &part : way_to(test, i))
+          {
+            result.intervals.push_back(
+              {part.motion,
+               test.pressure[i - 1] + begin * change,
+               test.pressure[i - 1] + part.end * change,
+               (part.end - begin) * duration});
+            begin = part.end;
+          }
+      }
     return result;
   }
 

@@ -5,6 +5,7 @@
 #include <slipstep/measured_data/import_record.h>
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/measured_data/tidy_rows.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 

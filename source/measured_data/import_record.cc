@@ -6,6 +6,7 @@
 #include <slipstep/measured_data/resample.h>
 #include <slipstep/measured_data/sensor_zero.h>
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/measured_data/tidy_rows.h>
 #include <slipstep/utilities/text.h>
 
 #include <boost/algorithm/string/predicate.hpp>

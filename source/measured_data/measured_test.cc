@@ -2,6 +2,7 @@
 #include <slipstep/measured_data/measured_test.h>
 
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/measured_data/tidy_rows.h>
 #include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>

@@ -2,6 +2,7 @@
 #include <slipstep/measured_data/raw_files.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
 
 namespace SlipStep
 {
@@ -82,6 +83,34 @@ namespace SlipStep
     if (files.empty())
       throw InputError(pattern.string() + ": no file has a name like this");
     sort(files, [](const auto &a, const auto &b) { return a.file < b.file; });
+    return files;
+  }
+
+
+
+  std::vector<fs::path> named_files(const Parameters  &parameters,
+                                    const std::string &key)
+  {
+    std::vector<fs::path> files;
+    for (const std::string &name : parameters.list(key))
+      {
+        const fs::path  file = parameters.resolve(name);
+        std::error_code error;
+        if (fs::exists(file, error))
+          files.push_back(file);
+        else if (has_wildcards(name))
+          try
+            {
+              for (const RawFile &found : files_of_pattern(file))
+                files.push_back(found.file);
+            }
+          catch (const InputError &why)
+            {
+              parameters.reject(key, why.what());
+            }
+        else
+          parameters.reject(key, "there is no " + excerpt(file.string(), 300));
+      }
     return files;
   }
 

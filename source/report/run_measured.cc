@@ -4,6 +4,7 @@
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/measured_data/friction_axes.h>
 #include <slipstep/measured_data/odd_rows.h>
+#include <slipstep/measured_data/raw_files.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/report/run_figures.h>
 #include <slipstep/utilities/exceptions.h>
@@ -133,10 +134,8 @@ namespace SlipStep
                                followed.origin,
                                result);
             }
-          for (const std::string &name : parameters.list("Report/Measured"))
-            add_along_axes({read_measured_test(parameters.resolve(name))},
-                           {},
-                           result);
+          for (const auto &file : named_files(parameters, "Report/Measured"))
+            add_along_axes({read_measured_test(file)}, {}, result);
         }
       catch (const InputError &error)
         {

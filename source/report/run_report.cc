@@ -4,6 +4,7 @@
 #include <slipstep/report/run_results.h>
 #include <slipstep/report/run_figures.h>
 #include <slipstep/measured_data/measured_test.h>
+#include <slipstep/measured_data/raw_files.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/patterns.h>
@@ -53,9 +54,9 @@ namespace SlipStep
       "Report/Measured",
       "",
       Anything(),
-      "Measured tests that the report draws beside the runs, separated by "
-      "commas, relative to the folder of the case. Tests that the programme "
-      "follows are drawn anyway.");
+      "Measured tests that the report draws beside the runs, files separated by "
+      "commas (measured/wet_*.csv are all of such names), relative to the folder "
+      "of the case. Tests that the programme follows are drawn anyway.");
     parameters.declare("Report/Reference speeds",
                        "",
                        Anything(),
@@ -70,8 +71,8 @@ namespace SlipStep
   {
     Reference{parameters};
     check_pictures(parameters);
-    for (const std::string &name : parameters.list("Report/Measured"))
-      read_measured_test(parameters.resolve(name));
+    for (const auto &file : named_files(parameters, "Report/Measured"))
+      read_measured_test(file);
   }
 
 

@@ -306,6 +306,47 @@ TEST(Replay, IsSmoothInTheParameters)
 
 
 
+// Friction at a row is against the motion there. An elastic slip of 1e-4 mm
+// turns with it.
+TEST(Replay, FollowsTheDirectionOfCircles)
+{
+  constexpr double   radius = 2.;
+  constexpr unsigned n      = 90;
+
+  MeasuredTest test;
+  for (unsigned int i = 0; i <= n; ++i)
+    {
+      const double phase = 6.283185307179586 * i / n;
+      test.time.push_back(0.1 * i);
+      test.displacement.push_back(radius * std::cos(phase));
+      test.displacement_y.push_back(radius * std::sin(phase));
+      test.pressure.push_back(5.);
+      test.friction.push_back(0.);
+      test.friction_y.push_back(0.);
+    }
+  const auto parameters =
+    point_parameters({{"Friction/Effects", "subloading"},
+                      {"Friction/Static coefficient", "0.2"},
+                      {"Friction/Tangential stiffness", "1e4"}});
+  const FrictionLaw law(parameters);
+  const Machine     machine(parameters);
+  Replay            replay(test);
+  replay.plan(law, machine, 1e-4);
+  Replay::Curve curve;
+  replay.simulate(law, machine, curve);
+  const auto along_x = replay.at(curve.friction, test.time),
+             along_y = replay.at(curve.friction_y, test.time);
+  for (unsigned int i = 3; i < n; ++i)
+    {
+      const double phase = 6.283185307179586 * i / n;
+      // Half of the turn of a row is 0.035, of 0.2 that is 0.007.
+      EXPECT_NEAR(along_x[i], -0.2 * std::sin(phase), 4e-4) << i;
+      EXPECT_NEAR(along_y[i], 0.2 * std::cos(phase), 4e-4) << i;
+    }
+}
+
+
+
 TEST(Replay, ALeadInStartsWhileSliding)
 {
   const Parameters  parameters = point_parameters({});

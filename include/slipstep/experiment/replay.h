@@ -23,7 +23,8 @@ namespace SlipStep
   class Replay
   {
   public:
-    /// @param test its rows are the borders of steps, see resample()
+    /// @param test its rows are the borders of steps, see resample(); on a
+    ///   smooth curve it is led along arcs between them, see way_to()
     /// @param lead_in length [mm] slid before the first row, in the direction
     ///   and with the speed of the first motion, under the first pressure: for
     ///   records that begin while the contact slides already
@@ -97,7 +98,7 @@ namespace SlipStep
     }
 
   private:
-    /// From one row to the next, or the lead-in.
+    /// From one row to the next or a part of that, or the lead-in.
     struct Interval
     {
       dealii::Tensor<1, 2> motion; ///< [mm]

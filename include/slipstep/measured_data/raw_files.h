@@ -2,6 +2,8 @@
 #ifndef slipstep_measured_data_raw_files_h
 #define slipstep_measured_data_raw_files_h
 
+#include <slipstep/utilities/parameters.h>
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -30,6 +32,12 @@ namespace SlipStep
   /// name, not in the folder.
   /// @throws InputError if there is none
   std::vector<RawFile> files_of_pattern(const std::filesystem::path &pattern);
+
+  /// The files that a key of a case names, separated by commas: relative to its
+  /// folder, with wildcards, or folders as they are.
+  /// @throws InputError for what is not there
+  std::vector<std::filesystem::path> named_files(const Parameters  &parameters,
+                                                 const std::string &key);
 
   /// The text with values in place of {names}.
   /// @throws InputError for a name that is not there, listing those that are
