@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/programme.h>
 
-#include <slipstep/measured_data/measured_test.h>
+#include <slipstep/measured_data/arc.h>
 #include <slipstep/measured_data/sensor_noise.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
@@ -454,18 +454,14 @@ namespace SlipStep
                segments.empty() ? 0. : segments.back().end_time,
                present.displacement});
           }
-        const MeasuredTest  &test   = tests.at(name.text);
-        const auto           origin = present.displacement;
-        dealii::Tensor<1, 2> moved;
+        const MeasuredTest &test   = tests.at(name.text);
+        const auto          origin = present.displacement;
         for (std::size_t i = 1; i < test.time.size(); ++i)
-          {
-            moved[0] = test.displacement[i] - test.displacement[0];
-            if (!test.displacement_y.empty())
-              moved[1] = test.displacement_y[i] - test.displacement_y[0];
-            add(test.time[i] - test.time[i - 1],
-                test.pressure[i],
-                origin + moved);
-          }
+          for (const PartOfWay &part : way_to(test, i))
+            add((part.end - part.begin) * (test.time[i] - test.time[i - 1]),
+                (1. - part.end) * test.pressure[i - 1] +
+                  part.end * test.pressure[i],
+                origin + (part.to - position(test, 0)));
       }
 
       /// What presses in the first row comes on until the second is reached.

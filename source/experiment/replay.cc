@@ -110,15 +110,15 @@ namespace SlipStep
       {
         const double duration = test.time[i] - test.time[i - 1];
         const double change   = test.pressure[i] - test.pressure[i - 1];
-        double       begin    = 0.;
+        Tensor<1, 2> before   = position(test, i - 1);
         for (const PartOfWay &part : way_to(test, i))
           {
             result.intervals.push_back(
-              {part.motion,
-               test.pressure[i - 1] + begin * change,
+              {part.to - before,
+               test.pressure[i - 1] + part.begin * change,
                test.pressure[i - 1] + part.end * change,
-               (part.end - begin) * duration});
-            begin = part.end;
+               (part.end - part.begin) * duration});
+            before = part.to;
           }
       }
     return result;

@@ -63,7 +63,7 @@ namespace SlipStep
     constexpr double last_part  = 0.1;
 
     const Chord                  now      = chord_to(test, row);
-    const std::vector<PartOfWay> straight = {{now.duration * now.velocity, 1.}};
+    const std::vector<PartOfWay> straight = {{position(test, row), 0., 1.}};
     if (test.displacement_y.empty() || row < 2 || row + 1 >= test.time.size())
       return straight;
     const Chord before  = chord_to(test, row - 1),
@@ -87,16 +87,16 @@ namespace SlipStep
       std::clamp(std::ceil(std::abs(first + second) / 2. / of_part),
                  2.,
                  most_parts);
+    const Tensor<1, 2>     start = position(test, row - 1);
     std::vector<PartOfWay> parts;
-    Tensor<1, 2>           gone;
-    const auto             go_until = [&](const double end) {
-      parts.push_back({way_until(end) - gone, end});
-      gone = way_until(end);
-    };
-    for (double i = 1.; i < n; ++i)
-      go_until(i / n);
-    go_until(1. - last_part / n);
-    go_until(1.);
+    double                 begin = 0.;
+    for (double i = 1.; i <= n; ++i)
+      {
+        const double end = i < n ? i / n : 1. - last_part / n;
+        parts.push_back({start + way_until(end), begin, end});
+        begin = end;
+      }
+    parts.push_back({position(test, row), begin, 1.});
     return parts;
   }
 } // namespace SlipStep

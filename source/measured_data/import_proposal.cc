@@ -48,6 +48,7 @@ namespace SlipStep
         read_columns();
         choose_axis();
         choose_columns();
+        choose_second_axis();
         guess_shear_stress();
         guess_loads();
         guess_signs();
@@ -172,7 +173,7 @@ namespace SlipStep
         return own == 'z' || (own != '\0' && axis != '\0' && own != axis);
       }
 
-      // Of two axes that which moves by far more.
+      // Of two axes that which moves by far more, if one does.
       void choose_axis()
       {
         constexpr double clearly = 5.;
@@ -199,7 +200,10 @@ namespace SlipStep
           if (motions[one] > clearly * motions[one == 'x' ? 'y' : 'x'])
             axis = one;
         const bool moves = motions['x'] > 0. || motions['y'] > 0.;
-        if (moves ? axis == '\0' : frictions.size() > 1)
+        has_two_axes     = moves && axis == '\0' && frictions.size() > 1;
+        if (has_two_axes)
+          axis = 'x';
+        else if (moves ? axis == '\0' : frictions.size() > 1)
           axis_doubt =
             "; it has a second axis (Displacement y, Tangential load y, "
             "Friction y): or is that the one that counts?";
@@ -256,6 +260,24 @@ namespace SlipStep
               continue;
             if (words.key == "Displacement")
               best = motion_of_friction(words, best);
+            guess_column(words, best);
+          }
+      }
+
+      void choose_second_axis()
+      {
+        if (!has_two_axes)
+          return;
+        axis = 'y';
+        for (KeyWords words : key_words())
+          {
+            const std::string key  = words.key + " y";
+            const std::size_t best = best_column(words.key);
+            if (!words.is_along_axis || !taken_as(words.key) || taken_as(key) ||
+                best == values.size() ||
+                axis_of(proposal.columns[best].name) != axis)
+              continue;
+            words.key = key;
             guess_column(words, best);
           }
       }
@@ -652,8 +674,9 @@ namespace SlipStep
 
       ImportProposal           proposal;
       std::vector<std::string> header;
-      char                     axis = '\0'; ///< that moves, of two
-      std::string              axis_doubt;  ///< why it may be another; or ""
+      char                     axis = '\0'; ///< that is looked at, of two
+      bool                     has_two_axes = false; ///< both move
+      std::string              axis_doubt; ///< why it may be another; or ""
 
       std::vector<std::vector<double>> values; ///< of each column
       std::vector<std::vector<double>> finite; ///< the same without gaps

@@ -251,9 +251,12 @@ TEST(FailedRun, EveryVariantIsReported)
 TEST(FailedRun, AFullDiskIsToldAndTheRowsBeforeAreKept)
 {
   const SlipstepProcess process;
-  process.write("case.prm", "set Loading/Speed = 2 mm/s\n");
+  // More of a history than of anything that is written before it.
+  process.write("case.prm",
+                "set Loading/Speed = 2 mm/s\n"
+                "set Time stepping/Tolerance = 1e-6\n");
   const auto result =
-    process.run({"point", "case.prm", "--quiet"}, "", "ulimit -f 50 &&");
+    process.run({"point", "case.prm", "--quiet"}, "", "ulimit -f 100 &&");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_TRUE(contains(result.err, "see ulimit -f"));
   expect_kept(process, "output/case/point", "see ulimit -f");

@@ -326,6 +326,40 @@ TEST(Programme, WarningsOfAFollowedTestArePassedOn)
 
 
 
+// At a row the motion has the direction of the circle, not of the chord.
+TEST(Programme, FollowsTheDirectionOfCircles)
+{
+  const auto         folder = test_folder();
+  constexpr unsigned n      = 60;
+  const double       turn   = 6.283185307179586 / n;
+  {
+    std::ofstream circle(folder / "circle.csv");
+    circle.precision(12);
+    circle << "time_s,displacement_mm,displacement_y_mm,pressure_MPa,friction,"
+              "friction_y\n";
+    for (unsigned int i = 0; i <= n; ++i)
+      circle << i << ',' << std::cos(turn * i) << ',' << std::sin(turn * i)
+             << ",5," << -0.2 * std::sin(turn * i) << ','
+             << 0.2 * std::cos(turn * i) << '\n';
+  }
+  const Programme programme("press 5 MPa in 1 s; follow circle.csv",
+                            default_speed,
+                            folder);
+  for (unsigned int i = 2; i < n; ++i)
+    {
+      const Loading end = programme.at(1. + i);
+      EXPECT_NEAR(end.displacement[0], std::cos(turn * i) - 1., 1e-9);
+      EXPECT_NEAR(end.displacement[1], std::sin(turn * i), 1e-9);
+      const double angle = std::atan2(-end.velocity[0], end.velocity[1]);
+      EXPECT_NEAR(std::remainder(angle - turn * i, 6.283185307179586),
+                  0.,
+                  0.05 * turn)
+        << i;
+    }
+}
+
+
+
 TEST(Programme, RepeatGoesOnFromWhereItEnded)
 {
   const Programme programme = programme_of(

@@ -479,8 +479,10 @@ namespace SlipStep::Testing
      "T [s]\tForce x [N]\tForce y [N]\tForce z [N]\tPosition X [mm]\t"
      "Position Y [mm]\tPosition Z [mm]\n"
      "0\t1\t2\t9\t0\t0\t0\n1\t1\t2\t9\t1\t1\t5\n2\t1\t2\t9\t2\t2\t9\n",
-     {"? Columns/Displacement = Position X [mm] in mm",
-      "? Columns/Tangential load = Force x [N] in N",
+     {"Columns/Displacement = Position X [mm] in mm",
+      "Columns/Displacement y = Position Y [mm] in mm",
+      "Columns/Tangential load = Force x [N] in N",
+      "Columns/Tangential load y = Force y [N] in N",
       "Columns/Normal load = Force z [N] in N"},
      {}},
     // A length is not yet a way that was slid.

@@ -13,8 +13,8 @@ namespace SlipStep
   /// A part of the way from one row to the next.
   struct PartOfWay
   {
-    dealii::Tensor<1, 2> motion; ///< [mm]
-    double               end;    ///< as a share of the time, to 1
+    dealii::Tensor<1, 2> to;         ///< where it ends, as position() [mm]
+    double               begin, end; ///< shares of the time, from 0 to 1
   };
 
   /// The way that ends at a row, from the row before: straight, but where the
