@@ -44,7 +44,9 @@ namespace SlipStep
     const Case          the_case = read_single_case(line);
     const RunOptions    options  = options_of(the_case, line);
     const SignalGuard   guard;
-    const ResultsFolder results(options.output, line.command);
+    const ResultsFolder results(options.output,
+                                line.command,
+                                the_case.parameters.case_file());
     Progress            progress(options.quiet,
                       the_case.parameters.case_file().stem().string());
     const Calibration   calibration =

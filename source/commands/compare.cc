@@ -314,7 +314,7 @@ namespace SlipStep
     const fs::path output =
       line.output.empty() ? fs::path("output/compare") : fs::path(line.output);
     check_output_folder(output, "--output");
-    const ResultsFolder results(output, line.command);
+    const ResultsFolder results(output, line.command, "");
     remove_earlier_results(output);
     const std::vector<std::string> unknown = unknown_parameters(runs);
     print_warnings(unknown);

@@ -310,7 +310,9 @@ namespace SlipStep
     const Parameters   &parameters = the_case.parameters;
     const RunOptions    options    = options_of(the_case, line);
     const SignalGuard   guard;
-    const ResultsFolder results(options.output, line.command);
+    const ResultsFolder results(options.output,
+                                line.command,
+                                parameters.case_file());
     Progress progress(options.quiet, parameters.case_file().stem().string());
     double   share = 0.;
     DiagnosedCase diagnosed =

@@ -184,7 +184,7 @@ namespace SlipStep
       const ImportProposal proposal = propose_import(file);
       std::string          problem;
       const auto           tests = tests_of(proposal, problem);
-      const ResultsFolder  results(output, line.command);
+      const ResultsFolder  results(output, line.command, file);
       remove_earlier_results(output);
       write_file(map, proposal.text());
       print_warnings(

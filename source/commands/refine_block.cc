@@ -173,7 +173,9 @@ namespace SlipStep
     const auto earlier =
       find_earlier_runs(study, the_case.parameters, line, output);
 
-    const ResultsFolder results(output, line.command);
+    const ResultsFolder results(output,
+                                line.command,
+                                the_case.parameters.case_file());
     remove_earlier_results(output);
     write_used_parameters(the_case.parameters,
                           output,

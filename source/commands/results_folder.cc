@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/checkpoint.h>
 #include <slipstep/commands/results_folder.h>
+#include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
 
 #include <fcntl.h>
@@ -109,6 +110,7 @@ namespace SlipStep
 
   ResultsFolder::ResultsFolder(const fs::path            &name,
                                const std::string         &command,
+                               const fs::path            &case_file,
                                const std::chrono::seconds patience)
     : folder(name)
   {
@@ -123,7 +125,10 @@ namespace SlipStep
                        error.message() + "); give another one with --output");
     try
       {
-        lock(command, patience);
+        lock(command,
+             case_file.empty() ? "" :
+                                 fs::absolute(case_file).lexically_normal(),
+             patience);
       }
     catch (const InputError &refusal)
       {
@@ -138,6 +143,7 @@ namespace SlipStep
   // A process that was just told to stop has some moments for it. Where a file
   // system knows no locks, there are none.
   void ResultsFolder::lock(const std::string         &command,
+                           const fs::path            &case_file,
                            const std::chrono::seconds patience)
   {
     const fs::path file = folder / marker;
@@ -152,8 +158,10 @@ namespace SlipStep
            std::chrono::steady_clock::now() - start < patience)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
 
-    std::string owner, process;
-    std::ifstream(file) >> owner >> process;
+    std::string   owner, process, earlier;
+    std::ifstream text(file);
+    text >> owner >> process >> std::ws;
+    std::getline(text, earlier);
     if (is_taken)
       {
         ::close(descriptor);
@@ -164,7 +172,14 @@ namespace SlipStep
     if (!owner.empty() && owner != command && !is_alone(folder))
       throw InputError(" holds results of slipstep " + owner +
                        ", not of slipstep " + command);
-    std::ofstream(file) << command << ' ' << getpid() << '\n';
+    std::error_code error;
+    if (!earlier.empty() && earlier != case_file &&
+        fs::exists(earlier, error) && !is_alone(folder))
+      print_warnings(
+        {folder.string() + " holds results of " + earlier +
+         ", which those of this case replace; --output keeps both"});
+    std::ofstream(file) << command << ' ' << getpid() << ' '
+                        << case_file.string() << '\n';
   }
 
 

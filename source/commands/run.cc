@@ -141,8 +141,10 @@ namespace SlipStep
             {
               // The last child may still be writing its checkpoint.
               const std::chrono::seconds patience(line.is_child ? 60 : 2);
-              results =
-                std::make_unique<ResultsFolder>(folder, line.command, patience);
+              results = std::make_unique<ResultsFolder>(folder,
+                                                        line.command,
+                                                        line.files.at(0),
+                                                        patience);
             }
           catch (const InputError &error)
             {

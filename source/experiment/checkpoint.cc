@@ -24,7 +24,7 @@ namespace SlipStep
 
     // Grows when an older program could not read what this one writes, or the
     // other way round.
-    constexpr unsigned int manifest_format = 9;
+    constexpr unsigned int manifest_format = 10;
 
     const char *const manifest_name = "manifest.json";
 

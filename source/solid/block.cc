@@ -156,10 +156,44 @@ namespace SlipStep
            inertia.exists() ? error_of_motion(totals) :
                               drive.error(drive_springs, totals.limit_load)});
         error.of_line *= weight;
+        error.at_end = std::max(error.at_end, error_of_wear(totals));
       }
     if (mesh_is_new)
       error.limit_to(control.wanted_error());
     return error;
+  }
+
+
+
+  // Where the approach of a face is held instead of its load, wear takes the
+  // pressure away, which no contact point sees as an error of its own: its load
+  // is given to it. By how much the two orders differ follows from the worn
+  // depths at the ends of the stages; block and contact give way in series.
+  template <int dim>
+  double Block<dim>::error_of_wear(const ContactTotals &totals) const
+  {
+    constexpr double gamma = TwoStages::gamma;
+    if (!wears_at_held_approach() || !(totals.normal_load > 0.))
+      return 0.;
+    const double bend =
+      std::abs((1. - gamma) * worn_depth_at_start +
+               gamma * mean_worn_depth(totals) - worn_depth_of_stage) /
+      (gamma * (1. - gamma));
+    const double stiffness =
+      1. /
+      (parameters.size[parameters.normal_axis()] / parameters.young_modulus +
+       1. / contact.friction_law().normal_stiffness());
+    return stiffness * bend * parameters.nominal_contact_area() /
+           totals.normal_load;
+  }
+
+
+
+  template <int dim>
+  bool Block<dim>::wears_at_held_approach() const
+  {
+    return contact.friction_law().wear_rate() > 0. &&
+           parameters.is_held_along_normal();
   }
 
 
@@ -192,6 +226,8 @@ namespace SlipStep
     predict();
     if (!finish_stage(carry))
       return false;
+    if (wears_at_held_approach())
+      worn_depth_of_stage = mean_worn_depth(contact.totals(communicator));
 
     contact.begin_second_stage();
     stage_solution.sadd(1. - carry, carry, solution);
@@ -544,6 +580,7 @@ namespace SlipStep
   void Block<dim>::accept_step(const ContactTotals &totals, HistoryRow &row)
   {
     contact.commit();
+    worn_depth_at_start = mean_worn_depth(totals);
     external_work += trial_work;
     damped_energy += trial_damped_energy;
     inertia.accept();

@@ -19,6 +19,9 @@ namespace SlipStep
   template <int dim>
   void Block<dim>::check_contact(const ContactTotals &totals)
   {
+    if (parameters.surface.is_curved() &&
+        totals.normal_load >= largest_normal_load)
+      cells_across = contact.cells_across(communicator);
     largest_normal_load = std::max(largest_normal_load, totals.normal_load);
     contact_share       = totals.area / parameters.nominal_contact_area();
     // What a flat face has not reached by then is open as well.
@@ -42,9 +45,7 @@ namespace SlipStep
 
     // Off the plane nothing bears a load to weigh it by.
     if (contact.friction_law().wear_rate() > 0.)
-      worn_depth =
-        std::max(worn_depth,
-                 totals.memories[contact_memory("worn_depth_mm").slot]);
+      worn_depth = std::max(worn_depth, mean_worn_depth(totals));
     if (worn_depth >= parameters.size[parameters.normal_axis()])
       throw RunError(
         "At t = " + rounded_text(control.time(), 6) +
@@ -314,6 +315,24 @@ namespace SlipStep
 
 
 
+  // Under the largest load.
+  template <int dim>
+  std::string Block<dim>::warning_of_few_cells() const
+  {
+    constexpr double few = 6.;
+    if (!(cells_across < few - 0.5))
+      return "";
+    return "only " + std::to_string(std::lround(cells_across)) +
+           (cells_across < 1.5 ? " cell lies" : " cells lie") +
+           " across the contact of the rounded face: pressure and what depends "
+           "on it may be off by tens of per cent; from " +
+           rounded_text(few, 1) +
+           " on it is a picture of it: finer Block/Refinement or "
+           "Block/Subdivisions, or section Block/Adaptivity";
+  }
+
+
+
   template <int dim>
   std::string Block<dim>::warning_of_lean() const
   {
@@ -398,6 +417,7 @@ namespace SlipStep
                                       warning_of_map(strength_error),
                                       warning_of_opening(),
                                       warning_of_lean(),
+                                      warning_of_few_cells(),
                                       warning_of_locking(parameters),
                                       warning_of_wear(),
                                       warning_of_solver(),

@@ -3,6 +3,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <slipstep/utilities/lists.h>
+
 #include <algorithm>
 
 namespace SlipStep
@@ -392,6 +394,37 @@ namespace SlipStep
         }
     worst = Utilities::MPI::max(worst, communicator);
     return {std::max(sums[0] / sums[2], worst / times_more), sums[1] / sums[2]};
+  }
+
+
+
+  template <int dim>
+  double ContactFace<dim>::cells_across(const MPI_Comm &communicator) const
+  {
+    constexpr double none  = std::numeric_limits<double>::infinity();
+    double           least = none;
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      {
+        const unsigned int axis  = parameters.tangential_axis(i);
+        double             begin = none, end = -none, size = 0.;
+        for (const CellFace &cell_face : faces)
+          if (any_of(cell_face.points, [](const QuadraturePoint &point) {
+                return point.point.trial().normal_traction > 0.;
+              }))
+            {
+              const double middle = cell_face.cell->center()[axis];
+              const double extent = cell_face.cell->extent_in_direction(axis);
+              begin               = std::min(begin, middle - extent / 2.);
+              end                 = std::max(end, middle + extent / 2.);
+              size                = std::max(size, extent);
+            }
+        const double length = Utilities::MPI::max(end, communicator) -
+                              Utilities::MPI::min(begin, communicator);
+        size = Utilities::MPI::max(size, communicator);
+        if (size > 0. && length < (1. - 1e-9) * parameters.size[axis])
+          least = std::min(least, length / size);
+      }
+    return least;
   }
 
 

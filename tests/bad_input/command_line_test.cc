@@ -263,6 +263,30 @@ TEST(OutputFolder, WithOtherFilesIsLeftAlone)
 
 
 
+// Two exercises whose cases have one name.
+TEST(OutputFolder, OfAnotherCaseIsTold)
+{
+  const SlipstepProcess process;
+  for (const std::string folder : {"a", "b"})
+    {
+      std::filesystem::create_directory(process.folder() / folder);
+      process.write(folder + "/case.prm", right);
+    }
+  EXPECT_EQ(process.run({"point", "a/case.prm", "--quiet"}).err, "");
+  EXPECT_EQ(process.run({"point", "./a/case.prm", "--quiet"}).err, "");
+  const auto other = process.run({"point", "b/case.prm", "--quiet"});
+  EXPECT_EQ(other.exit_code, 0);
+  EXPECT_NE(other.err.find("holds results of "), std::string::npos);
+  EXPECT_NE(other.err.find("a/case.prm, which those of this case replace"),
+            std::string::npos)
+    << other.err;
+  // Moved away, it cannot be meant.
+  std::filesystem::rename(process.folder() / "b", process.folder() / "c");
+  EXPECT_EQ(process.run({"point", "c/case.prm", "--quiet"}).err, "");
+}
+
+
+
 TEST(Help, GoesToStdoutForEachCommand)
 {
   const SlipstepProcess process;

@@ -136,3 +136,44 @@ TEST(BlockWear, tells_when_little_is_left)
   EXPECT_NE(end(1500.).failure.find("the block is worn through"),
             std::string::npos);
 }
+
+
+
+// The approach of the top is held, so that wear takes the pressure away: with
+// the block and its contact as springs in series of stiffness K,
+// p = K D exp(-k K s).
+TEST(BlockWear, takes_the_pressure_of_a_held_approach)
+{
+  constexpr double approach = 0.01, k = 1e-5; // [mm], [1/MPa]
+  const double     stiffness     = 1. / (5. / 1e7 + 1. / 5714.);
+  const auto       largest_error = [&](const std::string &tolerance) {
+    const auto result = run_block_case<2>(make_parameters(
+      {{"Friction/Effects", "subloading, wear"},
+       {"Friction/wear/Specific rate", "1e-2"},
+       {"Friction/Static coefficient", "0.2"},
+       {"Friction/Normal stiffness", "5714"},
+       {"Block/Dimension", "2"},
+       {"Block/Size", "10 mm, 5 mm"},
+       {"Block/Subdivisions", "2, 2"},
+       {"Block/Young modulus", "1e7 MPa"},
+       {"Block/Poisson ratio", "0"},
+       {"Block/Faces/top", "displacement y -0.01 mm; drive"},
+       {"Time stepping/Tolerance", tolerance},
+       {"Loading/Programme", "hold 1 s; slide 10 mm/s for 50 mm"}}));
+    EXPECT_EQ(result.failure, "");
+    double error = 0.;
+    for (const HistoryRow &row : result.history)
+      if (row.time > 1.)
+        error = std::max(error,
+                         std::abs(row.pressure /
+                                    (stiffness * approach *
+                                     std::exp(-k * stiffness * row.slip)) -
+                                  1.));
+    // Down to 6 % of it.
+    EXPECT_LT(result.history.back().pressure, 0.1 * stiffness * approach);
+    return error;
+  };
+  const double coarse = largest_error("5e-4"), fine = largest_error("5e-5");
+  EXPECT_LT(coarse, 3e-3);
+  EXPECT_LT(fine, 0.3 * coarse);
+}

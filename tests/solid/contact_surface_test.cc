@@ -262,6 +262,31 @@ TEST(Gap, Hertz)
 
 // In full slip every point bears its own strength, also on cells that were
 // refined and merged on the way.
+// A cylinder of 20 mm touches over 2 * 1.1 mm of 10 mm.
+TEST(Gap, AContactOfFewCellsIsTold)
+{
+  const auto warnings = [](const std::string &subdivisions,
+                           const std::string &gap) {
+    return run_block_case<2>(
+             make_parameters(
+               coulomb_law + flat_2d +
+               Settings{{"Contact/Gap", gap},
+                        {"Block/Subdivisions", subdivisions},
+                        {"Block/Faces/top", "pressure programme; drive; flat"},
+                        {"Loading/Programme", "press 5 MPa in 1 s"}}))
+      .summary.warnings;
+  };
+  const auto few = warnings("8, 4", "(x - 5)^2/40");
+  ASSERT_EQ(few.size(), 1u);
+  EXPECT_NE(few[0].find("cells lie across the contact"), std::string::npos)
+    << few[0];
+  EXPECT_TRUE(warnings("64, 16", "(x - 5)^2/40").empty());
+  // All of it touches.
+  EXPECT_TRUE(warnings("4, 2", "1e-6*(x - 5)^2").empty());
+}
+
+
+
 TEST(StrengthMap, HoldsAtEveryPoint)
 {
   const std::string map = "1 - 0.4*(abs(x - 5) < 1.3)";

@@ -22,18 +22,21 @@ namespace SlipStep
 
   /// A folder in which one command of one process writes results, for as long
   /// as this object lives. It holds a file `.slipstep`, locked meanwhile, which
-  /// names command and process. A folder that nothing was written into goes
-  /// again.
+  /// names command, process and case. A folder that nothing was written into
+  /// goes again.
   class ResultsFolder
   {
   public:
-    /// Create the folder with its parents and lock it.
+    /// Create the folder with its parents and lock it. Warns if it holds
+    /// results of another case that is still there.
+    /// @param case_file "" where there is none
     /// @param patience how long to wait for another process that has it
     /// @throws InputError if that fails, if another process keeps it, or if it
     /// holds results of another command
     ResultsFolder(
       const std::filesystem::path &folder,
       const std::string           &command,
+      const std::filesystem::path &case_file,
       const std::chrono::seconds   patience = std::chrono::seconds(2));
 
     ~ResultsFolder();
@@ -42,7 +45,9 @@ namespace SlipStep
     ResultsFolder &operator=(const ResultsFolder &) = delete;
 
   private:
-    void lock(const std::string &command, const std::chrono::seconds patience);
+    void lock(const std::string           &command,
+              const std::filesystem::path &case_file,
+              const std::chrono::seconds   patience);
 
     void release() noexcept;
 

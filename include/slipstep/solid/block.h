@@ -24,6 +24,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -128,7 +129,7 @@ namespace SlipStep
     {
       archive &control &old_step &n_newton_total &n_linear_total &external_work
         &largest_imbalance &largest_normal_load &contact_share &worn_depth
-          &largest_contact_share &opening
+          &worn_depth_at_start &cells_across &largest_contact_share &opening
             .share &steps_since_check &most_cells_wanted &largest_jump
               &mesh_changes &mesh_is_new &tolerance &solver_in_use
                 &n_solver_failures &first_solver_failure &opening
@@ -202,6 +203,8 @@ namespace SlipStep
                           const dealii::Tensor<1, 2> &motion,
                           const double                old_norm);
     StepError error_of_step(const ContactTotals &totals);
+    double    error_of_wear(const ContactTotals &totals) const;
+    bool      wears_at_held_approach() const;
     void      accept_step(const ContactTotals &totals, HistoryRow &row);
 
     // Inertia of the body.
@@ -251,6 +254,7 @@ namespace SlipStep
     std::string              warning_of_penetration() const;
     std::string              warning_of_opening() const;
     std::string              warning_of_lean() const;
+    std::string              warning_of_few_cells() const;
     std::string              warning_of_wear() const;
     std::string              warning_of_solver() const;
     std::vector<std::string> warnings() const;
@@ -361,9 +365,15 @@ namespace SlipStep
     double largest_imbalance   = 0.;
     double largest_normal_load = 0.;
     // By how much the map of the strength is off as the contact points see it.
-    double         strength_error        = 0.;
-    double         contact_share         = 1.;
-    double         worn_depth            = 0.; // mean over the load [mm]
+    double strength_error = 0.;
+    // Of the loaded part of a curved face, under the largest load.
+    double cells_across  = std::numeric_limits<double>::infinity();
+    double contact_share = 1.;
+    // Means over the load [mm]: the largest, when the step begins, and at the
+    // end of its first stage.
+    double         worn_depth            = 0.;
+    double         worn_depth_at_start   = 0.;
+    double         worn_depth_of_stage   = 0.;
     double         largest_contact_share = 0.; // that of a flat face is 1
     OpeningSummary opening;
     // At worst so far: the head's lean as a share of the length of the block,

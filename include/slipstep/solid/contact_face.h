@@ -38,6 +38,12 @@ namespace SlipStep
     std::array<double, ContactState::most_memories> memories{};
   };
 
+  /// Of what effect wear took away, weighted by normal load [mm].
+  inline double mean_worn_depth(const ContactTotals &totals)
+  {
+    return totals.memories[contact_memory("worn_depth_mm").slot];
+  }
+
   /// The face of the block that touches the rigid plane: a contact point with
   /// its history at every quadrature point.
   ///
@@ -118,6 +124,11 @@ namespace SlipStep
     /// a normal load [N] > 0, from where it was in the last update [mm].
     double rigid_approach(const double    normal_load,
                           const MPI_Comm &communicator) const;
+
+    /// Over how many cells the part of the face that bears a load reaches along
+    /// that axis of the plane along which they are fewest, by the last update;
+    /// infinite where it reaches over all of the face, or nothing bears.
+    double cells_across(const MPI_Comm &communicator) const;
 
     void commit();
 
