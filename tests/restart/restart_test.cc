@@ -274,6 +274,8 @@ TEST_F(Restart, KeepsFinishedVariantsOfASweep)
                              "    set Loading/Programme = press 1 MPa in 1 s\n"
                              "  end\n"
                              "  subsection slow\n"
+                             "    set Time stepping/Least steps per statement "
+                             "= 500\n"
                              "  end\n"
                              "end\n");
   {
