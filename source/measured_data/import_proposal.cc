@@ -282,14 +282,18 @@ namespace SlipStep
           }
       }
 
-      // A strip between two tools is pressed on both sides.
-      std::string twin_doubt(const KeyWords &words) const
+      // A strip between two tools is pressed on both sides; and what was wanted
+      // may stand beside what was measured.
+      // @param points of the one that is taken
+      std::string twin_doubt(const KeyWords &words, const int points) const
       {
         if (words.key == "Normal load" || words.key == "Pressure")
           for (std::size_t i = 0; i < values.size(); ++i)
-            if (is_called_normal(proposal.columns[i].name) &&
-                !has_word(proposal.columns[i].name, ordered_words()) &&
-                score(words, i) > 0)
+            if (const int rival = score(words, i);
+                (is_called_normal(proposal.columns[i].name) &&
+                 !has_word(proposal.columns[i].name, ordered_words()) &&
+                 rival > 0) ||
+                rival >= points)
               return "; " + reference(i) +
                      " is called like one, too: which counts, or do both?";
         return "";
@@ -299,6 +303,7 @@ namespace SlipStep
       {
         const std::string &key      = words.key;
         SeenColumn        &seen     = proposal.columns[column];
+        const int          points   = score(words, column);
         seen.taken_as               = key;
         const Dimension   dimension = dimension_of(key);
         const std::string name      = reference(column);
@@ -312,8 +317,9 @@ namespace SlipStep
                                   rounded_text(seen.least, n_digits) + " to " +
                                   rounded_text(seen.most, n_digits);
         const std::string doubt =
-          words.is_along_axis && axis_of(seen.name) != '\0' ? axis_doubt :
-                                                              twin_doubt(words);
+          words.is_along_axis && axis_of(seen.name) != '\0' ?
+            axis_doubt :
+            twin_doubt(words, points);
         if (dimension == Dimension::number)
           {
             const bool may_be_force = seen.name == "f" && seen.unit.empty();

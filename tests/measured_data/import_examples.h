@@ -462,6 +462,12 @@ namespace SlipStep::Testing
      {"Columns/Time = t [s] in s", "Columns/Displacement = x [mm] in mm"},
      {}},
     // Of two axes that which moves, with its friction.
+    {"preload.csv",
+     "t [s],x [mm],Preload [N],Load [N],Friction force [N]\n"
+     "0,0,100,250,1\n1,1,100,250,2\n2,2,100,250,2\n",
+     {"? Columns/Normal load = Preload [N] in N",
+      "Columns/Tangential load = Friction force [N] in N"},
+     {}},
     {"second_axis.txt",
      "T [s]\tFx [N]\tFy [N]\tFz [N]\tX [mm]\tY [um]\n"
      "0\t0.01\t2\t9\t0\t0\n1\t0.02\t2\t9\t0.01\t5000\n"
