@@ -319,9 +319,6 @@ namespace SlipStep
         constexpr std::size_t beside    = 5; // rows
         constexpr double      long_step = 20., slow = 0.05, moves = 0.2;
 
-        const auto way = [&](const std::size_t from, const std::size_t to) {
-          return distance_between(test, from, to);
-        };
         std::vector<double> steps;
         for (std::size_t i = 1; i < test.time.size(); ++i)
           steps.push_back(test.time[i] - test.time[i - 1]);
@@ -329,12 +326,12 @@ namespace SlipStep
         std::size_t  n = 0, first = 0;
         for (std::size_t i = beside + 1; i + beside < test.time.size(); ++i)
           {
-            const double before = way(i - 1 - beside, i - 1);
-            const double after  = way(i, i + beside);
+            const double before = distance_between(test, i - 1 - beside, i - 1);
+            const double after  = distance_between(test, i, i + beside);
             const double speed =
               std::min(before / (test.time[i - 1] - test.time[i - 1 - beside]),
                        after / (test.time[i + beside] - test.time[i]));
-            const double moved = way(i - 1, i);
+            const double moved = distance_between(test, i - 1, i);
             if (steps[i - 1] > long_step * usual &&
                 moved < slow * speed * steps[i - 1] &&
                 moved > moves * std::min(before, after) / beside && n++ == 0)
@@ -344,7 +341,7 @@ namespace SlipStep
           warn(
             "time goes on by " + rounded_text(steps[first - 1], 3) +
               " s within one row while it moves " +
-              rounded_text(way(first - 1, first), 3) +
+              rounded_text(distance_between(test, first - 1, first), 3) +
               " mm, which is read as sliding that slowly: if the clock jumped "
               "or the machine stood still, correct the times or add a row "
               "where it stopped. Such rows: " +
