@@ -276,6 +276,7 @@ namespace SlipStep
           3e3;                           // MPa, as the hardest metals bear
         constexpr double fastest = 2e5;  // mm/s
         constexpr double slowest = 1e-8; // mm/s, a third of a mm a year
+        constexpr double coldest = -100., hottest = 1500.; // degC
 
         const std::vector<double> friction = sizes_of_friction(test);
         const double              usual    = usual_size(friction);
@@ -299,6 +300,12 @@ namespace SlipStep
         if (speed > fastest || (speed > 0. && speed < slowest))
           warn("it moves at " + rounded_text(speed, 3) +
                  " mm/s: are the units of displacement and time right?",
+               0);
+        const double temperature =
+          test.temperature.empty() ? 0. : median(test.temperature);
+        if (temperature < coldest || temperature > hottest)
+          warn("the temperature is " + rounded_text(temperature, 3) +
+                 " degC: is its unit right?",
                0);
       }
 

@@ -321,6 +321,20 @@ TEST(TestRows, ScalesOfNoLaboratoryAreWarnedOf)
   // 5 MPa in kPa.
   expect_warning(slide(0.1, 5e3, 0.3), "the pressure is 5000 MPa");
   expect_warning(slide(1e8, 5., 0.3), "it moves at 1e+08 mm/s");
+  // 20 degrees Celsius read as Kelvin.
+  for (const double temperature : {-253., 20., 293.})
+    {
+      MeasuredTest test = slide(0.1, 5., 0.3);
+      test.temperature.assign(test.time.size(), temperature);
+      std::string all;
+      warn_of_odd_rows(test, [&](const std::string &text, const std::size_t) {
+        all += text;
+      });
+      EXPECT_EQ(all,
+                temperature < 0. ?
+                  "the temperature is -253 degC: is its unit right?" :
+                  "");
+    }
   // At rest nothing is slow, and one open row is no scale.
   EXPECT_TRUE(slide(0., 5., 0.3).warnings.empty());
   std::string rows = "0,0,1e-3,90\n";
