@@ -457,26 +457,38 @@ namespace SlipStep
     void Calibrator::warn_of_few_tests()
     {
       constexpr std::size_t enough = 3; // tests more than parameters
-      constexpr double      gain = 0.01, noticed = 2.;
+      constexpr double      share = 0.01, noticed = 2.;
 
       if (campaign.tests.size() >= best.size() + enough)
         return;
-      std::vector<std::string> wider;
-      for (Eigen::Index i = 0; i < optimum.by_gains.rows(); ++i)
-        {
-          const double times =
-            gain * optimum.by_gains.row(i).norm() / optimum.deviations(i);
-          if (times > noticed)
-            wider.push_back(campaign.fitted[i].path + " " +
-                            rounded_text(times, 2));
-        }
-      if (!wider.empty())
-        result.warnings.push_back(
-          counted(campaign.tests.size(), "test") + " for " +
-          counted(best.size(), "parameter") +
-          " cannot show whether tests differ from one another: if their gains "
-          "do by 1 %, intervals are so many times as wide: " +
-          list_text(wider) + ". Replicates tell.");
+      const auto wider = [&](const Eigen::MatrixXd &moves) {
+        std::vector<std::string> result;
+        for (Eigen::Index i = 0; i < moves.rows(); ++i)
+          {
+            const double times =
+              share * moves.row(i).norm() / optimum.deviations(i);
+            if (times > noticed)
+              result.push_back(campaign.fitted[i].path + " " +
+                               rounded_text(times, 2));
+          }
+        return list_text(result);
+      };
+      const std::string by_gains  = wider(optimum.by_gains);
+      const std::string by_drifts = wider(optimum.by_drifts);
+      if (by_gains.empty() && by_drifts.empty())
+        return;
+      result.warnings.push_back(
+        counted(campaign.tests.size(), "test") + " for " +
+        counted(best.size(), "parameter") +
+        " cannot show whether tests differ from one another: intervals are so "
+        "many times as wide" +
+        (by_gains.empty() ? "" : ", if gains do by 1 %: " + by_gains) +
+        (by_drifts.empty() ?
+           "" :
+           (by_gains.empty() ? "" : ";") +
+             std::string(" if friction drifts by 1 % within each: ") +
+             by_drifts) +
+        ". Replicates tell.");
     }
 
 

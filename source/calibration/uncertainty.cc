@@ -376,6 +376,42 @@ namespace SlipStep
       double freedom  = 0.; ///< how many squares tell of it
     };
 
+    // A column per test: by how much the known parameters move, times R, if its
+    // friction goes up by these shares of itself.
+    template <class Shares>
+    Eigen::MatrixXd
+    pulls(const Campaign &campaign, const Known &known, const Shares &shares)
+    {
+      const Eigen::Index n_tests = campaign.tests.size();
+      Eigen::MatrixXd    result(known.indices.size(), n_tests);
+      Eigen::Index       begin = 0;
+      for (Eigen::Index t = 0; t < n_tests; ++t)
+        {
+          const Eigen::VectorXd change =
+            shares(campaign.tests[t])
+              .cwiseProduct(friction_over_noise(campaign.tests[t]));
+          result.col(t) =
+            known.rows.middleRows(begin, change.size()).transpose() * change;
+          begin += change.size();
+        }
+      return result;
+    }
+
+
+
+    // From nothing in the first row to 1 in the last one, along each axis.
+    Eigen::VectorXd drift_shares(const CampaignTest &test)
+    {
+      const std::vector<double> &time = test.rows.time;
+      const Eigen::ArrayXd       along =
+        (Eigen::Map<const Eigen::ArrayXd>(time.data(), time.size()) -
+         time.front()) /
+        (time.back() - time.front());
+      return along.matrix().replicate(test.axes.size(), 1);
+    }
+
+
+
     // A gain g of its own in every test moves the parameters by G g, and leaves
     // (1 - P) g of itself in the residuals, where rows make gains as well.
     Gains find_gains(const Campaign            &campaign,
@@ -385,7 +421,6 @@ namespace SlipStep
                      Eigen::MatrixXd           &moves)
     {
       const Eigen::Index n_tests = campaign.tests.size();
-      Eigen::MatrixXd    sums(known.indices.size(), n_tests);
       Eigen::VectorXd    left(n_tests), by_rows(n_tests);
       Eigen::Index       begin = 0;
       for (Eigen::Index t = 0; t < n_tests; ++t)
@@ -396,11 +431,12 @@ namespace SlipStep
           by_rows(t)           = squares > 0. ? 1. / squares : 0.;
           left(t) = by_rows(t) * friction.dot(Eigen::Map<const Eigen::VectorXd>(
                                    residuals.data() + begin, friction.size()));
-          sums.col(t) =
-            known.rows.middleRows(begin, friction.size()).transpose() *
-            friction;
           begin += friction.size();
         }
+      const Eigen::MatrixXd sums =
+        pulls(campaign, known, [](const CampaignTest &test) {
+          return Eigen::VectorXd::Ones(test.n_residuals());
+        });
       moves = known.inverse * sums;
       const Eigen::MatrixXd remaining =
         Eigen::MatrixXd::Identity(n_tests, n_tests) -
@@ -427,7 +463,8 @@ namespace SlipStep
       const double       of_rows = std::max(1., result.n_effective - n);
       result.between_tests       = Eigen::VectorXd::Ones(n);
       result.freedom             = Eigen::VectorXd::Constant(n, of_rows);
-      result.by_gains = Eigen::MatrixXd::Zero(n, campaign.tests.size());
+      result.by_gains  = Eigen::MatrixXd::Zero(n, campaign.tests.size());
+      result.by_drifts = result.by_gains;
       const Known known(derivatives, result.R);
       if (known.indices.empty())
         return;
@@ -435,12 +472,15 @@ namespace SlipStep
       const Gains     gains =
         find_gains(campaign, known, residuals, result.inflation, moves);
       result.gain = std::sqrt(gains.variance);
+      const Eigen::MatrixXd drift_moves =
+        known.inverse * pulls(campaign, known, drift_shares);
       const auto left_out =
         leave_out_tests(campaign, known, residuals, result.inflation);
       for (std::size_t k = 0; k < known.indices.size(); ++k)
         {
-          const Eigen::Index i   = known.indices[k];
-          result.by_gains.row(i) = moves.row(k);
+          const Eigen::Index i    = known.indices[k];
+          result.by_gains.row(i)  = moves.row(k);
+          result.by_drifts.row(i) = drift_moves.row(k);
           // Degrees of freedom after Welch and Satterthwaite.
           const double rows =
             result.inflation * known.inverse.row(k).squaredNorm();

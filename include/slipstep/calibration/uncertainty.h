@@ -65,6 +65,8 @@ namespace SlipStep
     /// What a unit of gain of every test (columns) moves x by; 0 where a
     /// direction is unknown.
     Eigen::MatrixXd by_gains;
+    /// The same of a drift, from nothing to a unit in its last row.
+    Eigen::MatrixXd by_drifts;
     /// The standard deviation of gains from test to test, as found.
     double gain = 0.;
 
