@@ -218,6 +218,48 @@ namespace SlipStep
 
 
 
+    // Whether values are whole steps, but for the digits of the file.
+    bool are_steps(const std::vector<double> &values, const double step)
+    {
+      constexpr double digits = 0.01;
+
+      return all_of(values, [&](const double value) {
+        return std::abs(value / step - std::round(value / step)) < digits;
+      });
+    }
+
+
+
+    // A record that hardly leaves a step shows neither step nor noise: it was
+    // rounded like those of the campaign that do.
+    void find_rounding(std::vector<CampaignTest> &tests)
+    {
+      std::set<double> known;
+      for (const CampaignTest &test : tests)
+        for (const auto *channel : {&test.rows.friction, &test.rows.friction_y})
+          known.insert(coarse_step(*channel));
+      known.erase(0.);
+      for (CampaignTest &test : tests)
+        for (const auto *channel : {&test.rows.friction, &test.rows.friction_y})
+          {
+            double step = coarse_step(*channel);
+            for (auto other = known.begin();
+                 step == 0. && other != known.end() && !channel->empty();
+                 ++other)
+              if (are_steps(*channel, *other))
+                step = *other;
+            if (step == 0. || test.noise_is_stated)
+              continue;
+            for (FrictionAxis &axis : test.axes)
+              axis.noise = std::max(axis.noise, step / std::sqrt(12.));
+            const Rounding rounding = rounding_to(step, *channel);
+            if (rounding.deviation() > test.rounding.deviation())
+              test.rounding = rounding;
+          }
+    }
+
+
+
     // Replicates measured by two sensors are compared along the same axes,
     // those of the most rows.
     void share_axes_of_conditions(std::vector<CampaignTest> &tests)
@@ -403,6 +445,7 @@ namespace SlipStep
             prepare(test, parameters, rounding, &leaders.at(leader).replay));
       }
     share_axes_of_conditions(tests);
+    find_rounding(tests);
     keep_noise_visible(tests);
     return tests;
   }

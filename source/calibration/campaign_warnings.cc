@@ -158,6 +158,26 @@ namespace SlipStep
 
 
 
+    std::string warning_of_rounding(const std::vector<CampaignTest> &tests)
+    {
+      std::size_t n    = 0;
+      double      step = 0.;
+      for (const CampaignTest &test : tests)
+        {
+          n += test.rounding.kept > 0.;
+          step = std::max(step, test.rounding.step);
+        }
+      return n == 0 ?
+               "" :
+               "The friction of " + std::to_string(n) +
+                 " test(s) is rounded to steps of " + short_text(step, 2) +
+                 ", coarser than its scatter: means of rows are off by "
+                 "up to half of that, and what it may have made is no "
+                 "evidence. Export more digits";
+    }
+
+
+
     // Results are told by the names of tests.
     std::string warning_of_names(const std::vector<CampaignTest> &tests)
     {
@@ -202,6 +222,7 @@ namespace SlipStep
           warning_of_lead_in(parameters, tests),
           warning_of_stick_slip(parameters, tests),
           warning_of_names(tests),
+          warning_of_rounding(tests),
           depends_on_position(parameters) ? warning_of_positions(tests) :
                                             std::string()})
       if (!words.empty())

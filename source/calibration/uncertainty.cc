@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace SlipStep
 {
@@ -200,6 +201,19 @@ namespace SlipStep
 
 
 
+    // How many rows of rounded friction are off together: those at one level,
+    // by the share of the error that means keep.
+    double rows_rounded_alike(const CampaignTest &test)
+    {
+      const std::vector<double> &friction = test.rows.friction;
+      const double               n_levels =
+        std::set<double>(friction.begin(), friction.end()).size();
+      return 1. + std::pow(test.rounding.kept, 2) *
+                    (friction.size() / n_levels - 1.);
+    }
+
+
+
     // As residuals are: first one axis, then the other.
     Eigen::VectorXd friction_over_noise(const CampaignTest &test)
     {
@@ -239,13 +253,18 @@ namespace SlipStep
           for (const double *end = part + test.n_residuals(); part != end;
                part += n_rows)
             {
+              // Second differences of few steps are none, or as large as one.
+              const bool   is_rounded = test.rounding.kept > 0.;
               const double length =
-                std::max(correlation_length(part, n_rows), *least++);
+                std::max(correlation_length(part, n_rows),
+                         is_rounded ? rows_rounded_alike(test) : *least);
+              ++least;
               const double squares =
                 std::inner_product(part, part + n_rows, part, 0.);
               sum += squares;
               together += length * squares;
-              result.n_effective += n_rows / length;
+              // How much rounding errs is known without any rows.
+              result.n_effective += is_rounded ? n_rows : n_rows / length;
               result.lengths.back() = std::max(result.lengths.back(), length);
             }
         }

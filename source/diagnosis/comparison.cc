@@ -111,9 +111,10 @@ namespace SlipStep
     for (const CampaignTest &test : campaign_tests)
       {
         ComparedTest compared;
-        compared.borders = equal_parts(test.rows.time.size(), most_rows);
-        compared.level   = typical_friction(test.rows);
-        compared.begin   = n;
+        compared.borders  = equal_parts(test.rows.time.size(), most_rows);
+        compared.level    = typical_friction(test.rows);
+        compared.begin    = n;
+        compared.rounding = test.rounding;
         for (const FrictionAxis &axis : test.axes)
           compared.series.push_back(series_of(compared, test, axis));
         for (std::size_t s = 0; s < test.hum.size(); ++s)

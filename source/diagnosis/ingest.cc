@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/hum_of_tests.h>
-#include <slipstep/diagnosis/motion_noise.h>
+#include <slipstep/diagnosis/rounding_noise.h>
 #include <slipstep/diagnosis/outlier.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
@@ -160,7 +160,7 @@ namespace SlipStep
 
       void keep_near();
 
-      void weigh_motion(const Eigen::VectorXd &noise);
+      void weigh_rounding(const Eigen::VectorXd &noise);
 
       double judge_rows(const Eigen::VectorXd &difference);
 
@@ -181,7 +181,7 @@ namespace SlipStep
       Ingested         result;
       /// By which the noise of every number is multiplied for what rounded
       /// positions do to it.
-      Eigen::VectorXd motion_factors;
+      Eigen::VectorXd rounding_factors;
       /// Whether the base has time steps for its own parameters.
       bool has_own_steps = true;
     };
@@ -238,7 +238,7 @@ namespace SlipStep
       Workspace &workspace          = *result.workspace;
       workspace.comparison.deadline = workspace.deadline;
       workspace.comparison.set_noise(stated, workspace.comparison.measured);
-      motion_factors.setOnes(workspace.comparison.n_rows());
+      rounding_factors.setOnes(workspace.comparison.n_rows());
       result.base = make_coarse_model(start, {}, {}, tests);
       for (std::size_t i = 0; i < result.base.scaled.size(); ++i)
         result.base.scaled[i] = result.base.campaign->scaled_start()[i];
@@ -263,7 +263,7 @@ namespace SlipStep
         {
           const CampaignTest &test     = result.workspace->tests[t];
           const ComparedTest &compared = comparison.tests[t];
-          if (test.noise_is_stated)
+          if (test.noise_is_stated || test.rounding.kept > 0.)
             continue;
           const double *begin = difference.data() + compared.begin;
           for (std::size_t s = 0; s < test.axes.size(); ++s)
@@ -302,7 +302,8 @@ namespace SlipStep
       for (std::size_t t = 0; t < comparison.tests.size(); ++t)
         {
           ComparedTest &test = comparison.tests[t];
-          if (result.workspace->tests[t].noise_is_stated)
+          if (result.workspace->tests[t].noise_is_stated ||
+              test.rounding.kept > 0.)
             continue;
           Eigen::Index row = test.begin;
           for (Series &series : test.series)
@@ -323,9 +324,9 @@ namespace SlipStep
 
     // Add what rounded positions do to the noise of the rows, in the place of
     // what was added before.
-    void Preparer::weigh_motion(const Eigen::VectorXd &noise)
+    void Preparer::weigh_rounding(const Eigen::VectorXd &noise)
     {
-      double      *factor = motion_factors.data();
+      double      *factor = rounding_factors.data();
       Eigen::Index row    = 0;
       for (ComparedTest &test : result.workspace->comparison.tests)
         for (Series &series : test.series)
@@ -353,11 +354,11 @@ namespace SlipStep
           if (pass == 2)
             break;
           const Eigen::VectorXd difference = comparison.difference(result.base);
-          weigh_motion(Eigen::VectorXd::Zero(comparison.n_rows()));
+          weigh_rounding(Eigen::VectorXd::Zero(comparison.n_rows()));
           const double row_freedom = judge_rows(difference);
-          weigh_motion(motion_noise(comparison,
-                                    workspace.tests,
-                                    comparison.measured + difference));
+          weigh_rounding(rounding_noise(comparison,
+                                        workspace.tests,
+                                        comparison.measured + difference));
           const auto estimate = [&]() {
             workspace.noise =
               estimate_noise(comparison.contrasts(difference), stated);

@@ -114,24 +114,6 @@ namespace SlipStep
         "Calibrated, the starting model is farther from the tests than "
         "before: the stated noise lets whole tests be off, or its parameters "
         "have to start elsewhere.");
-    std::size_t n_rounded = 0;
-    double      step      = 0.;
-    for (const CampaignTest &test : workspace.tests)
-      {
-        // Else it scatters enough for means to be right.
-        const FrictionAxis &axis = test.axes[0];
-        const double        own  = coarse_step(test.friction(axis));
-        if (!(own > axis.noise))
-          continue;
-        ++n_rounded;
-        step = std::max(step, own);
-      }
-    if (n_rounded > 0)
-      ingested.warnings.push_back(
-        "The friction of " + std::to_string(n_rounded) +
-        " test(s) is rounded to steps of " + short_text(step, 2) +
-        ", coarser than its scatter: rounding is no noise, and small "
-        "differences cannot be trusted. Export more digits.");
     warn_of_hum(ingested);
     warn_of_rows(ingested);
     warn_of_temperatures(ingested);

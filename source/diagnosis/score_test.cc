@@ -6,10 +6,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
+#include <utility>
 
 namespace SlipStep
 {
+  namespace
+  {
+    // Rounding errs alike wherever friction is alike, as in replicates, and
+    // nobody knows where within a step it is.
+    Eigen::VectorXd errors_of_rounding(const Comparison &comparison,
+                                       std::mt19937_64  &random)
+    {
+      Eigen::VectorXd result = Eigen::VectorXd::Zero(comparison.n_rows());
+      std::uniform_real_distribution<double>                within(-0.5, 0.5);
+      std::map<std::pair<std::size_t, std::size_t>, double> places;
+      for (const ComparedTest &test : comparison.tests)
+        for (std::size_t s = 0; s < test.series.size(); ++s)
+          {
+            if (test.rounding.kept == 0.)
+              continue;
+            const auto found = places.try_emplace({test.condition, s});
+            if (found.second)
+              found.first->second = within(random);
+            double *row = &result(test.begin + s * test.n_bins());
+            for (const double friction : test.series[s].friction)
+              {
+                const double steps =
+                  friction / test.rounding.step + found.first->second;
+                *row++ += test.rounding.kept * test.rounding.step *
+                          (std::round(steps) - steps);
+              }
+          }
+      return result;
+    }
+  } // namespace
+
+
+
   RowMatrix draw_noise(const Comparison    &comparison,
                        const NoiseEstimate &estimate,
                        const unsigned int   n_draws,
@@ -23,6 +58,7 @@ namespace SlipStep
       for (const ComparedTest &test : comparison.tests)
         draws.block(test.begin, draw, test.size, 1) =
           sample_noise(test.series, test.level, noise, random);
+      draws.col(draw) += errors_of_rounding(comparison, random);
     });
     return draws;
   }

@@ -293,6 +293,36 @@ namespace SlipStep
 
 
 
+  double Rounding::deviation() const
+  {
+    return kept * step / std::sqrt(12.);
+  }
+
+
+
+  Rounding rounding_to(const double step, const std::vector<double> &values)
+  {
+    constexpr double farthest = 4., least = 0.01;
+
+    // Of what scatters by s, rounding makes s^2 + step^2 / 12.
+    double squares = 0., n = 0.;
+    for (std::size_t i = 1; i + 1 < values.size(); ++i)
+      {
+        const double bend = values[i - 1] - 2. * values[i] + values[i + 1];
+        if (std::abs(bend) > farthest * step)
+          continue;
+        squares += bend * bend / 6.;
+        n += 1.;
+      }
+    const double variance =
+      std::max(0., squares / std::max(n, 1.) - step * step / 12.);
+    const double kept = std::exp(-2. * std::pow(dealii::numbers::PI, 2) *
+                                 variance / (step * step));
+    return kept > least ? Rounding{step, kept} : Rounding{};
+  }
+
+
+
   double noise_of_friction(const std::vector<double> &friction,
                            const MeasuredTest        &test)
   {

@@ -214,6 +214,42 @@ TEST_F(IntervalsCover, TheTruthWhereGainsDiffer)
 
 
 
+// Friction recorded far more coarsely than its noise: rows at one
+// level err alike, but by how much is known, and intervals end.
+TEST_F(IntervalsCover, TheTruthWhereFrictionIsRounded)
+{
+  constexpr double step  = 0.002;
+  const Parameters truth = calibration_case(paper);
+  const auto       fitted =
+    fitting({{"Calibration/Parameters",
+              "Friction/Static coefficient from 0.02 to 0.5; "
+              "Friction/softening/Kinetic coefficient from 0.02 to 0.5; "
+              "Friction/softening/Rate from 0.01 to 10"},
+             {"Calibration/Starts", "1"}});
+  unsigned int n_covered = 0, n_open = 0;
+  for (unsigned int seed = 1; seed <= 20; ++seed)
+    {
+      std::mt19937 random(seed);
+      MeasuredTest test =
+        planted_test(truth, 0.1, 20. + seed, 120, 5e-4, random);
+      for (double &friction : test.friction)
+        friction = step * std::round(friction / step);
+      std::filesystem::create_directories(folder.path());
+      write_measured_test(folder.path() / "rounded.csv", test);
+      for (const FittedParameter &found : calibrate(fitted).parameters)
+        {
+          const double value = truth_of(found.parameter.path);
+          n_covered += found.lower <= value && value <= found.upper;
+          n_open += found.is_lower_open || found.is_upper_open;
+        }
+    }
+  RecordProperty("covered", n_covered);
+  EXPECT_GE(n_covered, 55u);
+  EXPECT_LE(n_open, 3u);
+}
+
+
+
 // Of a constant friction the tests are means, which weigh what their rows
 // scatter: the interval is about that of Student's t of these, beside a
 // stiffness of which no test says anything.

@@ -129,6 +129,38 @@ TEST(CalibrationWarnings, FewRowsDoNotOutweighOthers)
 
 
 
+// Of friction that stays within a step neither step nor noise are seen: it was
+// rounded like that of the others, and tells no more.
+TEST(CalibrationWarnings, RoundedFrictionDoesNotOutweighOthers)
+{
+  const TemporaryFolder            folder;
+  std::mt19937_64                  random(1);
+  std::normal_distribution<double> noise(0., 1e-3);
+  for (unsigned int number = 0; number < 3; ++number)
+    {
+      MeasuredTest test;
+      for (unsigned int i = 0; i < 200; ++i)
+        {
+          const double friction =
+            0.13 + (number == 2 ? 0.1 * noise(random) :
+                                  noise(random) + 0.02 * std::exp(-0.02 * i));
+          test.time.push_back(i);
+          test.displacement.push_back(i);
+          test.pressure.push_back(5.8);
+          test.friction.push_back(0.005 * std::round(friction / 0.005));
+        }
+      write_measured_test(folder.path() / (std::to_string(number) + ".csv"),
+                          test);
+    }
+  for (const CampaignTest &test : Campaign(one_coefficient(folder)).tests)
+    {
+      EXPECT_GE(test.axes[0].noise, 0.999 * 0.005 / std::sqrt(12.));
+      EXPECT_NEAR(test.rounding.step, 0.005, 1e-9);
+    }
+}
+
+
+
 // An effect that counts positions from where a test begins is told of tests
 // that begin elsewhere; others do not mind.
 TEST(CalibrationWarnings, TestsThatBeginElsewhereAreTold)

@@ -192,18 +192,29 @@ TEST(TestRows, NoiseIsMeasuredUnderASignal)
 {
   std::mt19937                     random(2);
   std::normal_distribution<double> noise(0., 0.003);
-  std::vector<double>              values, rounded;
+  std::vector<double>              values, rounded, rising;
+  const auto                       round = [](const double value) {
+    return 0.01 * std::round(value / 0.01);
+  };
   for (int i = 0; i < 5000; ++i)
     {
       const double signal = 0.1 + 0.05 * std::exp(-i / 800.);
       values.push_back(signal + noise(random));
-      rounded.push_back(0.01 * std::round(values.back() / 0.01));
+      rounded.push_back(round(values.back()));
+      rising.push_back(round(0.1 + 1e-5 * i + noise(random)));
     }
   EXPECT_NEAR(noise_level(values), 0.003, 0.0002);
   EXPECT_NEAR(noise_level(rounded), 0.01 / std::sqrt(12.), 1e-6);
   EXPECT_EQ(noise_level({1., 1., 1.}), 0.);
   EXPECT_NEAR(coarse_step(rounded), 0.01, 1e-12);
   EXPECT_EQ(coarse_step(values), 0.);
+  // By 0.3 steps they scatter too little for means to be right: 17 % of what
+  // rounding does to them by itself is left, all of it without any scatter.
+  const Rounding rounding = rounding_to(0.01, rising);
+  EXPECT_EQ(rounding.step, 0.01);
+  EXPECT_NEAR(rounding.kept, std::exp(-2. * std::pow(M_PI * 0.3, 2)), 0.05);
+  EXPECT_EQ(rounding_to(0.01, std::vector<double>(100, 0.13)).kept, 1.);
+  EXPECT_EQ(rounding_to(0.002, values).step, 0.);
   // Ramps and jumps between constants are no noise.
   std::vector<double> clean(1000, 5.);
   for (unsigned int i = 100; i < 1000; ++i)

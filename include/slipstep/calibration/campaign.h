@@ -9,6 +9,7 @@
 #include <slipstep/friction/law.h>
 #include <slipstep/measured_data/friction_axes.h>
 #include <slipstep/measured_data/mains_hum.h>
+#include <slipstep/measured_data/test_rows.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -29,7 +30,8 @@ namespace SlipStep
     /// Leads the contact point; with the fewer rows that resample() leaves.
     Replay replay;
     /// To which its positions were rounded, coarsely [mm]; 0 if they were not.
-    double motion_step = 0.;
+    double   motion_step = 0.;
+    Rounding rounding; ///< of its friction
     /// The hum of the mains in the friction of each axis, taken off where it
     /// can be told; empty without any.
     std::vector<Hum> hum = {};

@@ -26,6 +26,7 @@ namespace SlipStep
     Eigen::Index             size  = 0; ///< all axes
     /// Tests of the same number are replicates.
     std::size_t condition = 0;
+    Rounding    rounding; ///< of friction
 
     std::size_t n_bins() const
     {

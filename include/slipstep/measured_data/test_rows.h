@@ -30,6 +30,22 @@ namespace SlipStep
   /// of fewer than four values, 0.
   double coarse_step(const std::vector<double> &values);
 
+  /// To what a series was rounded.
+  struct Rounding
+  {
+    double step = 0.; ///< 0 if it scatters enough for means to be right
+    /// Of the error of rounding the share that means of many rows keep:
+    /// exp(-2 pi^2 s^2 / step^2) where they scatter by s within the steps, as
+    /// in the first term of its Fourier series over the value.
+    double kept = 0.;
+
+    /// Standard deviation of what means are off by.
+    double deviation() const;
+  };
+
+  /// @param step to which the series was rounded, as of coarse_step()
+  Rounding rounding_to(const double step, const std::vector<double> &values);
+
   /// The same as noise_level() of friction along an axis, and not less than
   /// that of a coarse_step(): what hardly ever goes to the next step seems to
   /// have none.

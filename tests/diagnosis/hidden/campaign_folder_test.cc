@@ -442,6 +442,23 @@ TEST_F(CampaignFolder, IsNotLedByNoiseOfSensors)
 
 
 
+// Friction rounded to five times its noise: means of rows are as wrong as each
+// of them, in all replicates alike.
+TEST_F(CampaignFolder, HasNoGapThatRoundingMakes)
+{
+  plant(CampaignClass::none, 3);
+  rewrite([](const std::string &text) {
+    return with_friction(
+      [](const double friction) {
+        return 0.007 * std::round(friction / 0.007);
+      },
+      text);
+  });
+  EXPECT_EQ(name_of(judged().verdict), name_of(Verdict::no_gap));
+}
+
+
+
 TEST_F(CampaignFolder, FindsAnEffectInNoiseOfSensors)
 {
   plant(CampaignClass::one, 9, "pressure");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/diagnosis/motion_noise.h>
+#include <slipstep/diagnosis/rounding_noise.h>
 
 #include <gtest/gtest.h>
 
@@ -35,13 +35,13 @@ namespace
 // On the flank slope times q over sqrt(12), and as little for all eleven rows
 // within q as for one; none in steady sliding and at rest, where a place more
 // or less changes nothing.
-TEST(MotionNoise, IsThatOfTheFlanks)
+TEST(RoundingNoise, IsThatOfTheFlanks)
 {
   const std::vector<CampaignTest> tests = {flank_and_rest(q),
                                            flank_and_rest(0.)};
   const Comparison                comparison(tests);
   const Eigen::VectorXd           noise =
-    motion_noise(comparison, tests, comparison.measured);
+    rounding_noise(comparison, tests, comparison.measured);
   ASSERT_EQ(noise.size(), 400);
   const double on_flank = slope * q * std::sqrt(11. / 12.);
   for (unsigned int i = 7; i < 15; ++i)
@@ -55,13 +55,13 @@ TEST(MotionNoise, IsThatOfTheFlanks)
 
 
 // Rows twice as far from each other as a step: half a step to either side.
-TEST(MotionNoise, IsSeenBetweenRowsThatAreFarFromEachOther)
+TEST(RoundingNoise, IsSeenBetweenRowsThatAreFarFromEachOther)
 {
   const double                    step  = 0.5 * row_step;
   const std::vector<CampaignTest> tests = {flank_and_rest(step)};
   const Comparison                comparison(tests);
   const Eigen::VectorXd           noise =
-    motion_noise(comparison, tests, comparison.measured);
+    rounding_noise(comparison, tests, comparison.measured);
   for (unsigned int i = 1; i < 20; ++i)
     EXPECT_NEAR(noise(i), slope * step / std::sqrt(12.), 1e-12) << i;
   EXPECT_EQ(noise.tail(200 - 22).norm(), 0.);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/diagnosis/motion_noise.h>
+#include <slipstep/diagnosis/rounding_noise.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,24 +62,27 @@ namespace SlipStep
           unsigned int n = 1;
           for (std::size_t j = begin + 1; j < end; ++j)
             n += way[j] > way[j - 1];
-          result[i] = (most - least) * std::sqrt(n / 12.);
+          result[i] =
+            std::hypot(result[i], (most - least) * std::sqrt(n / 12.));
         }
     }
   } // namespace
 
 
 
-  Eigen::VectorXd motion_noise(const Comparison                &comparison,
-                               const std::vector<CampaignTest> &tests,
-                               const Eigen::VectorXd           &friction)
+  Eigen::VectorXd rounding_noise(const Comparison                &comparison,
+                                 const std::vector<CampaignTest> &tests,
+                                 const Eigen::VectorXd           &friction)
   {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(comparison.n_rows());
     for (std::size_t t = 0; t < tests.size(); ++t)
       {
+        const ComparedTest &compared = comparison.tests[t];
+        result.segment(compared.begin, compared.size)
+          .setConstant(compared.rounding.deviation());
         if (tests[t].motion_step == 0.)
           continue;
-        const ComparedTest       &compared = comparison.tests[t];
-        const std::vector<double> way      = way_of(compared, tests[t].rows);
+        const std::vector<double> way = way_of(compared, tests[t].rows);
         for (std::size_t s = 0; s < compared.series.size(); ++s)
           {
             const Eigen::Index begin = compared.begin + s * compared.n_bins();
