@@ -251,7 +251,12 @@ namespace SlipStep
     {
       workspace.range.track_wave =
         clear_track_wave(workspace, judgement.base).wavelength;
-      judgement.view      = score_candidates(workspace, judgement.base);
+      judgement.view = score_candidates(workspace, judgement.base);
+      // What was not scored would have been seen, or was in the gap.
+      workspace.was_late =
+        workspace.was_late ||
+        any_of(judgement.view.candidates,
+               [](const CandidateView &seen) { return seen.is_late; });
       judgement.gap       = test_gap(workspace, judgement.base, judgement.view);
       judgement.remainder = judgement.gap;
       judgement.found.model = judgement.base;

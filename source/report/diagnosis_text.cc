@@ -169,7 +169,12 @@ namespace SlipStep
           case Verdict::not_testable:
             return "these tests cannot tell whether anything is missing: " +
                    gap_words(diagnosis) + chance +
-                   ", and no effect of the catalogue would have been seen";
+                   (any_of(diagnosis.candidates,
+                           [](const CandidateResult &candidate) {
+                             return candidate.standing == Standing::not_tried;
+                           }) ?
+                      ", and not all effects of the catalogue were looked at" :
+                      ", and no effect of the catalogue would have been seen");
         }
       return "";
     }

@@ -582,3 +582,16 @@ TEST_F(CampaignFolder, HasNoNameBeforeItIsProven)
   EXPECT_TRUE(workspace.was_late);
   EXPECT_FALSE(half_way.found.gains.empty());
 }
+
+
+
+// Where no gap is seen, either.
+TEST_F(CampaignFolder, SaysThatTimeIsOverWithoutAGap)
+{
+  plant(CampaignClass::none, 3);
+  ingested                     = ingest(parameters, {});
+  ingested.workspace->deadline = std::chrono::steady_clock::now();
+  const Judgement judgement    = judge(*ingested.workspace, ingested.base);
+  EXPECT_NE(name_of(judgement.verdict), name_of(Verdict::unnamed));
+  EXPECT_TRUE(ingested.workspace->was_late);
+}
