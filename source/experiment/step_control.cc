@@ -69,9 +69,10 @@ namespace SlipStep
       equal_steps_key,
       "0",
       dealii::Patterns::Integer(0, 1000000),
-      "Number of equal steps of each statement of the programme, whatever error "
-      "they make: for convergence studies. The keys above are not used then. 0: "
-      "steps are chosen by the tolerance.");
+      "Number of equal steps of each statement of the programme, and from row "
+      "to row of a 'follow', whatever error they make: for convergence studies. "
+      "The keys above are not used then. 0: steps are chosen by the "
+      "tolerance.");
   }
 
 
@@ -159,14 +160,19 @@ namespace SlipStep
     first_of_segment = true;
     if (is_finished())
       return;
+    const Segment &now = programme.segments()[segment];
     if (!is_first_of_statement())
-      return plan(full_step);
+      {
+        if (equal_steps > 0)
+          full_step = largest_step =
+            (now.end_time - now.start_time) / equal_steps;
+        return plan(full_step);
+      }
 
-    const Segment &now      = programme.segments()[segment];
-    const double   speed    = now.end.velocity.norm();
-    const double   pressure = std::max(now.start.pressure, now.end.pressure);
-    double         end_of_statement = now.end_time;
-    rows_of_statement               = 0;
+    const double speed    = now.end.velocity.norm();
+    const double pressure = std::max(now.start.pressure, now.end.pressure);
+    double       end_of_statement = now.end_time;
+    rows_of_statement             = 0;
     for (std::size_t i = segment;
          i < programme.segments().size() &&
          programme.segments()[i].statement == now.statement;
@@ -176,9 +182,11 @@ namespace SlipStep
         ++rows_of_statement;
       }
     const double duration = end_of_statement - now.start_time;
-    largest_step  = duration / (equal_steps > 0 ? equal_steps : least_steps);
-    smallest_step = least_step * duration;
-    steps_of_statement = 0;
+    largest_step          = equal_steps > 0 ?
+                              (now.end_time - now.start_time) / equal_steps :
+                              duration / least_steps;
+    smallest_step         = least_step * duration;
+    steps_of_statement    = 0;
 
     double wanted = largest_step;
     if (equal_steps == 0 && speed > 0. && pressure > 0.)

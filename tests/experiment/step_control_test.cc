@@ -78,6 +78,26 @@ TEST(StepControl, AllowsMoreStepsToATestOfManyRows)
 
 
 
+// Of equal steps a test has so many from row to row, however far rows are from
+// each other: with one to a row every study would repeat the same run.
+TEST(StepControl, HasEqualStepsFromRowToRow)
+{
+  const auto file = test_folder() / "followed.csv";
+  std::ofstream(file) << "time_s,displacement_mm,pressure_MPa,friction\n"
+                         "0,0,5,0\n1,1,5,0\n3,0,5,0\n";
+  std::vector<double> times;
+  for (const HistoryRow &row : point_history(
+         point_parameters({{"Loading/Programme", "follow " + file.string()},
+                           {"Time stepping/Equal steps per statement", "4"}})))
+    times.push_back(row.time);
+  const std::vector<double> expected = {0.25, 0.5, 0.75, 1., 1.5, 2., 2.5, 3.};
+  ASSERT_EQ(times.size(), expected.size());
+  for (std::size_t i = 0; i < times.size(); ++i)
+    EXPECT_NEAR(times[i], expected[i], 1e-12);
+}
+
+
+
 // A rest that relaxes in one of few equal steps ends far below the strength.
 TEST(StepControl, WarnsOfStepsThatAreFarTooLong)
 {

@@ -24,7 +24,7 @@ namespace SlipStep
   /// are taken from a fixed series of numbers (ten per decade), so that
   /// round-off cannot change them.
   ///
-  /// Alternatively every statement has a stated number of equal steps, whatever
+  /// Alternatively every segment has a stated number of equal steps, whatever
   /// the error: for studies of convergence.
   class StepControl
   {
