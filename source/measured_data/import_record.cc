@@ -255,6 +255,22 @@ namespace SlipStep
                                   std::vector<double>();
       }
 
+      // Of a load, an area and a pressure two are enough.
+      void
+      check_area(const double load, const double area, const double pressure)
+      {
+        constexpr double alike = 0.05;
+
+        if (std::abs(load / area - pressure) > alike * std::abs(pressure))
+          map.reject("Constants/Area",
+                     "the normal load of " + rounded_text(load, 4) +
+                       " N over this area is " + rounded_text(load / area, 4) +
+                       " MPa, but the pressure is " +
+                       rounded_text(pressure, 4) +
+                       " MPa: give two of the three");
+        notes["area"] = exact_text(area) + " mm^2";
+      }
+
       std::vector<double> pressure()
       {
         const auto given =
@@ -264,10 +280,15 @@ namespace SlipStep
         if (columns.has("Pressure") && given.has_value())
           map.reject("Columns/Pressure",
                      "give either this column or Constants/Pressure");
-        if (columns.has("Pressure"))
-          return values("Pressure");
-        if (given.has_value())
-          return std::vector<double>(selected.size(), *given);
+        if (columns.has("Pressure") || given.has_value())
+          {
+            const std::vector<double> result =
+              given.has_value() ? std::vector<double>(selected.size(), *given) :
+                                  values("Pressure");
+            if (!load.empty() && area.has_value())
+              check_area(median(load), *area, median(result));
+            return result;
+          }
         if (load.empty() || !area.has_value())
           map.reject(load.empty() ? "Columns/Pressure" : "Constants/Area",
                      load.empty() ?

@@ -184,6 +184,7 @@ TEST(Import, MistakesInTheMapAreNamed)
          {"Constants/Pressure", "5", "the unit is missing"},
          {"Constants/Pressure", "-5 MPa", "must be positive"},
          {"Columns/Tangential load", "column 3 in N", "either this column or"},
+         {"Constants/Area", "4 mm^2", "is 2.5 MPa, but the pressure is 5 MPa"},
          {"Selection/Begin", "7 s", "0 of 2 rows"}})
     {
       auto settings = single;
@@ -194,6 +195,8 @@ TEST(Import, MistakesInTheMapAreNamed)
                                     }),
                      settings.end());
       settings.emplace_back(path, value);
+      if (path == "Constants/Area")
+        settings.emplace_back("Constants/Normal load", "10 N");
       const std::string text = message(map_of(settings), raw);
       EXPECT_TRUE(contains(text, words)) << path << ": " << text;
     }
