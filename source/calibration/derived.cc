@@ -95,7 +95,8 @@ namespace SlipStep
         if (text.empty())
           continue;
         const std::size_t sign = text.find('=');
-        if (sign == std::string::npos)
+        if (sign == std::string::npos ||
+            dealii::Utilities::trim(text.substr(0, sign)).empty())
           throw InputError(parameters.origin(key) + ": \"" + text +
                            "\": write it as: name = formula");
         Derived derived;

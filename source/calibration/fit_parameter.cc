@@ -136,10 +136,12 @@ namespace SlipStep
     {
       // At the end, or before the start.
       std::string scale;
-      const auto  take_scale = [&scale](std::string &text) {
+      const auto  take_scale = [&](std::string &text) {
         for (const std::string word : {"log", "linear"})
           if (boost::algorithm::iends_with(text, " " + word))
             {
+              if (!scale.empty())
+                reject("one scale: log or linear");
               scale = word;
               text  = boost::algorithm::trim_copy(
                 text.substr(0, text.size() - word.size()));

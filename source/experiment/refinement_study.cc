@@ -220,10 +220,16 @@ namespace SlipStep
     StudyRun time_reference_of(const Parameters                 &parameters,
                                const std::vector<StudySequence> &sequences)
     {
+      const std::string key = section + "Time reference";
       if (n_runs(sequences, StudySequence::Kind::time_step) == 0)
-        return {};
+        {
+          if (parameters.is_set(key))
+            parameters.reject(key,
+                              "there are no " + section +
+                                "Time steps that it could be compared with");
+          return {};
+        }
       const StudySequence &steps = sequences.back();
-      const std::string    key   = section + "Time reference";
       if (parameters.text(key) == "Richardson")
         {
           if (steps.runs.size() < 3)

@@ -106,6 +106,8 @@ TEST_F(Calibrate, WhatIsWrongWithTheCaseIsSaid)
                    "set Derived = x = 2 * {Friction/softening/Rate} + 0,5\n",
                  {"case.prm:5", "decimals begin with a point", "\n     "});
   expect_refusal(one + "set Derived = x == 5\n", {"case.prm:5", "write =="});
+  expect_refusal(one + "set Derived = = 5\n",
+                 {"case.prm:5", "write it as: name = formula"});
   expect_refusal(one + "set Derived = Friction/softening/Rate = 1\n",
                  {"case.prm:5", "fitted already"});
   expect_refusal(

@@ -120,6 +120,8 @@ TEST(FitParameter, WhatIsWrongIsSaid)
                  {"less than the upper"});
   expect_refusal("Friction/softening/Rate from -1 to 1",
                  {"from = -1", "at least 0 1/mm"});
+  expect_refusal("Friction/softening/Rate from 0.01 to 1 log linear",
+                 {"one scale: log or linear"});
   expect_refusal("Friction/softening/Rate from 0 to 1 log",
                  {"lower bound greater than 0"});
   expect_refusal("Friction/softening/Rate from 0.1 to 1", {"0.045", "outside"});
