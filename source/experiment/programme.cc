@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/experiment/follow_warnings.h>
 #include <slipstep/experiment/programme.h>
 
 #include <slipstep/measured_data/arc.h>
@@ -445,9 +446,10 @@ namespace SlipStep
             constexpr double felt = 5e-5; // [mm]
             MeasuredTest     read = read_measured_test(file);
             take_off_noise_of_motion(read, felt);
-            for (const std::string &warning : read.warnings)
-              warnings.push_back(warning);
-            warn_of_late_pressure(read);
+            for (const auto &more :
+                 {read.warnings,
+                  follow_warnings(read, present.pressure, is_at_rest())})
+              warnings.insert(warnings.end(), more.begin(), more.end());
             tests[name.text] = read;
             followed.push_back(
               {read,
@@ -464,17 +466,12 @@ namespace SlipStep
                 origin + (part.to - position(test, 0)));
       }
 
-      /// What presses in the first row comes on until the second is reached.
-      void warn_of_late_pressure(const MeasuredTest &test)
+      /// Whether the drive has not pulled at the contact yet.
+      bool is_at_rest() const
       {
-        const double way = distance_between(test, 0, 1);
-        if (std::abs(test.pressure[0] / present.pressure - 1.) > 0.01 &&
-            way > 0.01 * std::hypot(range_of(test.displacement),
-                                    range_of(test.displacement_y)))
-          warnings.push_back(test.file.filename().string() +
-                             ": the pressure of the first row comes on over " +
-                             rounded_text(way, 3) +
-                             " mm; 'press' to it before 'follow'");
+        return none_of(segments, [](const Segment &segment) {
+          return segment.pushes || segment.end.velocity.norm() > 0.;
+        });
       }
 
       /// The part behind a keyword, which has to be there.

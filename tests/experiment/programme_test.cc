@@ -326,6 +326,25 @@ TEST(Programme, WarningsOfAFollowedTestArePassedOn)
 
 
 
+TEST(Programme, ARecordThatBeginsInMidSlideIsTold)
+{
+  const auto folder = test_folder();
+  std::ofstream(folder / "sliding.csv")
+    << "time_s,displacement_mm,pressure_MPa,friction\n"
+       "0,7,5,0.2\n1,8,5,0.21\n2,9,5,0.2\n";
+  const auto warnings = [&](const std::string &text) {
+    return Programme(text, default_speed, folder).warnings();
+  };
+  const auto at_rest = warnings("press 5 MPa in 1 s; follow sliding.csv");
+  ASSERT_EQ(at_rest.size(), 1u);
+  EXPECT_TRUE(contains(at_rest[0], "begins under a friction of 0.2, as in"));
+  EXPECT_TRUE(
+    warnings("press 5 MPa in 1 s; slide 1 mm/s for 1 mm; follow sliding.csv")
+      .empty());
+}
+
+
+
 // At a row the motion has the direction of the circle, not of the chord.
 TEST(Programme, FollowsTheDirectionOfCircles)
 {
