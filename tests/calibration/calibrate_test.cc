@@ -62,11 +62,15 @@ TEST_F(Planted, ParametersAreFoundToTheNoise)
 
 
 
+// Named by a wildcard.
 TEST_F(Planted, WithoutNoiseTheTruth)
 {
   plant(folder.path(), calibration_case(paper), {1., 20., 200.}, 300, 0., 1);
-  const Calibration found = calibrate(fitting(
-    {{"Calibration/Parameters", four}, {"Time stepping/Tolerance", "1e-6"}}));
+  const Calibration found = calibrate(
+    fitting({{"Calibration/Tests", (folder.path() / "test_*").string()},
+             {"Calibration/Parameters", four},
+             {"Time stepping/Tolerance", "1e-6"}}));
+  ASSERT_EQ(found.tests.size(), 3u);
   for (const FittedParameter &fitted : found.parameters)
     EXPECT_NEAR(fitted.value / truth_of(fitted.parameter.path), 1., 1e-4)
       << fitted.parameter.path;

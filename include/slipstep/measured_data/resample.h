@@ -52,7 +52,8 @@ namespace SlipStep
   /// a tolerance of displacement, pressure and friction (also of the second
   /// axis and the temperature, if there are any), by the algorithm of Ramer,
   /// Douglas and Peucker with the distance taken at equal times. Of positions
-  /// along both axes it is far smaller, since friction follows their direction.
+  /// along both axes the tolerance is far smaller, since friction follows their
+  /// direction.
   ///
   /// These rows are kept in any case: first and last, the extremes of friction,
   /// the reversals of the displacement, the extremes of friction in every
