@@ -83,6 +83,8 @@ namespace SlipStep
     struct Parabola
     {
       Parabola(const std::array<double, 3> &x, const std::array<double, 3> &y)
+        : middle(x[1])
+        , value(y[1])
       {
         const double h = x[1] - x[0], H = x[2] - x[1];
         const double d = (y[1] - y[0]) / h, D = (y[2] - y[1]) / H;
@@ -93,6 +95,12 @@ namespace SlipStep
           }
       }
 
+      double at(const double x) const
+      {
+        return value + (slope + curvature * (x - middle)) * (x - middle);
+      }
+
+      double middle, value;  ///< of the points
       double curvature = 0.; ///< half of it
       double slope     = 0.; ///< at the point in the middle
     };
@@ -132,8 +140,9 @@ namespace SlipStep
 
       /// Path and value of the largest friction coefficient: the vertex of the
       /// parabola through it and its neighbours, so that the place does not
-      /// depend on where the steps fall. In a corner, which is bent far more
-      /// than what is beside it, there is none.
+      /// depend on where the steps fall. There is none in a corner, which is
+      /// bent far more than what is beside it, nor above a plateau, which the
+      /// next parabola shows.
       std::pair<double, double> peak() const
       {
         constexpr double corner = 3.;
@@ -183,8 +192,12 @@ namespace SlipStep
                corner *
                  std::min(0., *std::min_element(beside.begin(), beside.end()))))
           return {x1, y1};
-        return {x1 - top.slope / (2. * top.curvature),
-                y1 - top.slope * top.slope / (4. * top.curvature)};
+        const double vertex = x1 - top.slope / (2. * top.curvature);
+        const double height = top.at(vertex);
+        if (vertex > x1 && is_near(i + 2) &&
+            around(i + 1).at(vertex) < 0.5 * (y1 + height))
+          return {x1, y1};
+        return {vertex, height};
       }
 
       double time_of(const double displacement, std::size_t &segment) const
