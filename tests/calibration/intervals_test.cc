@@ -425,6 +425,32 @@ TEST_F(Planted, IntervalsEndWhereTheMisfitHasRisen)
 
 
 
+// A misfit with many valleys, far lower away from what was taken for the
+// optimum: no interval belongs to that, and few fits are enough to see it.
+TEST(ProfileSide, EndsWhereTheOptimumWasNone)
+{
+  unsigned int n_fits = 0;
+  const auto   refit  = [&](const std::vector<double> &from) {
+    ++n_fits;
+    const double moved = from[0] - 0.3;
+    return ProfileSide::Fitted{100. + 5. * std::sin(1e3 * moved) - 400. * moved,
+                               from};
+  };
+  ProfileSide side(refit,
+                   {100., {0.3, 0.5}},
+                   Eigen::VectorXd::Zero(2),
+                   0,
+                   4.,
+                   1,
+                   std::chrono::steady_clock::time_point::max());
+  side.follow(0.01);
+  EXPECT_TRUE(side.is_open);
+  EXPECT_FALSE(side.better.empty());
+  EXPECT_LT(n_fits, 10u);
+}
+
+
+
 // The rate of subloading in records without a row in the rise: any that is
 // large enough fits as well, and from one value on the misfit rises steeply.
 TEST_F(Planted, AnIntervalEndsWhereTheInfluenceBegins)
