@@ -83,6 +83,19 @@ namespace SlipStep
     // parameters do already.
     constexpr double least_free_share = 1e-4;
 
+    // The same whenever they are asked for.
+    Eigen::MatrixXd normal_draws(const Eigen::Index n_rows,
+                                 const Eigen::Index n_draws)
+    {
+      std::mt19937_64            random(1);
+      std::normal_distribution<> normal;
+      return Eigen::MatrixXd::NullaryExpr(n_rows, n_draws, [&]() {
+        return normal(random);
+      });
+    }
+
+
+
     /// What the parameters of a model can do to what is simulated.
     class TangentSpace
     {
@@ -106,13 +119,20 @@ namespace SlipStep
       }
 
       // What draws of noise have along columns without it: of the products with
-      // the columns as they were.
+      // the columns as they were. What is believed of the parameters errs like
+      // noise, too: where tests say little of them, a fit that is off from its
+      // start would else be a gap.
       Eigen::MatrixXd products_without(const DirectionSet &set,
                                        const RowMatrix    &null_draws) const
       {
-        const Eigen::MatrixXd top = basis.topRows(null_draws.rows());
-        return set.products - (top.transpose() * set.whitened).transpose() *
-                                (top.transpose() * null_draws);
+        const Eigen::Index    n_beliefs = basis.rows() - null_draws.rows();
+        const Eigen::MatrixXd top       = basis.topRows(null_draws.rows());
+        const Eigen::MatrixXd along =
+          top.transpose() * null_draws +
+          basis.bottomRows(n_beliefs).transpose() *
+            normal_draws(n_beliefs, null_draws.cols());
+        return set.products -
+               (top.transpose() * set.whitened).transpose() * along;
       }
 
     private:

@@ -189,6 +189,30 @@ namespace
 
 
 
+// One test of constant friction tells little of the rate of subloading: that a
+// fit is far from where it starts is no gap.
+TEST_F(OwnRecords, WhatIsBelievedOfParametersIsNoGap)
+{
+  stiffness = 10.;
+  write(0,
+        {{0.02, 150.}},
+        [this](const double friction,
+               const double speed,
+               const double,
+               const double step) {
+          return std::min(0.3, friction + stiffness * speed * step);
+        });
+  const Judgement judgement =
+    judged("subloading",
+           "",
+           "set Friction/Tangential stiffness = 50\n"
+           "set Calibration/Parameters = Friction/Static coefficient from 0.1 "
+           "to 0.6; Friction/subloading/Rate from 3.8 to 3500 log");
+  EXPECT_GT(judgement.gap.p, 0.1);
+}
+
+
+
 // With subloading alone nothing holds friction that falls with speed; beside a
 // direct effect it is seen, as the Stribeck curve or, without one, as a state
 // that slip renews. Healing, which the rests do not show, was named for it.
