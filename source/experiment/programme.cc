@@ -3,6 +3,7 @@
 #include <slipstep/experiment/programme.h>
 
 #include <slipstep/measured_data/arc.h>
+#include <slipstep/measured_data/rounded_motion.h>
 #include <slipstep/measured_data/sensor_noise.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
@@ -443,9 +444,13 @@ namespace SlipStep
         if (tests.count(name.text) == 0)
           {
             // A contact of 1e4 MPa/mm gives way by as much to some 0.5 MPa.
-            constexpr double felt = 5e-5; // [mm]
+            constexpr double felt = 5e-5, felt_stairs = 2e-4; // [mm]
             MeasuredTest     read = read_measured_test(file);
-            take_off_noise_of_motion(read, felt);
+            undo_rounding_of_time(read);
+            if (rounding_of_motion(read) > felt_stairs)
+              undo_rounding_of_motion(read);
+            else
+              take_off_noise_of_motion(read, felt);
             for (const auto &more :
                  {read.warnings,
                   follow_warnings(read, present.pressure, is_at_rest())})

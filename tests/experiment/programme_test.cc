@@ -326,6 +326,27 @@ TEST(Programme, WarningsOfAFollowedTestArePassedOn)
 
 
 
+// A counter's stairs are no stick-slip: at half of the way it has gone on.
+TEST(Programme, FollowsTheMotionThatACounterRounded)
+{
+  const auto    folder = test_folder();
+  std::ofstream out(folder / "counted.csv");
+  out << "time_s,displacement_mm,pressure_MPa,friction\n";
+  for (unsigned int i = 0; i <= 400; ++i)
+    out << 0.02 * i << ',' << 0.01 * std::round(0.2 * 0.02 * i / 0.01) << ",5,"
+        << (i == 0 ? 0. : 0.2) << '\n';
+  out.close();
+  const Programme programme("press 5 MPa in 1 s; follow counted.csv",
+                            default_speed,
+                            folder);
+  ASSERT_EQ(programme.warnings().size(), 1u);
+  EXPECT_TRUE(contains(programme.warnings()[0], "rounded to 0.01 mm"));
+  for (double t = 2.; t < 8.; t += 0.013)
+    EXPECT_NEAR(programme.at(t).velocity[0], 0.2, 0.02) << t;
+}
+
+
+
 TEST(Programme, ARecordThatBeginsInMidSlideIsTold)
 {
   const auto folder = test_folder();
