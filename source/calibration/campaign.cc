@@ -218,27 +218,20 @@ namespace SlipStep
 
 
 
-    // Whether values are whole steps, but for the digits of the file.
-    bool are_steps(const std::vector<double> &values, const double step)
-    {
-      constexpr double digits = 0.01;
-
-      return all_of(values, [&](const double value) {
-        return std::abs(value / step - std::round(value / step)) < digits;
-      });
-    }
-
-
-
     // A record that hardly leaves a step shows neither step nor noise: it was
     // rounded like those of the campaign that do.
     void find_rounding(std::vector<CampaignTest> &tests)
     {
+      constexpr double digits =
+        0.01; // of a step, which is known by few of them
+
       std::set<double> known;
       for (const CampaignTest &test : tests)
         for (const auto *channel : {&test.rows.friction, &test.rows.friction_y})
           known.insert(coarse_step(*channel));
       known.erase(0.);
+      if (known.empty())
+        return;
       for (CampaignTest &test : tests)
         for (const auto *channel : {&test.rows.friction, &test.rows.friction_y})
           {
@@ -246,7 +239,7 @@ namespace SlipStep
             for (auto other = known.begin();
                  step == 0. && other != known.end() && !channel->empty();
                  ++other)
-              if (are_steps(*channel, *other))
+              if (are_multiples(*channel, *other, digits))
                 step = *other;
             if (step == 0. || test.noise_is_stated)
               continue;

@@ -8,17 +8,6 @@
 
 namespace SlipStep
 {
-  namespace
-  {
-    double friction_in(const MeasuredTest &test, const std::size_t row)
-    {
-      return std::hypot(test.friction[row],
-                        test.friction_y.empty() ? 0. : test.friction_y[row]);
-    }
-  } // namespace
-
-
-
   std::vector<std::string> follow_warnings(const MeasuredTest &test,
                                            const double        pressure,
                                            const bool          is_at_rest)
@@ -35,9 +24,7 @@ namespace SlipStep
       result.push_back(file + ": the pressure of the first row comes on over " +
                        rounded_text(way, 3) +
                        " mm; 'press' to it before 'follow'");
-    std::vector<double> friction;
-    for (std::size_t i = 0; i < test.time.size(); ++i)
-      friction.push_back(friction_in(test, i));
+    const std::vector<double> friction = sizes_of_friction(test);
     // The second row as well, so that no stray value counts.
     const double first = std::min(friction[0], friction[1]);
     if (is_at_rest && first > noticed_friction * median(friction))

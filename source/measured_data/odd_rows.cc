@@ -95,19 +95,6 @@ namespace SlipStep
 
   namespace
   {
-    // Of both axes.
-    std::vector<double> sizes_of_friction(const MeasuredTest &test)
-    {
-      std::vector<double> sizes;
-      for (std::size_t i = 0; i < test.friction.size(); ++i)
-        sizes.push_back(
-          std::hypot(test.friction[i],
-                     test.friction_y.empty() ? 0. : test.friction_y[i]));
-      return sizes;
-    }
-
-
-
     // They show no scatter.
     constexpr std::size_t few_rows = 6;
 

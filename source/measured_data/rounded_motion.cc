@@ -30,9 +30,9 @@ namespace SlipStep
 
 
     // Nearly, in units of a step.
-    bool is_whole(const double ratio)
+    bool is_whole(const double ratio, const double tolerance = 1e-3)
     {
-      return std::abs(ratio - std::round(ratio)) <= 1e-3;
+      return std::abs(ratio - std::round(ratio)) <= tolerance;
     }
 
 
@@ -441,17 +441,19 @@ namespace SlipStep
 
 
 
+  bool are_multiples(const std::vector<double> &values,
+                     const double               step,
+                     const double               tolerance)
+  {
+    return step > 0. && all_of(values, [&](const double value) {
+             return is_whole(value / step, tolerance);
+           });
+  }
+
+
+
   namespace
   {
-    bool are_multiples(const std::vector<double> &values, const double step)
-    {
-      return step > 0. && all_of(values, [&](const double value) {
-               return is_whole(value / step);
-             });
-    }
-
-
-
     // Of one axis: that seen in its stairs, or that of other records.
     double rounding_of_axis(const std::vector<double> &values,
                             const double               of_others)

@@ -293,6 +293,18 @@ namespace SlipStep
 
 
 
+  std::vector<double> sizes_of_friction(const MeasuredTest &test)
+  {
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < test.friction.size(); ++i)
+      sizes.push_back(
+        std::hypot(test.friction[i],
+                   test.friction_y.empty() ? 0. : test.friction_y[i]));
+    return sizes;
+  }
+
+
+
   double Rounding::deviation() const
   {
     return kept * step / std::sqrt(12.);

@@ -31,6 +31,12 @@ namespace SlipStep
   /// stamp is changed by more than half a step.
   void undo_rounding_of_time(MeasuredTest &test);
 
+  /// Whether values are whole steps.
+  /// @param tolerance of a step, for the digits of a file
+  bool are_multiples(const std::vector<double> &values,
+                     const double               step,
+                     const double               tolerance = 1e-3);
+
   /// The larger step of both axes of a test.
   /// @param of_others to which other records of the same machine were rounded:
   ///   rows far from each other make no stairs, but an axis all of whose values

@@ -30,6 +30,9 @@ namespace SlipStep
   /// of fewer than four values, 0.
   double coarse_step(const std::vector<double> &values);
 
+  /// Of every row, of both axes.
+  std::vector<double> sizes_of_friction(const MeasuredTest &test);
+
   /// To what a series was rounded.
   struct Rounding
   {
