@@ -141,9 +141,7 @@ namespace SlipStep
   // Of the misfit, relative to the threshold, with all others fitted.
   double ProfileSide::rise(const double distance)
   {
-    // Where the others do far better than at the optimum, it was none, and
-    // there is nothing that could rise from it.
-    if (least_rise < -1.)
+    if (was_no_optimum())
       return unbounded;
     const Fitted result = fit_at(distance);
     const double rise   = (result.misfit - optimum.misfit) / threshold;
@@ -203,7 +201,7 @@ namespace SlipStep
                       room);
         is_open = found.is_open;
         end     = start + sign * found.distance;
-        if (!jumps_at_end() || least_rise < -1.)
+        if (!jumps_at_end() || was_no_optimum())
           return;
         const auto beyond = first_beyond();
         first             = std::min(room, 1.1 * beyond->first);

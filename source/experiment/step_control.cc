@@ -161,13 +161,10 @@ namespace SlipStep
     if (is_finished())
       return;
     const Segment &now = programme.segments()[segment];
+    if (equal_steps > 0)
+      full_step = largest_step = (now.end_time - now.start_time) / equal_steps;
     if (!is_first_of_statement())
-      {
-        if (equal_steps > 0)
-          full_step = largest_step =
-            (now.end_time - now.start_time) / equal_steps;
-        return plan(full_step);
-      }
+      return plan(full_step);
 
     const double speed    = now.end.velocity.norm();
     const double pressure = std::max(now.start.pressure, now.end.pressure);
@@ -182,11 +179,10 @@ namespace SlipStep
         ++rows_of_statement;
       }
     const double duration = end_of_statement - now.start_time;
-    largest_step          = equal_steps > 0 ?
-                              (now.end_time - now.start_time) / equal_steps :
-                              duration / least_steps;
-    smallest_step         = least_step * duration;
-    steps_of_statement    = 0;
+    if (equal_steps == 0)
+      largest_step = duration / least_steps;
+    smallest_step      = least_step * duration;
+    steps_of_statement = 0;
 
     double wanted = largest_step;
     if (equal_steps == 0 && speed > 0. && pressure > 0.)

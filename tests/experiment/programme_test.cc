@@ -25,6 +25,11 @@ namespace
     return Programme(text, default_speed, ".");
   }
 
+  std::vector<std::string> warnings_of(const std::string &text)
+  {
+    return Programme(text, default_speed, test_folder()).warnings();
+  }
+
   /// The message for a wrong programme, "" if it is accepted.
   std::string message_about_programme(const std::string &text)
   {
@@ -305,21 +310,18 @@ TEST(Programme, WarningsOfAFollowedTestArePassedOn)
   std::ofstream(folder / "gap.csv")
     << "time_s,displacement_mm,pressure_MPa,friction\n"
        "0,0,5,0\n1,,5,0\n2,2,5,0.1\n";
-  const auto warnings = [&](const std::string &text) {
-    return Programme(text, default_speed, folder).warnings();
-  };
-  const auto pressed = warnings("press 5 MPa in 1 s; follow gap.csv");
+  const auto pressed = warnings_of("press 5 MPa in 1 s; follow gap.csv");
   ASSERT_EQ(pressed.size(), 1u);
   EXPECT_TRUE(contains(pressed[0], "left out: 1"));
   // The contact would slide all of the way under a part of the pressure.
-  const auto late = warnings("follow gap.csv");
+  const auto late = warnings_of("follow gap.csv");
   ASSERT_EQ(late.size(), 2u);
   EXPECT_TRUE(contains(late[1], "comes on over 2 mm; 'press' to it before"));
   // The same across.
   std::ofstream(folder / "across.csv")
     << "time_s,displacement_mm,displacement_y_mm,pressure_MPa,friction,"
        "friction_y\n0,0,0,5,0,0\n1,0,3,5,0,0.1\n2,0,5,5,0,0.1\n";
-  const auto across = warnings("follow across.csv");
+  const auto across = warnings_of("follow across.csv");
   ASSERT_EQ(across.size(), 1u);
   EXPECT_TRUE(contains(across[0], "comes on over 3 mm;"));
 }
@@ -353,14 +355,11 @@ TEST(Programme, ARecordThatBeginsInMidSlideIsTold)
   std::ofstream(folder / "sliding.csv")
     << "time_s,displacement_mm,pressure_MPa,friction\n"
        "0,7,5,0.2\n1,8,5,0.21\n2,9,5,0.2\n";
-  const auto warnings = [&](const std::string &text) {
-    return Programme(text, default_speed, folder).warnings();
-  };
-  const auto at_rest = warnings("press 5 MPa in 1 s; follow sliding.csv");
+  const auto at_rest = warnings_of("press 5 MPa in 1 s; follow sliding.csv");
   ASSERT_EQ(at_rest.size(), 1u);
   EXPECT_TRUE(contains(at_rest[0], "begins under a friction of 0.2, as in"));
   EXPECT_TRUE(
-    warnings("press 5 MPa in 1 s; slide 1 mm/s for 1 mm; follow sliding.csv")
+    warnings_of("press 5 MPa in 1 s; slide 1 mm/s for 1 mm; follow sliding.csv")
       .empty());
 }
 

@@ -82,6 +82,12 @@ namespace SlipStep
 
     Fitted fit_at(const double distance);
 
+    /// Whether the others do far better elsewhere: from there nothing rises.
+    bool was_no_optimum() const
+    {
+      return least_rise < -1.;
+    }
+
     bool jumps_at_end() const;
 
     std::map<double, Fitted>::const_iterator first_beyond() const;
