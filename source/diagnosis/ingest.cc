@@ -179,8 +179,8 @@ namespace SlipStep
       const Parameters start;
       const Noise      stated;
       Ingested         result;
-      /// By which the noise of every number is multiplied for what rounded
-      /// positions do to it.
+      /// By which the noise of every number is multiplied for what rounding
+      /// does to it.
       Eigen::VectorXd rounding_factors;
       /// Whether the base has time steps for its own parameters.
       bool has_own_steps = true;
@@ -322,8 +322,8 @@ namespace SlipStep
 
 
 
-    // Add what rounded positions do to the noise of the rows, in the place of
-    // what was added before.
+    // Add what rounding does to the noise of the rows, in the place of what was
+    // added before.
     void Preparer::weigh_rounding(const Eigen::VectorXd &noise)
     {
       double      *factor = rounding_factors.data();

@@ -252,7 +252,7 @@ namespace SlipStep
       workspace.range.track_wave =
         clear_track_wave(workspace, judgement.base).wavelength;
       judgement.view = score_candidates(workspace, judgement.base);
-      // What was not scored would have been seen, or was in the gap.
+      // That no gap is seen says nothing of what was not scored.
       workspace.was_late =
         workspace.was_late ||
         any_of(judgement.view.candidates,

@@ -29,7 +29,8 @@ namespace SlipStep
     /// that are off together; of several tests without each one's own gain.
     double inflation = 1.;
 
-    /// Number of residuals that count as independent.
+    /// Number of residuals that count as independent; all of those of rounded
+    /// friction, since how much rounding errs is known without them.
     double n_effective = 0.;
 
     /// dx / d scaled.
