@@ -32,7 +32,7 @@ namespace SlipStep
       result.minimum_detectable = seen.minimum_detectable;
       result.is_testable        = seen.candidate.why_not.empty() &&
                            seen.minimum_detectable <= largest_hidden_change;
-      for (const auto &gain : judgement.found.gains)
+      for (const auto &gain : judgement.found.first_fits.gains)
         if (gain.first == result.name)
           result.gain = gain.second;
       if (!seen.candidate.why_not.empty())
@@ -48,7 +48,7 @@ namespace SlipStep
           result.standing = Standing::not_tried;
         }
       else if ((!seen.failure.empty() && seen.ways.empty()) ||
-               holds(judgement.found.lost, result.name))
+               holds(judgement.found.first_fits.lost, result.name))
         {
           result.why      = seen.failure.empty() ?
                               "no fit with it could be simulated" :

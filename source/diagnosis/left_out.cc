@@ -143,6 +143,27 @@ namespace SlipStep
 
 
 
+  double left_out_lead(const Workspace &workspace,
+                       const Model     &base,
+                       const Model     &model,
+                       const Model     &other)
+  {
+    const auto judges = [&](const Model &more) {
+      return conditions_that_judge(workspace, base, more);
+    };
+    const std::vector<double> of_a     = left_out(workspace, model).squares;
+    const std::vector<double> of_b     = left_out(workspace, other).squares;
+    const std::vector<bool>   judges_a = judges(model);
+    const std::vector<bool>   judges_b = judges(other);
+    double                    lead     = 0.;
+    for (std::size_t c = 0; c < of_a.size(); ++c)
+      if (judges_a[c] && judges_b[c])
+        lead += of_b[c] - of_a[c];
+    return lead;
+  }
+
+
+
   double left_out_gain(const Workspace &workspace,
                        const Model     &less,
                        const Model     &more)

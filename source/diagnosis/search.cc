@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/additions.h>
 #include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/search.h>
@@ -14,25 +15,6 @@
 
 namespace SlipStep
 {
-  double level_of_round(const Workspace &workspace, const std::size_t round)
-  {
-    // Halves, and in the last round what is left.
-    const std::size_t last = std::max(1u, workspace.most_effects) - 1;
-    return workspace.level *
-           std::pow(0.5, std::min(round, last) + (round < last ? 1. : 0.));
-  }
-
-
-
-  bool is_evident(const CandidateView &seen, const double level)
-  {
-    return seen.candidate.only_beside.empty() && !seen.ways.empty() &&
-           seen.score.value > 0. && seen.p <= level &&
-           seen.minimum_detectable <= largest_hidden_change;
-  }
-
-
-
   bool
   is_needed(const double cost, const double left_out_gain, const std::size_t n)
   {
@@ -45,17 +27,37 @@ namespace SlipStep
 
   namespace
   {
+    /// Another first addition to a model.
+    struct OtherBeginning
+    {
+      Model  model;
+      double lead; ///< on conditions left out, before the one that was chosen
+    };
+
+
+
     /// The search, step by step.
     class Searcher
     {
     public:
       Searcher(Workspace &workspace, const Model &first)
         : workspace(workspace)
+        , first(first)
       {
         result.model = first;
       }
 
       SearchResult run();
+
+      /// The same without proof of what the first model has.
+      SearchResult go_on();
+
+      bool has_others() const
+      {
+        return beginnings.size() > 1;
+      }
+
+      std::optional<OtherBeginning> other_beginning() const;
 
     private:
       void extend(SearchResult &proven);
@@ -63,14 +65,6 @@ namespace SlipStep
       bool add();
 
       void leave_wave(const TrackWave &wave, View &view) const;
-
-      std::vector<Model> single_additions(const View           &view,
-                                          std::optional<Model> &at_bound);
-
-      void add_beside(const std::optional<Model> &at_bound,
-                      std::vector<Model>         &found);
-
-      void add_pairs(const View &view, std::vector<Model> &found);
 
       std::size_t n_effects() const
       {
@@ -93,8 +87,10 @@ namespace SlipStep
 
       bool try_rivals(const Model &less, const Part part, const double cost);
 
-      Workspace   &workspace;
-      SearchResult result;
+      Workspace         &workspace;
+      const Model       &first;
+      std::vector<Model> beginnings; ///< what was added first, and the others
+      SearchResult       result;
     };
 
 
@@ -125,124 +121,30 @@ namespace SlipStep
 
 
 
-    // Those that chance does not explain, fitted.
-    std::vector<Model>
-    Searcher::single_additions(const View &view, std::optional<Model> &at_bound)
+    double promise_of_rivals(const double gain)
     {
-      constexpr unsigned int most_tried = 5;
+      return promising_share * gain - promising_slack;
+    }
 
-      const double       level = level_of_round(workspace, n_effects());
-      std::vector<Model> found;
-      unsigned int       n_tried = 0;
-      for (const CandidateView &seen : view.candidates)
+
+
+    // Of the others that gain nearly as much, the one that predicts conditions
+    // left out best.
+    std::optional<OtherBeginning> Searcher::other_beginning() const
+    {
+      std::optional<OtherBeginning> found;
+      const double gain = first.objective - beginnings.front().objective;
+      for (const Model &other : beginnings)
         {
-          if (!is_evident(seen, level) || n_tried == most_tried)
+          if (other.has(beginnings.front().parts.front().name) ||
+              first.objective - other.objective < promise_of_rivals(gain))
             continue;
-          if (workspace.is_late())
-            return {};
-          ++n_tried;
-          const std::optional<Model> tried =
-            refit_with(workspace, result.model, seen);
-          if (!tried.has_value() && result.model.parts.empty())
-            result.lost.push_back(seen.candidate.name);
-          // Worse than without it: the fit was lost on its way.
-          if (!tried.has_value() || tried->objective > result.model.objective)
-            continue;
-          if (result.model.parts.empty())
-            result.gains.emplace_back(seen.candidate.name,
-                                      result.model.objective -
-                                        tried->objective);
-          if (!is_at_bound(*tried))
-            found.push_back(*tried);
-          else if (!at_bound.has_value() ||
-                   tried->objective < at_bound->objective)
-            at_bound = tried;
+          const double lead =
+            left_out_lead(workspace, first, other, beginnings.front());
+          if (!found.has_value() || lead > found->lead)
+            found = OtherBeginning{other.copy(), lead};
         }
       return found;
-    }
-
-
-
-    // A fit that ends at a bound, though better than others, may make up for a
-    // second effect: tried with those that are seen most beside it.
-    void Searcher::add_beside(const std::optional<Model> &at_bound,
-                              std::vector<Model>         &found)
-    {
-      constexpr unsigned int most_tried = 3;
-
-      if (!at_bound.has_value() || n_effects() + 2 > workspace.most_effects ||
-          any_of(found,
-                 [&](const Model &other) {
-                   return other.objective < at_bound->objective + least_cost;
-                 }) ||
-          at_bound->objective > result.model.objective - least_cost ||
-          workspace.is_late())
-        return;
-      const double level   = level_of_round(workspace, n_effects() + 1);
-      const View   view    = score_candidates(workspace, *at_bound);
-      unsigned int n_tried = 0;
-      for (const CandidateView &seen : view.candidates)
-        {
-          if (!is_evident(seen, level) || n_tried == most_tried ||
-              workspace.is_late())
-            continue;
-          ++n_tried;
-          const std::optional<Model> tried =
-            refit_with(workspace, *at_bound, seen);
-          if (tried.has_value() && !is_at_bound(*tried) &&
-              tried->objective < at_bound->objective)
-            found.push_back(*tried);
-        }
-    }
-
-
-
-    // Two effects that nearly cancel each other, where they promise more than
-    // each alone: by far if one is seen alone, as the formula of that may not
-    // be quite right. They have the share of the level of the second of them.
-    void Searcher::add_pairs(const View &view, std::vector<Model> &found)
-    {
-      constexpr unsigned int most_tried = 3;
-
-      if (n_effects() + 2 > workspace.most_effects)
-        return;
-      const double level  = level_of_round(workspace, n_effects() + 1);
-      const double more   = (found.empty() ? 1. : 2.) * least_cost;
-      double       single = 0.;
-      for (const Model &model : found)
-        single = std::max(single, result.model.objective - model.objective);
-      for (const CandidateView &seen : view.candidates)
-        if (seen.candidate.only_beside.empty() && seen.score.value > 0.)
-          single =
-            std::max(single,
-                     std::pow(seen.score.strength * seen.score.free_length, 2));
-      unsigned int                                     n_tried = 0;
-      std::vector<std::pair<std::size_t, std::size_t>> seen;
-      for (const ScoreTest::Pair &pair : view.pairs)
-        {
-          if (pair.p > level ||
-              pair.gain < std::max(single + more, 2. * least_cost) ||
-              n_tried == most_tried || workspace.is_late())
-            continue;
-          const std::pair<std::size_t, std::size_t> names =
-            std::minmax(view.set.directions[pair.first].candidate,
-                        view.set.directions[pair.second].candidate);
-          if (holds(seen, names))
-            continue;
-          seen.push_back(names);
-          ++n_tried;
-          const std::optional<Model> tried =
-            refit_with_pair(workspace, result.model, view, pair);
-          if (!tried.has_value() && result.model.parts.empty())
-            for (const std::size_t number : {pair.first, pair.second})
-              if (const CandidateView &lost =
-                    view.of(view.set.directions[number]);
-                  lost.is_unstable)
-                result.lost.push_back(lost.candidate.name);
-          if (tried.has_value() && !is_at_bound(*tried) &&
-              tried->objective < result.model.objective)
-            found.push_back(*tried);
-        }
     }
 
 
@@ -256,14 +158,8 @@ namespace SlipStep
       workspace.range.track_wave = wave.wavelength;
       View view                  = score_candidates(workspace, result.model);
       leave_wave(wave, view);
-      std::vector<Model> found;
-      if (n_effects() < workspace.most_effects)
-        {
-          std::optional<Model> at_bound;
-          found = single_additions(view, at_bound);
-          add_pairs(view, found);
-          add_beside(at_bound, found);
-        }
+      std::vector<Model> found =
+        fitted_additions(workspace, result.model, view, result.first_fits);
       stable_sort(found, [](const Model &a, const Model &b) {
         return penalised(a) < penalised(b);
       });
@@ -276,15 +172,17 @@ namespace SlipStep
                          left_out_gain(workspace, result.model, more),
                          more.parts.size() - result.model.parts.size());
       };
-      for (Model &best : found)
+      for (auto best = found.begin(); best != found.end(); ++best)
         {
           if (completed.has_value() &&
-              best.objective > completed->model.objective - rival_distance)
+              best->objective > completed->model.objective - rival_distance)
             continue;
-          if (!is_good(best))
+          if (!is_good(*best))
             continue;
           const std::size_t n = result.model.parts.size();
-          result.model        = best;
+          if (n == 0)
+            beginnings.assign(best, found.end());
+          result.model = *best;
           settle(workspace, result.model);
           for (std::size_t part = n; part < result.model.parts.size(); ++part)
             workspace.tell("added " + result.model.parts[part].name);
@@ -333,21 +231,28 @@ namespace SlipStep
 
 
 
-    // An effect may have several forms, which its settings, texts and bounds
-    // tell apart.
-    bool is_same_formula(const TrialFormula &a, const TrialFormula &b)
+    // Between other bounds, or with an age at first, the law is the same.
+    bool is_same_law(const TrialFormula &a, const TrialFormula &b)
     {
       return a.effect == b.effect && a.settings == b.settings &&
-             a.texts == b.texts &&
-             std::equal(a.parameters.begin(),
-                        a.parameters.end(),
-                        b.parameters.begin(),
-                        b.parameters.end(),
-                        [](const CandidateParameter &x,
-                           const CandidateParameter &y) {
-                          return x.path == y.path && x.lower == y.lower &&
-                                 x.upper == y.upper;
-                        });
+             a.texts == b.texts;
+    }
+
+
+
+    // An effect may have several forms, which bounds tell apart, too.
+    bool is_same_formula(const TrialFormula &a, const TrialFormula &b)
+    {
+      return is_same_law(a, b) && std::equal(a.parameters.begin(),
+                                             a.parameters.end(),
+                                             b.parameters.begin(),
+                                             b.parameters.end(),
+                                             [](const CandidateParameter &x,
+                                                const CandidateParameter &y) {
+                                               return x.path == y.path &&
+                                                      x.lower == y.lower &&
+                                                      x.upper == y.upper;
+                                             });
     }
 
 
@@ -367,8 +272,7 @@ namespace SlipStep
             std::pow(seen.score.strength * seen.score.free_length, 2);
           const bool is_same = seen.candidate.name == part.name;
           if (!is_evident(seen, level()) ||
-              promised < promising_share * cost - promising_slack ||
-              n_tried == most_rivals ||
+              promised < promise_of_rivals(cost) || n_tried == most_rivals ||
               (is_same && seen.candidate.formulas.size() < 2))
             continue;
           if (workspace.is_late())
@@ -392,7 +296,8 @@ namespace SlipStep
               result.model = *tried;
               return true;
             }
-          if (!is_same)
+          if (!is_same &&
+              !is_same_law(tried->parts.back().formula, part.formula))
             result.rivals.push_back(
               {seen.candidate.name, part.name, distance, *tried});
         }
@@ -515,6 +420,13 @@ namespace SlipStep
     {
       if (!result.model.parts.empty())
         prove();
+      return go_on();
+    }
+
+
+
+    SearchResult Searcher::go_on()
+    {
       SearchResult proven = result;
       try
         {
@@ -527,16 +439,104 @@ namespace SlipStep
             throw;
           workspace.end_by_signal();
         }
-      proven.gains = result.gains;
-      proven.lost  = result.lost;
+      proven.first_fits = result.first_fits;
       return proven;
+    }
+
+
+
+    bool holds_names(const Model &model, const Model &others)
+    {
+      return none_of(others.parts,
+                     [&](const Part &part) { return !model.has(part.name); });
+    }
+
+
+
+    // Names that explain the tests as well by another way are rivals of those
+    // that are not among them.
+    void add_rivals(SearchResult &result, const SearchResult &other)
+    {
+      std::vector<std::string> names;
+      for (const std::string &name : effect_names(result.model.parts))
+        if (!other.model.has(name))
+          names.push_back(name);
+      const auto is_known = [&](const std::string &name) {
+        return result.model.has(name) ||
+               any_of(result.rivals,
+                      [&](const Rival &rival) { return rival.name == name; });
+      };
+      for (const std::string &name : effect_names(other.model.parts))
+        if (!is_known(name) && !names.empty())
+          {
+            result.rivals.push_back(
+              {name,
+               names.front(),
+               penalised(other.model) - penalised(result.model),
+               other.model});
+            if (names.size() > 1)
+              names.erase(names.begin());
+          }
+    }
+
+
+
+    // Of two ways, the one that explains the tests better and does not end at a
+    // bound; where that does not tell, the one that predicts conditions left
+    // out better.
+    SearchResult better_of(const Workspace    &workspace,
+                           const Model        &base,
+                           const SearchResult &first,
+                           const SearchResult &other)
+    {
+      if (is_at_bound(other.model))
+        return first;
+      const double distance = is_at_bound(first.model) ?
+                                -std::numeric_limits<double>::infinity() :
+                                penalised(other.model) - penalised(first.model);
+      const double lead =
+        left_out_lead(workspace, base, other.model, first.model);
+      if (distance >= rival_distance ||
+          (distance > -rival_distance && lead < -sure_cost))
+        return first;
+      SearchResult result = other;
+      result.first_fits   = first.first_fits;
+      if (distance > -rival_distance && lead < sure_cost)
+        add_rivals(result, first);
+      return result;
     }
   } // namespace
 
 
 
+  // Names follow the tests most closely one by one: a wrong one may do so by
+  // what a second one would explain.
   SearchResult search(Workspace &workspace, const Model &first)
   {
-    return Searcher(workspace, first).run();
+    constexpr double much = 0.05; // of what is explained
+
+    Searcher           searcher(workspace, first);
+    const SearchResult found = searcher.run();
+    if (!searcher.has_others() || workspace.is_late())
+      return found;
+    const GapTest remainder =
+      test_gap(workspace,
+               found.model,
+               score_candidates(workspace, found.model));
+    const bool remains = remainder.p <= workspace.level;
+    const bool is_none = is_at_bound(found.model);
+    if (!is_none && !remains && effect_names(found.model.parts).size() < 2)
+      return found;
+    const std::optional<OtherBeginning> other = searcher.other_beginning();
+    const double explained = first.objective - found.model.objective;
+    if (!other.has_value() || holds_names(found.model, other->model) ||
+        !(other->lead > sure_cost || is_none ||
+          (remains &&
+           remainder.excess > std::max(sure_excess, much * explained))))
+      return found;
+    workspace.tell("beginning with " + other->model.parts.back().name);
+    const SearchResult others = Searcher(workspace, other->model).go_on();
+    return others.costs.empty() ? found :
+                                  better_of(workspace, first, found, others);
   }
 } // namespace SlipStep

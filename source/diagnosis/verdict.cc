@@ -331,11 +331,8 @@ namespace SlipStep
       if (again.gap.p <= weakened.level)
         {
           look_for_names(weakened, again, first);
-          if (again.found.gains.empty())
-            {
-              again.found.gains = judgement.found.gains;
-              again.found.lost  = judgement.found.lost;
-            }
+          if (again.found.first_fits.gains.empty())
+            again.found.first_fits = judgement.found.first_fits;
         }
       else
         {

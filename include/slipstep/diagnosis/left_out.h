@@ -31,6 +31,14 @@ namespace SlipStep
   double left_out_gain(const Workspace &workspace,
                        const Model     &less,
                        const Model     &more);
+
+  /// By how much those squares are less with one model than with another, on
+  /// conditions that judge what both have more than a base; NaN for tests of a
+  /// single condition.
+  double left_out_lead(const Workspace &workspace,
+                       const Model     &base,
+                       const Model     &model,
+                       const Model     &other);
 } // namespace SlipStep
 
 #endif

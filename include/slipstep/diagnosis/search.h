@@ -2,23 +2,13 @@
 #ifndef slipstep_diagnosis_search_h
 #define slipstep_diagnosis_search_h
 
-#include <slipstep/diagnosis/candidate_scores.h>
+#include <slipstep/diagnosis/additions.h>
 
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace SlipStep
 {
-  /// What may be spent of Diagnosis/Level on the effect of a round, counted
-  /// from 0: halves of what is left, so that all rounds together spend it once.
-  double level_of_round(const Workspace &workspace, const std::size_t round);
-
-  /// Whether these tests can tell an effect, and chance among all candidates
-  /// does not explain its score.
-  bool is_evident(const CandidateView &seen, const double level);
-
   /// Whether an addition lowers the fitted and the left-out differences enough.
   /// @param n effects that are added
   bool is_needed(const double      cost,
@@ -44,11 +34,7 @@ namespace SlipStep
     std::vector<double> costs, left_out_gains;
     /// Without which of the conditions the others do not ask for it.
     std::vector<std::vector<std::size_t>> told_by;
-    /// The objective of single additions to the starting model, for those that
-    /// were fitted.
-    std::vector<std::pair<std::string, double>> gains;
-    /// Those that were tried first, and that no fit could simulate.
-    std::vector<std::string> lost;
+    FirstFits                             first_fits;
   };
 
   /// Add effects as long as they are needed, take away those that are not, and

@@ -563,7 +563,7 @@ TEST_F(CampaignFolder, HasNoNameBeforeItIsProven)
   const Judgement at_once = judge(workspace, ingested.base);
   EXPECT_EQ(name_of(at_once.verdict), name_of(Verdict::unnamed));
   EXPECT_TRUE(workspace.was_late);
-  EXPECT_TRUE(at_once.found.gains.empty());
+  EXPECT_TRUE(at_once.found.first_fits.gains.empty());
   for (const CandidateView &seen : at_once.view.candidates)
     EXPECT_TRUE(seen.is_late && seen.ways.empty());
 
@@ -580,7 +580,7 @@ TEST_F(CampaignFolder, HasNoNameBeforeItIsProven)
   EXPECT_EQ(n_added, 1u);
   EXPECT_EQ(name_of(half_way.verdict), name_of(Verdict::unnamed));
   EXPECT_TRUE(workspace.was_late);
-  EXPECT_FALSE(half_way.found.gains.empty());
+  EXPECT_FALSE(half_way.found.first_fits.gains.empty());
 }
 
 
