@@ -48,6 +48,7 @@ namespace SlipStep
           result.standing = Standing::not_tried;
         }
       else if ((!seen.failure.empty() && seen.ways.empty()) ||
+               (!seen.failure.empty() && seen.p <= level) ||
                holds(judgement.found.first_fits.lost, result.name))
         {
           result.why      = seen.failure.empty() ?

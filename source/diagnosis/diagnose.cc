@@ -347,6 +347,10 @@ namespace SlipStep
       describe_doubts(workspace, result);
       describe_few_levels(workspace, final_model, result);
       describe_short_lengths(workspace, final_model, result);
+      describe_what_nothing_holds(workspace,
+                                  judgement.view,
+                                  final_model,
+                                  result);
       const Eigen::VectorXd base_difference =
         comparison.difference(ingested.base);
       Changes    changes;

@@ -4,6 +4,7 @@
 #include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/intervals.h>
 #include <slipstep/diagnosis/refits.h>
+#include <slipstep/experiment/stability.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
@@ -461,6 +462,60 @@ namespace SlipStep
               " mm: that it is so short is all that these tests tell of it. "
               "With any slip the contact forgets, at rest it does not.");
         }
+  }
+
+
+
+  namespace
+  {
+    // By which share steady friction falls from the slowest to the fastest
+    // speed of the tests.
+    double fall_with_speed(const Workspace &workspace, const Model &model)
+    {
+      const TestedRange &range = workspace.range;
+      const FrictionLaw  law(
+        assemble(workspace.start, model.parts, model.values()).parameters);
+      const auto at = [&](const double speed) {
+        return SteadySliding(law,
+                             dealii::Tensor<1, 2>({speed, 0.}),
+                             range.highest);
+      };
+      const SteadySliding slow = at(range.slowest), fast = at(range.fastest);
+      return slow.exists() && fast.exists() ?
+               1. - fast.friction() / slow.friction() :
+               0.;
+    }
+  } // namespace
+
+
+
+  void describe_what_nothing_holds(const Workspace &workspace,
+                                   const View      &view,
+                                   const Model     &model,
+                                   Diagnosis       &diagnosis)
+  {
+    constexpr double much = 0.02;
+
+    std::vector<std::string> untried;
+    std::string              holder;
+    for (const CandidateView &seen : view.candidates)
+      if (seen.is_unstable && seen.p <= workspace.level &&
+          !model.has(seen.candidate.name) && !model.has(seen.candidate.held_by))
+        {
+          untried.push_back(seen.candidate.name);
+          holder = seen.candidate.held_by;
+        }
+    if (untried.empty() || diagnosis.effects.empty())
+      return;
+    const double fall = fall_with_speed(workspace, model);
+    if (fall > much)
+      diagnosis.warnings.push_back(
+        list_text(diagnosis.effects) + " may stand for " +
+        list_text(untried, "or") + ": friction falls with speed by " +
+        rounded_text(100. * fall, 2) +
+        " % in these tests, and what falls at once could not be tried, as "
+        "nothing in the model holds it; " +
+        holder + " in Friction/Effects, its parameters fitted, may.");
   }
 
 

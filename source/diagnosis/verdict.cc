@@ -218,7 +218,7 @@ namespace SlipStep
       if (none_of(view.candidates,
                   [](const CandidateView &seen) { return seen.is_unstable; }))
         return false;
-      return judgement.remainder.excess > 0. &&
+      return judgement.remainder.excess > sure_excess &&
              any_of(localise(workspace, model, judgement.remainder),
                     [](const Localisation &place) {
                       return place.covariate == "speed" && place.share > much;

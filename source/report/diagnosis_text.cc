@@ -252,7 +252,8 @@ namespace SlipStep
         return "";
       std::vector<std::string> names;
       for (const CandidateResult &candidate : diagnosis.candidates)
-        if (candidate.standing == Standing::not_simulated)
+        if (candidate.standing == Standing::not_simulated &&
+            !(candidate.is_testable && candidate.p > diagnosis.level))
           names.push_back(candidate.name);
       return names.empty() ? "" :
                              "; " + list_text(names) +

@@ -43,6 +43,13 @@ namespace SlipStep
                               const Model     &model,
                               Diagnosis       &diagnosis);
 
+  /// Warn of names that let friction fall with speed, where an effect by which
+  /// it would do so at once was not tried, since nothing holds it.
+  void describe_what_nothing_holds(const Workspace &workspace,
+                                   const View      &view,
+                                   const Model     &model,
+                                   Diagnosis       &diagnosis);
+
   /// What would change the verdict.
   void describe_doubts(const Workspace &workspace, Diagnosis &diagnosis);
   ///@}

@@ -86,6 +86,54 @@ TEST_F(OwnRecordsOfFewTests, TwoEffectsAreFoundFromAnotherBeginning)
 
 
 
+// In a model without a rate effect friction that falls with speed at once
+// cannot be tried. A state that slip renews stands for it, and is not told as
+// if nothing else could.
+TEST_F(OwnRecordsOfFewTests, WhatNothingHoldsIsNotForgotten)
+{
+  random.seed(5);
+  stiffness           = 50.;
+  unsigned int number = 0;
+  for (const double speed : {0.05, 0.5, 2., 5.})
+    {
+      write(number,
+            {{speed, 4. / speed}},
+            [this](const double friction,
+                   const double speed,
+                   const double,
+                   const double step) {
+              return std::min(0.2 * (1. + 0.2 * std::exp(-speed / 0.5)),
+                              friction + stiffness * speed * step);
+            });
+      number += 2;
+    }
+  const Judgement judgement =
+    judged("",
+           "",
+           coulomb_contact + "set Friction/Tangential stiffness = 250\n");
+  Diagnosis told;
+  told.effects = effect_names(judgement.found.model.parts);
+  describe_what_nothing_holds(*ingested.workspace,
+                              judgement.view,
+                              judgement.found.model,
+                              told);
+  ASSERT_EQ(told.effects.size(), 1u);
+  ASSERT_EQ(told.warnings.size(), 1u);
+  EXPECT_NE(told.warnings[0].find(told.effects[0] + " may stand for stribeck"),
+            std::string::npos)
+    << told.warnings[0];
+  const std::vector<CandidateResult> results =
+    candidate_results(*ingested.workspace, judgement, {}, judgement.base);
+  const auto stribeck =
+    std::find_if(results.begin(), results.end(), [](const auto &result) {
+      return result.name == "stribeck";
+    });
+  ASSERT_NE(stribeck, results.end());
+  EXPECT_EQ(stribeck->standing, Standing::not_simulated);
+}
+
+
+
 // By the formula of ageing it is the same law: healing was a rival of ageing,
 // and a rest was proposed that would tell them apart by 0.04 deviations.
 TEST_F(OwnRecordsOfFewTests, HealingByTheFormulaOfAgeingIsNoRival)
