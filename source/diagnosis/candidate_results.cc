@@ -63,7 +63,7 @@ namespace SlipStep
         }
       else
         result.standing = result.p > level ? Standing::rejected :
-                          judgement.verdict == Verdict::unnamed ?
+                          judgement.found.model.parts.empty() ?
                                              Standing::not_enough :
                                              Standing::not_needed;
       return result;

@@ -249,6 +249,9 @@ namespace SlipStep
           std::min(least, separation(workspace, winner, rival.model, motion));
       return least;
     });
+    // By less than one deviation it is none.
+    if (best.distance < 1.)
+      return {};
     std::set<std::string> names;
     for (const Part &part : winner.parts)
       names.insert(part.name);

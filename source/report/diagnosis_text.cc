@@ -135,7 +135,40 @@ namespace SlipStep
         text += "; none of the usual tests would tell surely, and " +
                 next.words + " best, by " + short_text(next.distance, 2) +
                 " standard deviations";
+      else
+        text += "; none of the usual tests would tell";
       return text;
+    }
+
+    /// Effects that are seen, though not surely enough to be fitted: none if
+    /// any were.
+    std::vector<const CandidateResult *> unsure(const Diagnosis &diagnosis)
+    {
+      std::vector<const CandidateResult *> found;
+      for (const CandidateResult &candidate : diagnosis.candidates)
+        if (std::isfinite(candidate.gain))
+          return {};
+        else if (candidate.standing == Standing::not_enough)
+          found.push_back(&candidate);
+      return found;
+    }
+
+    /// "; viscous and overstress (p = 0.03) come nearest, too unsure for a
+    /// name"
+    std::string unsure_words(const Diagnosis &diagnosis)
+    {
+      std::vector<std::string> names;
+      double                   least = 1.;
+      for (const CandidateResult *candidate : unsure(diagnosis))
+        {
+          names.push_back(candidate->name);
+          least = std::min(least, candidate->p);
+        }
+      return names.empty() ? "" :
+                             "; " + list_text(names, "or") +
+                               (names.size() > 1 ? " come" : " comes") +
+                               " nearest, too unsure for a name (p = " +
+                               short_text(least, 2) + ")";
     }
 
     std::string unnamed_words(const Diagnosis &diagnosis)
@@ -149,7 +182,7 @@ namespace SlipStep
         text += "; a correction by " + diagnosis.correction->covariate +
                 ", cause unknown, brings it to " +
                 percent_text(diagnosis.shrink.fitted_after);
-      return text;
+      return text + unsure_words(diagnosis);
     }
 
     std::string verdict_words(const Diagnosis &diagnosis)
@@ -165,7 +198,7 @@ namespace SlipStep
             return unnamed_words(diagnosis);
           case Verdict::no_gap:
             return "nothing is missing as far as these tests can tell: " +
-                   gap_words(diagnosis) + chance;
+                   gap_words(diagnosis) + chance + unsure_words(diagnosis);
           case Verdict::not_testable:
             return "these tests cannot tell whether anything is missing: " +
                    gap_words(diagnosis) + chance +
@@ -363,9 +396,13 @@ namespace SlipStep
                  "(Calibration/Parameters) if it is not known. If not, " :
                  ", explains these tests as well: take it off if it is one "
                  "(Correction/Zero of an import). If not, ");
+    // How surely noise is stated is a part of what is believed of it.
     if (is_stated)
-      text += std::string(is_doubted ? "and if" : "If") +
-              " the stated noise is right (there are no replicates), ";
+      text += (!diagnosis.has_gap && !is_doubted ?
+                 "By what is stated of noise" :
+                 std::string(is_doubted ? "and if" : "If") +
+                   " the stated noise is right") +
+              " (there are no replicates), ";
     return text + (is_doubted || is_stated ? words : capitalised(words)) +
            completed_words(diagnosis) + lone_words(diagnosis) +
            remainder_words(diagnosis) + untried_words(diagnosis) +
@@ -407,7 +444,8 @@ namespace SlipStep
                            "or a parameter that the case holds" :
                            "or a zero of the sensor") +
              (is_stated ? ", if the stated noise is right" : "");
-    return is_stated ? "if the stated noise is right" :
+    return is_stated && !diagnosis.has_gap ? "by what is stated of noise" :
+           is_stated                       ? "if the stated noise is right" :
            diagnosis.n_conditions == 1 && diagnosis.has_gap ?
                        "under the one condition tested" :
                        "";
@@ -468,7 +506,8 @@ namespace SlipStep
       }
     if (!diagnosis.is_restricted)
       return std::string("no effect of the catalogue ") +
-             (is_lost ? "that could be simulated " : "") + "explains";
+             (is_lost ? "that could be simulated " : "") +
+             (unsure(diagnosis).empty() ? "explains" : "explains surely");
     return "none of the effects asked for (" + list_text(tried) + ") explains";
   }
 

@@ -266,7 +266,7 @@ TEST_F(Diagnose, OneTestOnly)
   const auto result = diagnose({"Calibration/Tests=measured/test_04.csv"});
   const auto json   = verdict_of(result);
   expect_no_name(json);
-  EXPECT_EQ(headline(json).find("If the stated noise is right"), 0u)
+  EXPECT_EQ(headline(json).find("By what is stated of noise"), 0u)
     << headline(json);
   EXPECT_EQ(json["data"]["replicate_pairs"], 0);
   EXPECT_TRUE(
@@ -301,7 +301,7 @@ TEST_F(Diagnose, WithoutReplicates)
   plant({"--tests", "10", "--no-replicates"});
   const auto json = verdict_of(diagnose());
   expect_no_name(json);
-  EXPECT_EQ(headline(json).find("If the stated noise is right"), 0u)
+  EXPECT_EQ(headline(json).find("By what is stated of noise"), 0u)
     << headline(json);
   for (const auto &component : json["noise"])
     EXPECT_EQ(component["source"], "stated");

@@ -171,10 +171,48 @@ TEST(DiagnosisHeadline, WithoutReplicatesItIsToned)
                               SyntheticDiagnosis::not_testable()})
     {
       diagnosis.n_replicate_pairs = 0;
-      EXPECT_EQ(headline(diagnosis).find("If the stated noise is right"), 0u);
+      EXPECT_EQ(headline(diagnosis).find(diagnosis.has_gap ?
+                                           "If the stated noise is right" :
+                                           "By what is stated of noise"),
+                0u)
+        << headline(diagnosis);
       diagnosis.n_replicate_pairs = 1;
       EXPECT_FALSE(contains(headline(diagnosis), "stated noise"));
       EXPECT_EQ(headline(diagnosis).back(), '.');
+    }
+}
+
+
+
+// Seen, though not surely enough to be fitted: nobody knows whether they
+// explain it.
+TEST(DiagnosisHeadline, TellsWhatIsTooUnsureForAName)
+{
+  for (Diagnosis diagnosis :
+       {SyntheticDiagnosis::unnamed(), SyntheticDiagnosis::no_gap()})
+    {
+      const bool        has_gap = diagnosis.has_gap;
+      const std::string without = headline(diagnosis);
+      EXPECT_FALSE(contains(without, "unsure")) << without;
+      diagnosis.candidates = {CandidateResult(), CandidateResult()};
+      for (CandidateResult &candidate : diagnosis.candidates)
+        {
+          candidate.standing    = Standing::not_enough;
+          candidate.is_testable = true;
+          candidate.p           = 0.033;
+        }
+      diagnosis.candidates[0].name = "viscous";
+      diagnosis.candidates[1].name = "overstress";
+      EXPECT_TRUE(contains(headline(diagnosis),
+                           "; viscous or overstress come nearest, too unsure "
+                           "for a name (p = 0.033)"))
+        << headline(diagnosis);
+      EXPECT_EQ(contains(headline(diagnosis),
+                         "no effect of the catalogue explains surely"),
+                has_gap);
+      // What was fitted, and did not explain it, is surely not the name.
+      diagnosis.candidates[0].gain = 100.;
+      EXPECT_FALSE(contains(headline(diagnosis), "unsure"));
     }
 }
 
