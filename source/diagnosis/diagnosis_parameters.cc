@@ -110,7 +110,10 @@ namespace SlipStep
     if (list.empty())
       parameters.reject(section + "Candidates", "name effects, or 'all'");
     for (const std::string &name : list)
-      if (!holds(known, name) && !(name == "all" && list.size() == 1))
+      if (std::count(list.begin(), list.end(), name) > 1)
+        parameters.reject(section + "Candidates",
+                          "'" + name + "' is given twice");
+      else if (!holds(known, name) && !(name == "all" && list.size() == 1))
         {
           const std::string near = nearest_name(name, known);
           parameters.reject(section + "Candidates",

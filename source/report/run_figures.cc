@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/experiment/point_driver.h>
 #include <slipstep/report/run_figures.h>
 
+#include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/units.h>
 
 #include <numeric>
@@ -51,14 +53,42 @@ namespace SlipStep
       });
     }
 
-    /// The curve of the first slide alone, from where it starts.
-    Rows first_slide(const RunResults &run)
+    /// When a statement of the programme begins, counted from 1 [s]; 0 if a
+    /// record that it follows is gone.
+    double start_of(const unsigned int statement, const Parameters &parameters)
+    try
+      {
+        const Programme programme = parse_programme(parameters);
+        for (const Segment &segment : programme.segments())
+          if (segment.statement + 1 == statement)
+            return segment.start_time;
+        return 0.;
+      }
+    catch (const InputError &)
+      {
+        return 0.;
+      }
+
+    /// The curve of the first slide alone, from where it starts: a record may
+    /// be followed before.
+    Rows first_slide(const RunFigures &figures, const RunResults &run)
     {
       if (run.summary.slides.empty() || run.history.empty())
         return {};
-      const double angle  = run.summary.slides[0].angle;
-      Rows         points = curve_along(run, std::cos(angle), std::sin(angle));
-      const double start  = points[0][0];
+      const SlideSummary &slide = run.summary.slides[0];
+      Rows                points =
+        curve_along(run, std::cos(slide.angle), std::sin(slide.angle));
+      const double begin =
+        start_of(slide.statement, figures.parameters_of(run)) * (1. - 1e-9);
+      const auto first =
+        std::find_if(run.history.begin(),
+                     run.history.end(),
+                     [&](const HistoryRow &row) { return row.time >= begin; });
+      points.erase(points.begin(),
+                   points.begin() + (first - run.history.begin()));
+      if (points.empty())
+        return {};
+      const double start = points[0][0];
       for (auto &point : points)
         point[0] -= start;
       points.erase(std::is_sorted_until(points.begin(),
@@ -227,7 +257,7 @@ namespace SlipStep
       std::vector<std::string> peaks;
       for (const std::size_t i : from_top_to_bottom(runs))
         {
-          Rows points = first_slide(runs[i]);
+          Rows points = first_slide(figures, runs[i]);
           // One point beyond the border lets the curve run off the picture.
           const auto beyond =
             std::find_if(points.begin(),

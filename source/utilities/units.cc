@@ -68,6 +68,7 @@ namespace SlipStep
            {"um/s", 1, 1e3},
            {"nm/s", 1, 1e6},
            {"cm/s", 10, 1},
+           {"cm/min", 10, 60},
            {"m/s", 1e3, 1},
            {"m/min", 1e3, 60},
            {"m/h", 1e3, 3600},

@@ -155,6 +155,8 @@ TEST_F(Diagnose, WhatIsWrongWithTheCaseIsSaid)
   expect_refusal({"Diagnosis/Candidates=heeling"},
                  {"Diagnosis/Candidates", "'heeling'", "'healing'"});
   expect_refusal({"Diagnosis/Candidates=healing, all"}, {"'all' stands alone"});
+  expect_refusal({"Diagnosis/Candidates=healing, healing"},
+                 {"'healing' is given twice"});
   expect_refusal({"Diagnosis/Candidates="}, {"name effects, or 'all'"});
   expect_refusal({"Diagnosis/Level=0.5"}, {"Diagnosis/Level", "0.3"});
   expect_refusal({"Diagnosis/Level=3 mm"}, {"Diagnosis/Level"});

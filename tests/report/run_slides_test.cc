@@ -225,3 +225,27 @@ TEST(Report, ASlideThatIsCutShortHasNoKineticFriction)
   EXPECT_TRUE(contains(table, "0.1122"));
   EXPECT_FALSE(contains(table, "kinetic"));
 }
+
+
+
+// The peak was marked on the curve of what was followed before the first slide.
+TEST(Report, ThePeakIsDrawnWhereItsSlideStarts)
+{
+  const ReportedRun run =
+    make_slides("late", {make_slide(3, 6., 0.1, 0.12, 0.11)});
+  Parameters parameters = parameters_with({});
+  parameters.set("Loading/Programme",
+                 "press 5 MPa in 1 s; slide 0.1 mm/s for 1 mm; slide 0.1 mm/s "
+                 "for 10 mm",
+                 "test");
+  write_report(test_folder(), parameters, {run});
+  const std::string data =
+    content(test_folder() / "report" / "friction_start.dat");
+  // From 11 s on.
+  EXPECT_TRUE(contains(data, "\n0 0.1118769")) << data;
+  // A record that is gone ends no report.
+  parameters.set("Loading/Programme", "follow gone.csv", "test");
+  write_report(test_folder(), parameters, {run});
+  EXPECT_TRUE(contains(content(test_folder() / "report" / "friction_start.dat"),
+                       "\n0 0\n"));
+}

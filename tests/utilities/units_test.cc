@@ -44,6 +44,7 @@ TEST(Units, ConvertToBaseUnits)
   // The international yard and pound of 1959, standard gravity.
   EXPECT_EQ(parse_quantity("2 inch", Dimension::length), 50.8);
   EXPECT_DOUBLE_EQ(parse_quantity("30 in/min", Dimension::speed), 12.7);
+  EXPECT_DOUBLE_EQ(parse_quantity("3 cm/min", Dimension::speed), 0.5);
   EXPECT_NEAR(parse_quantity("1000 psi", Dimension::stress),
               6.89475729317,
               1e-10);
