@@ -456,13 +456,11 @@ namespace SlipStep
                   follow_warnings(read, present.pressure, is_at_rest())})
               warnings.insert(warnings.end(), more.begin(), more.end());
             tests[name.text] = read;
-            followed.push_back(
-              {read,
-               segments.empty() ? 0. : segments.back().end_time,
-               present.displacement});
           }
         const MeasuredTest &test   = tests.at(name.text);
         const auto          origin = present.displacement;
+        followed.push_back(
+          {test, segments.empty() ? 0. : segments.back().end_time, origin});
         for (std::size_t i = 1; i < test.time.size(); ++i)
           for (const PartOfWay &part : way_to(test, i))
             add((part.end - part.begin) * (test.time[i] - test.time[i - 1]),

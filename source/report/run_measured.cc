@@ -28,6 +28,8 @@ namespace SlipStep
       bool         is_repeated = false; ///< by the programme, row by row
       double       start_time  = 0.;    ///< in the run [s]
       double       start       = 0.;    ///< displacement in the run [mm]
+      std::size_t  pass        = 1;     ///< of the same test in the run
+      std::size_t  n_passes    = 1;
       FrictionAxis axis        = {};
     };
 
@@ -35,21 +37,33 @@ namespace SlipStep
 
     using ManyBeside = std::vector<MeasuredBeside>;
 
+    /// Of a test that a run follows again and again, the last among them.
+    constexpr std::size_t most_passes = 4;
+
     bool is_same_file(const MeasuredBeside &a, const MeasuredBeside &b)
     {
       return a.test.file.lexically_normal() == b.test.file.lexically_normal();
     }
 
-    /// Files that have the same name are told apart.
+    /// Files that have the same name are told apart, and so is what a run
+    /// follows more than once.
     std::string name_of(const MeasuredBeside &measured, const ManyBeside &all)
     {
-      const bool is_shared = any_of(all, [&](const MeasuredBeside &other) {
+      const bool  is_shared = any_of(all, [&](const MeasuredBeside &other) {
         return other.test.name == measured.test.name &&
                !is_same_file(other, measured);
       });
-      return measured.test.name +
-             (is_shared ? " (" + measured.test.file.stem().string() + ")" : "");
+      std::string text =
+        measured.test.name +
+        (is_shared ? " (" + measured.test.file.stem().string() + ")" : "");
+      if (measured.n_passes > 1)
+        text += " from " + rounded_text(measured.start_time, 7) + " s";
+      if (measured.n_passes > most_passes && measured.pass == measured.n_passes)
+        text += ", the last of " + std::to_string(measured.n_passes);
+      return text;
     }
+
+
 
     /// Whether one before it has the same points.
     bool is_drawn(const std::size_t i, const ManyBeside &all)
@@ -129,10 +143,24 @@ namespace SlipStep
             {
               const Programme programme =
                 parse_programme(figures.parameters_of(figures.runs[i]));
+              std::map<std::filesystem::path, std::size_t> passes, n_passes;
               for (const FollowedTest &followed : programme.followed())
-                add_along_axes({followed.test, i, true, followed.start_time},
-                               followed.origin,
-                               result);
+                ++n_passes[followed.test.file];
+              for (const FollowedTest &followed : programme.followed())
+                {
+                  const std::size_t pass = ++passes[followed.test.file];
+                  const std::size_t last = n_passes[followed.test.file];
+                  if (pass < most_passes || pass == last)
+                    add_along_axes({followed.test,
+                                    i,
+                                    true,
+                                    followed.start_time,
+                                    0.,
+                                    pass,
+                                    last},
+                                   followed.origin,
+                                   result);
+                }
             }
           for (const auto &file : named_files(parameters, "Report/Measured"))
             add_along_axes({read_measured_test(file)}, {}, result);

@@ -155,6 +155,36 @@ TEST(Report, EveryMeasuredTestIsDrawnOnceUnderANameOfItsOwn)
 
 
 
+// The second pass was compared with nothing.
+TEST(Report, WhatIsFollowedTwiceIsComparedTwice)
+{
+  const std::string file = (test_folder() / "there.csv").string();
+  std::ofstream(file) << "# name: sample\n"
+                         "time_s,displacement_mm,pressure_MPa,friction\n"
+                         "0,0,1,0\n50,5,1,0.1\n100,10,1,0.1\n";
+  Parameters parameters = parameters_with({});
+  parameters.set("Loading/Programme",
+                 "follow " + file + "; follow " + file,
+                 "test");
+  write_report(test_folder(), parameters, {make_run(1., "run")});
+  const std::string script =
+    content(test_folder() / "report" / "measured_over_displacement.gp");
+  has_all(script, {"sample from 0 s, measured", "sample from 100 s, measured"});
+  has_all(content(test_folder() / "report.html"),
+          {"sample from 0 s: 0.0", "; sample from 100 s: 0.0"});
+  parameters.set("Loading/Programme",
+                 "repeat 7 times { follow " + file + " }",
+                 "test");
+  write_report(test_folder(), parameters, {make_run(1., "run")});
+  const std::string many =
+    content(test_folder() / "report" / "measured_over_displacement.gp");
+  has_all(many,
+          {"sample from 200 s, measured", "sample from 600 s, the last of 7"});
+  has_none(many, {"from 300 s", "from 500 s"});
+}
+
+
+
 // Of a block on its side, and 2 m long.
 TEST(Report, TheContactFaceHasTheAxesOfTheBlock)
 {
