@@ -42,7 +42,6 @@ namespace SlipStep
     public:
       Searcher(Workspace &workspace, const Model &first)
         : workspace(workspace)
-        , first(first)
       {
         result.model = first;
       }
@@ -57,7 +56,13 @@ namespace SlipStep
         return beginnings.size() > 1;
       }
 
-      std::optional<OtherBeginning> other_beginning() const;
+      /// What the first name was added to.
+      const Model &start() const
+      {
+        return *started_from;
+      }
+
+      std::optional<OtherBeginning> other_beginning(const Model &found) const;
 
     private:
       void extend(SearchResult &proven);
@@ -87,10 +92,10 @@ namespace SlipStep
 
       bool try_rivals(const Model &less, const Part part, const double cost);
 
-      Workspace         &workspace;
-      const Model       &first;
-      std::vector<Model> beginnings; ///< what was added first, and the others
-      SearchResult       result;
+      Workspace           &workspace;
+      std::optional<Model> started_from;
+      std::vector<Model>   beginnings; ///< what was added first, and the others
+      SearchResult         result;
     };
 
 
@@ -128,23 +133,33 @@ namespace SlipStep
 
 
 
-    // Of the others that gain nearly as much, the one that predicts conditions
-    // left out best.
-    std::optional<OtherBeginning> Searcher::other_beginning() const
+    bool holds_names(const Model &model, const Model &others)
     {
-      std::optional<OtherBeginning> found;
-      const double gain = first.objective - beginnings.front().objective;
+      return none_of(others.parts,
+                     [&](const Part &part) { return !model.has(part.name); });
+    }
+
+
+
+    // Of those that gain nearly as much and were not found in the end, the one
+    // that predicts conditions left out best.
+    std::optional<OtherBeginning>
+    Searcher::other_beginning(const Model &found) const
+    {
+      std::optional<OtherBeginning> best;
+      const Model                  &chosen = beginnings.front();
+      const double                  gain = start().objective - chosen.objective;
       for (const Model &other : beginnings)
         {
-          if (other.has(beginnings.front().parts.front().name) ||
-              first.objective - other.objective < promise_of_rivals(gain))
+          if (other.has(chosen.parts.front().name) ||
+              holds_names(found, other) ||
+              start().objective - other.objective < promise_of_rivals(gain))
             continue;
-          const double lead =
-            left_out_lead(workspace, first, other, beginnings.front());
-          if (!found.has_value() || lead > found->lead)
-            found = OtherBeginning{other.copy(), lead};
+          const double lead = left_out_lead(workspace, start(), other, chosen);
+          if (!best.has_value() || lead > best->lead)
+            best = OtherBeginning{other.copy(), lead};
         }
-      return found;
+      return best;
     }
 
 
@@ -181,7 +196,10 @@ namespace SlipStep
             continue;
           const std::size_t n = result.model.parts.size();
           if (n == 0)
-            beginnings.assign(best, found.end());
+            {
+              started_from = result.model;
+              beginnings.assign(best, found.end());
+            }
           result.model = *best;
           settle(workspace, result.model);
           for (std::size_t part = n; part < result.model.parts.size(); ++part)
@@ -231,11 +249,12 @@ namespace SlipStep
 
 
 
-    // Between other bounds, or with an age at first, the law is the same.
+    // Between other bounds, or with an age at first, the law is the same. What
+    // adds no effect to the case is told by its parameters only.
     bool is_same_law(const TrialFormula &a, const TrialFormula &b)
     {
-      return a.effect == b.effect && a.settings == b.settings &&
-             a.texts == b.texts;
+      return !a.effect.empty() && a.effect == b.effect &&
+             a.settings == b.settings && a.texts == b.texts;
     }
 
 
@@ -243,16 +262,17 @@ namespace SlipStep
     // An effect may have several forms, which bounds tell apart, too.
     bool is_same_formula(const TrialFormula &a, const TrialFormula &b)
     {
-      return is_same_law(a, b) && std::equal(a.parameters.begin(),
-                                             a.parameters.end(),
-                                             b.parameters.begin(),
-                                             b.parameters.end(),
-                                             [](const CandidateParameter &x,
-                                                const CandidateParameter &y) {
-                                               return x.path == y.path &&
-                                                      x.lower == y.lower &&
-                                                      x.upper == y.upper;
-                                             });
+      return a.effect == b.effect && a.settings == b.settings &&
+             a.texts == b.texts &&
+             std::equal(a.parameters.begin(),
+                        a.parameters.end(),
+                        b.parameters.begin(),
+                        b.parameters.end(),
+                        [](const CandidateParameter &x,
+                           const CandidateParameter &y) {
+                          return x.path == y.path && x.lower == y.lower &&
+                                 x.upper == y.upper;
+                        });
     }
 
 
@@ -445,14 +465,6 @@ namespace SlipStep
 
 
 
-    bool holds_names(const Model &model, const Model &others)
-    {
-      return none_of(others.parts,
-                     [&](const Part &part) { return !model.has(part.name); });
-    }
-
-
-
     // Names that explain the tests as well by another way are rivals of those
     // that are not among them.
     void add_rivals(SearchResult &result, const SearchResult &other)
@@ -461,16 +473,21 @@ namespace SlipStep
       for (const std::string &name : effect_names(result.model.parts))
         if (!other.model.has(name))
           names.push_back(name);
-      const auto is_known = [&](const std::string &name) {
-        return result.model.has(name) ||
-               any_of(result.rivals,
-                      [&](const Rival &rival) { return rival.name == name; });
+      const auto is_known = [&](const Part &part) {
+        return any_of(result.model.parts,
+                      [&](const Part &own) {
+                        return own.name == part.name ||
+                               is_same_law(own.formula, part.formula);
+                      }) ||
+               any_of(result.rivals, [&](const Rival &rival) {
+                 return rival.name == part.name;
+               });
       };
-      for (const std::string &name : effect_names(other.model.parts))
-        if (!is_known(name) && !names.empty())
+      for (const Part &part : other.model.parts)
+        if (part.corrects.empty() && !is_known(part) && !names.empty())
           {
             result.rivals.push_back(
-              {name,
+              {part.name,
                names.front(),
                penalised(other.model) - penalised(result.model),
                other.model});
@@ -478,32 +495,70 @@ namespace SlipStep
               names.erase(names.begin());
           }
     }
+  } // namespace
 
 
 
-    // Of two ways, the one that explains the tests better and does not end at a
-    // bound; where that does not tell, the one that predicts conditions left
-    // out better.
-    SearchResult better_of(const Workspace    &workspace,
-                           const Model        &base,
-                           const SearchResult &first,
-                           const SearchResult &other)
+  SearchResult better_of(const SearchResult &first,
+                         const SearchResult &other,
+                         const double        lead)
+  {
+    if (is_at_bound(other.model))
+      return first;
+    const double distance = is_at_bound(first.model) ?
+                              -std::numeric_limits<double>::infinity() :
+                              penalised(other.model) - penalised(first.model);
+    // Without conditions to leave out the lead does not tell.
+    const bool   is_far    = std::abs(distance) >= rival_distance;
+    const bool   lead_told = std::abs(lead) >= sure_lead;
+    const bool   is_other  = is_far || !lead_told ? distance < 0. : lead > 0.;
+    SearchResult result    = is_other ? other : first;
+    result.first_fits      = first.first_fits;
+    if (!is_far && !lead_told)
+      add_rivals(result, is_other ? first : other);
+    return result;
+  }
+
+
+
+  namespace
+  {
+    // From another beginning, if that could lead elsewhere: names may be wrong
+    // together, what was found may be none, or leave a part of what could be
+    // explained.
+    SearchResult begin_again(Workspace          &workspace,
+                             const Searcher     &searcher,
+                             const SearchResult &found)
     {
-      if (is_at_bound(other.model))
-        return first;
-      const double distance = is_at_bound(first.model) ?
-                                -std::numeric_limits<double>::infinity() :
-                                penalised(other.model) - penalised(first.model);
-      const double lead =
-        left_out_lead(workspace, base, other.model, first.model);
-      if (distance >= rival_distance ||
-          (distance > -rival_distance && lead < -sure_cost))
-        return first;
-      SearchResult result = other;
-      result.first_fits   = first.first_fits;
-      if (distance > -rival_distance && lead < sure_cost)
-        add_rivals(result, first);
-      return result;
+      constexpr double much = 0.05; // of what is explained
+
+      const GapTest remainder =
+        test_gap(workspace,
+                 found.model,
+                 score_candidates(workspace, found.model));
+      const bool remains = remainder.p <= workspace.level;
+      const bool is_none = is_at_bound(found.model);
+      if (!is_none && !remains && effect_names(found.model.parts).size() < 2)
+        return found;
+      const auto   other = searcher.other_beginning(found.model);
+      const double explained =
+        searcher.start().objective - found.model.objective;
+      if (!other.has_value() ||
+          !(other->lead > sure_lead || is_none ||
+            (remains &&
+             remainder.excess > std::max(sure_excess, much * explained))))
+        return found;
+      workspace.tell("beginning with " + other->model.parts.back().name);
+      SearchResult others = Searcher(workspace, other->model).go_on();
+      // Nothing has to be added to it.
+      if (others.costs.empty())
+        others = Searcher(workspace, other->model).run();
+      if (others.costs.empty() || workspace.is_late())
+        return found;
+      return better_of(
+        found,
+        others,
+        left_out_lead(workspace, searcher.start(), others.model, found.model));
     }
   } // namespace
 
@@ -513,30 +568,18 @@ namespace SlipStep
   // what a second one would explain.
   SearchResult search(Workspace &workspace, const Model &first)
   {
-    constexpr double much = 0.05; // of what is explained
-
     Searcher           searcher(workspace, first);
     const SearchResult found = searcher.run();
     if (!searcher.has_others() || workspace.is_late())
       return found;
-    const GapTest remainder =
-      test_gap(workspace,
-               found.model,
-               score_candidates(workspace, found.model));
-    const bool remains = remainder.p <= workspace.level;
-    const bool is_none = is_at_bound(found.model);
-    if (!is_none && !remains && effect_names(found.model.parts).size() < 2)
-      return found;
-    const std::optional<OtherBeginning> other = searcher.other_beginning();
-    const double explained = first.objective - found.model.objective;
-    if (!other.has_value() || holds_names(found.model, other->model) ||
-        !(other->lead > sure_cost || is_none ||
-          (remains &&
-           remainder.excess > std::max(sure_excess, much * explained))))
-      return found;
-    workspace.tell("beginning with " + other->model.parts.back().name);
-    const SearchResult others = Searcher(workspace, other->model).go_on();
-    return others.costs.empty() ? found :
-                                  better_of(workspace, first, found, others);
+    try
+      {
+        return begin_again(workspace, searcher, found);
+      }
+    catch (const RunError &)
+      {
+        workspace.end_by_signal();
+        return found;
+      }
   }
 } // namespace SlipStep

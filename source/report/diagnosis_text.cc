@@ -140,21 +140,25 @@ namespace SlipStep
       return text;
     }
 
-    /// Effects that are seen, though not surely enough to be fitted: none if
-    /// any were.
+    /// Effects that are seen, though not surely enough to be fitted, for which
+    /// the first name has half of the level: none if others had been.
     std::vector<const CandidateResult *> unsure(const Diagnosis &diagnosis)
     {
       std::vector<const CandidateResult *> found;
       for (const CandidateResult &candidate : diagnosis.candidates)
-        if (std::isfinite(candidate.gain))
+        if (std::isfinite(candidate.gain) || diagnosis.is_cut_short)
           return {};
         else if (candidate.standing == Standing::not_enough)
-          found.push_back(&candidate);
+          {
+            if (diagnosis.has_gap && candidate.p <= diagnosis.level / 2.)
+              return {};
+            found.push_back(&candidate);
+          }
       return found;
     }
 
-    /// "; viscous and overstress (p = 0.03) come nearest, too unsure for a
-    /// name"
+    /// "; viscous and overstress come nearest, too unsure for a name (p = 0.03
+    /// at best)"
     std::string unsure_words(const Diagnosis &diagnosis)
     {
       std::vector<std::string> names;
@@ -164,11 +168,12 @@ namespace SlipStep
           names.push_back(candidate->name);
           least = std::min(least, candidate->p);
         }
-      return names.empty() ? "" :
-                             "; " + list_text(names, "or") +
-                               (names.size() > 1 ? " come" : " comes") +
-                               " nearest, too unsure for a name (p = " +
-                               short_text(least, 2) + ")";
+      return names.empty() ?
+               "" :
+               "; " + list_text(names) +
+                 (names.size() > 1 ? " come" : " comes") +
+                 " nearest, too unsure for a name (p = " +
+                 short_text(least, 2) + (names.size() > 1 ? " at best)" : ")");
     }
 
     std::string unnamed_words(const Diagnosis &diagnosis)

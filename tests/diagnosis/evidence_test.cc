@@ -9,6 +9,8 @@
 
 #include <limits>
 
+#include <limits>
+
 using namespace SlipStep;
 
 namespace
@@ -90,4 +92,50 @@ TEST(Evidence, LowersFittedAndLeftOutDifferences)
   // One condition: nothing can be left out.
   EXPECT_TRUE(is_needed(31., none));
   EXPECT_FALSE(is_needed(29., none));
+}
+
+
+
+namespace
+{
+  SearchResult result_of(const std::string &name, const double objective)
+  {
+    SearchResult result;
+    result.model.parts     = {{name, {}}};
+    result.model.objective = objective;
+    return result;
+  }
+} // namespace
+
+
+
+// Of two ways: what is better by far, what predicts better, else the better one
+// with the other as its rival.
+TEST(Evidence, OfTwoWaysTheBetterOneIsTaken)
+{
+  const double no_lead = std::numeric_limits<double>::quiet_NaN();
+  const auto   taken   = [](const double distance, const double lead) {
+    const SearchResult result =
+      better_of(result_of("a", 100.), result_of("b", 100. + distance), lead);
+    EXPECT_LE(result.rivals.size(), 1u);
+    for (const Rival &rival : result.rivals)
+      {
+        EXPECT_GE(rival.distance, 0.);
+        EXPECT_NE(rival.name, result.model.parts[0].name);
+        EXPECT_EQ(rival.instead_of, result.model.parts[0].name);
+      }
+    return result.model.parts[0].name + (result.rivals.empty() ? "" : "?");
+  };
+  for (const double lead : {-100., -10., 0., 10., 100., no_lead})
+    {
+      EXPECT_EQ(taken(10., lead), "a");
+      EXPECT_EQ(taken(-10., lead), "b");
+    }
+  for (const double distance : {-5., 5.})
+    {
+      EXPECT_EQ(taken(distance, -40.), "a");
+      EXPECT_EQ(taken(distance, 40.), "b");
+      for (const double lead : {-20., 20., no_lead})
+        EXPECT_EQ(taken(distance, lead), distance < 0. ? "b?" : "a?");
+    }
 }

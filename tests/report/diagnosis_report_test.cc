@@ -204,12 +204,16 @@ TEST(DiagnosisHeadline, TellsWhatIsTooUnsureForAName)
       diagnosis.candidates[0].name = "viscous";
       diagnosis.candidates[1].name = "overstress";
       EXPECT_TRUE(contains(headline(diagnosis),
-                           "; viscous or overstress come nearest, too unsure "
-                           "for a name (p = 0.033)"))
+                           "; viscous and overstress come nearest, too unsure "
+                           "for a name (p = 0.033 at best)"))
         << headline(diagnosis);
       EXPECT_EQ(contains(headline(diagnosis),
                          "no effect of the catalogue explains surely"),
                 has_gap);
+      // Surely enough to be fitted, had there been time.
+      diagnosis.is_cut_short = true;
+      EXPECT_FALSE(contains(headline(diagnosis), "unsure"));
+      diagnosis.is_cut_short = false;
       // What was fitted, and did not explain it, is surely not the name.
       diagnosis.candidates[0].gain = 100.;
       EXPECT_FALSE(contains(headline(diagnosis), "unsure"));

@@ -87,7 +87,7 @@ namespace SlipStep
     named,
     rival,
     not_needed, ///< significant by itself, but with the names no more
-    not_enough, ///< significant, but too much remains for a name
+    not_enough, ///< significant, but too little or too unsure for a name
     rejected,
     not_tried, ///< for want of time
     not_simulated,

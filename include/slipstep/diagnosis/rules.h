@@ -12,6 +12,8 @@ namespace SlipStep
   constexpr double least_cost = 15.;
   /// The same where there is but one condition, so that none can be left out.
   constexpr double sure_cost = 30.;
+  /// On conditions left out, by which one of two ways predicts them better.
+  constexpr double sure_lead = 30.;
   /// 2 ln 20: nearer than this, a rival explains the tests as well.
   constexpr double rival_distance = 6.;
   /// A rival that does better by more than this takes the place of the name.

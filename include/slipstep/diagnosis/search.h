@@ -37,6 +37,15 @@ namespace SlipStep
     FirstFits                             first_fits;
   };
 
+  /// Of what two searches came to, the one that explains the tests better and
+  /// does not end at a bound; where that does not tell, the one that predicts
+  /// conditions left out better; where neither tells, the names of both are
+  /// rivals.
+  /// @param lead of the other one on conditions left out, see left_out_lead()
+  SearchResult better_of(const SearchResult &first,
+                         const SearchResult &other,
+                         const double        lead);
+
   /// Add effects as long as they are needed, take away those that are not, and
   /// exchange those for which another does better. When time is over, what was
   /// proven until then.
