@@ -9,8 +9,6 @@
 
 #include <limits>
 
-#include <limits>
-
 using namespace SlipStep;
 
 namespace

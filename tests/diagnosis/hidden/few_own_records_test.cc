@@ -17,6 +17,18 @@ namespace
     static inline const std::string coulomb_contact =
       "set Calibration/Parameters = Friction/Static coefficient from 0.05 to "
       "0.6\n";
+
+    // Friction that follows the speed at once, on the spring of the contact.
+    Contact slider(const std::function<double(double)> &strength_at) const
+    {
+      return [this, strength_at](const double friction,
+                                 const double speed,
+                                 const double,
+                                 const double step) {
+        return std::min(strength_at(speed),
+                        friction + stiffness * speed * step);
+      };
+    }
   };
 } // namespace
 
@@ -29,14 +41,7 @@ TEST_F(OwnRecordsOfFewTests, WhatIsBelievedOfParametersIsNoGap)
   stiffness = 10.;
   noise     = 0.003;
   n_rows    = 300;
-  write(0,
-        {{0.02, 150.}},
-        [this](const double friction,
-               const double speed,
-               const double,
-               const double step) {
-          return std::min(0.3, friction + stiffness * speed * step);
-        });
+  write(0, {{0.02, 150.}}, slider([](double) { return 0.3; }));
   const Judgement judgement =
     judged("subloading",
            "",
@@ -64,14 +69,10 @@ TEST_F(OwnRecordsOfFewTests, TwoEffectsAreFoundFromAnotherBeginning)
       stiffness = 100. / pressure;
       write(number,
             {{condition.speed, 4. / condition.speed}},
-            [this](const double friction,
-                   const double speed,
-                   const double,
-                   const double step) {
-              return std::min(0.2 * (1. + 0.02 * std::log1p(speed / 0.01)) *
-                                std::pow(pressure / 2., -0.1),
-                              friction + stiffness * speed * step);
-            });
+            slider([this](const double speed) {
+              return 0.2 * (1. + 0.02 * std::log1p(speed / 0.01)) *
+                     std::pow(pressure / 2., -0.1);
+            }));
       number += 2;
     }
   const Judgement judgement =
@@ -96,15 +97,9 @@ TEST_F(OwnRecordsOfFewTests, WhatNothingHoldsIsNotForgotten)
   unsigned int number = 0;
   for (const double speed : {0.05, 0.5, 2., 5.})
     {
-      write(number,
-            {{speed, 4. / speed}},
-            [this](const double friction,
-                   const double speed,
-                   const double,
-                   const double step) {
-              return std::min(0.2 * (1. + 0.2 * std::exp(-speed / 0.5)),
-                              friction + stiffness * speed * step);
-            });
+      write(number, {{speed, 4. / speed}}, slider([](const double speed) {
+              return 0.2 * (1. + 0.2 * std::exp(-speed / 0.5));
+            }));
       number += 2;
     }
   const Judgement judgement =
