@@ -89,7 +89,10 @@ namespace SlipStep
           if (model.parts.empty())
             notes.gains.emplace_back(seen.candidate.name,
                                      model.objective - tried->objective);
-          if (!is_at_bound(*tried))
+          const bool is_inside = !is_at_bound(*tried);
+          if (is_inside && model.parts.empty())
+            notes.models.push_back(*tried);
+          if (is_inside)
             found.push_back(*tried);
           else if (!at_bound.has_value() ||
                    tried->objective < at_bound->objective)

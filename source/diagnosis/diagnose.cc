@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/confounding.h>
 #include <slipstep/diagnosis/correction.h>
 #include <slipstep/diagnosis/diagnose.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
@@ -168,6 +169,9 @@ namespace SlipStep
           ": should their records be right, this verdict is not.");
       for (const Rival &rival : judgement.found.rivals)
         result.rivals.push_back({rival.name, rival.instead_of});
+      if (!judgement.confounded.empty())
+        result.warnings.push_back(
+          confounding_words(result.effects.front(), judgement.confounded));
     }
 
 

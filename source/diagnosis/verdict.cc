@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/confounding.h>
 #include <slipstep/diagnosis/outlying_rows.h>
 #include <slipstep/diagnosis/verdict.h>
 #include <slipstep/diagnosis/ingest.h>
@@ -247,6 +248,24 @@ namespace SlipStep
 
 
 
+    // What follows the tests only by the details of a formula that does not
+    // follow them to the noise is no better than another.
+    void look_for_confounded(const Workspace &workspace, Judgement &judgement)
+    {
+      judgement.confounded =
+        confounded_effects(workspace, judgement.base, judgement.found);
+      if (!judgement.is_incomplete)
+        return;
+      std::vector<Rival> &rivals = judgement.found.rivals;
+      rivals.insert(rivals.end(),
+                    judgement.confounded.begin(),
+                    judgement.confounded.end());
+      if (!judgement.confounded.empty())
+        judgement.verdict = Verdict::ambiguous;
+    }
+
+
+
     void look_for_gap(Workspace &workspace, Judgement &judgement)
     {
       workspace.range.track_wave =
@@ -370,9 +389,12 @@ namespace SlipStep
     workspace.tell("looking for rows that nothing explains");
     const auto finish = [&]() {
       judge_without_outliers(workspace, result);
-      if (!result.found.model.parts.empty() &&
-          !are_sufficient(workspace, result))
+      if (result.found.model.parts.empty())
+        return;
+      if (!are_sufficient(workspace, result))
         withdraw(result);
+      else if (!workspace.is_late())
+        look_for_confounded(workspace, result);
     };
     try
       {

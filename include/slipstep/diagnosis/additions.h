@@ -23,6 +23,8 @@ namespace SlipStep
   {
     /// By how much each lowers the objective alone.
     std::vector<std::pair<std::string, double>> gains;
+    /// Those that end between the bounds of what was added.
+    std::vector<Model> models;
     /// Those that no fit could simulate.
     std::vector<std::string> lost;
   };

@@ -22,6 +22,9 @@ namespace SlipStep
     std::vector<std::string> withdrawn;
     /// Whether the names explain what is there, but for a remainder.
     bool is_incomplete = false;
+    /// What explains the tests nearly as well by another condition, which
+    /// changes with that of the only name: rivals of it if that is incomplete.
+    std::vector<Rival> confounded;
     /// Rows that no model explains and that count for less, and the starting
     /// model fitted so; none if all count.
     std::vector<Eigen::Index> outlying;

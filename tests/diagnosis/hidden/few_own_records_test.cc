@@ -4,6 +4,7 @@
 
 #include <tests/diagnosis/hidden/own_records.h>
 
+#include <slipstep/diagnosis/confounding.h>
 #include <slipstep/utilities/lists.h>
 
 using namespace SlipStep;
@@ -28,6 +29,32 @@ namespace
         return std::min(strength_at(speed),
                         friction + stiffness * speed * step);
       };
+    }
+
+    struct Condition
+    {
+      double speed, pressure;
+    };
+
+    // Friction as log speed times a power of pressure.
+    Judgement judged_two_effects(const std::vector<Condition> &conditions,
+                                 const double                  power)
+    {
+      unsigned int number = 0;
+      for (const Condition &condition : conditions)
+        {
+          pressure  = condition.pressure;
+          stiffness = 100. / pressure;
+          write(number,
+                {{condition.speed, 4. / condition.speed}},
+                slider([this, power](const double speed) {
+                  return 0.2 * (1. + 0.02 * std::log1p(speed / 0.01)) *
+                         std::pow(pressure / 2., power);
+                }));
+          number += 2;
+        }
+      return judged(
+        "", "", coulomb_contact + "set Friction/Tangential stiffness = 100\n");
     }
   };
 } // namespace
@@ -57,32 +84,47 @@ TEST_F(OwnRecordsOfFewTests, WhatIsBelievedOfParametersIsNoGap)
 // the right ones are not found: viscous and shear_cap were named for these.
 TEST_F(OwnRecordsOfFewTests, TwoEffectsAreFoundFromAnotherBeginning)
 {
-  struct Condition
-  {
-    double speed, pressure;
-  };
-  unsigned int number = 0;
-  for (const Condition &condition :
-       {Condition{0.1, 2.}, {10., 2.}, {1., 8.}, {1., 2.}, {1., 2. / 3.}})
-    {
-      pressure  = condition.pressure;
-      stiffness = 100. / pressure;
-      write(number,
-            {{condition.speed, 4. / condition.speed}},
-            slider([this](const double speed) {
-              return 0.2 * (1. + 0.02 * std::log1p(speed / 0.01)) *
-                     std::pow(pressure / 2., -0.1);
-            }));
-      number += 2;
-    }
-  const Judgement judgement =
-    judged("",
-           "",
-           coulomb_contact + "set Friction/Tangential stiffness = 100\n");
+  const Judgement judgement = judged_two_effects(
+    {{0.1, 2.}, {10., 2.}, {1., 8.}, {1., 2.}, {1., 2. / 3.}}, -0.1);
   std::vector<std::string> names = effect_names(judgement.found.model.parts);
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, (std::vector<std::string>{"overstress", "pressure"}));
   EXPECT_TRUE(judgement.found.rivals.empty());
+}
+
+
+
+// The only test at the highest speed is the only one at the lowest pressure: an
+// effect of one of them was named for both, though it left more than noise.
+TEST_F(OwnRecordsOfFewTests, ConditionsThatChangeTogetherAreTold)
+{
+  const Judgement judgement =
+    judged_two_effects({{0.1, 8.}, {1., 8.}, {10., 2.}, {1., 4.}, {0.1, 4.}},
+                       -0.1);
+  ASSERT_EQ(judgement.found.model.parts.size(), 1u);
+  ASSERT_FALSE(judgement.confounded.empty());
+  EXPECT_TRUE(judgement.is_incomplete);
+  EXPECT_EQ(judgement.verdict, Verdict::ambiguous);
+  EXPECT_EQ(judgement.found.rivals.size(), judgement.confounded.size());
+  const std::string words =
+    confounding_words(judgement.found.model.parts[0].name,
+                      judgement.confounded);
+  for (const std::string &name :
+       {judgement.found.model.parts[0].name, judgement.found.rivals[0].name})
+    EXPECT_NE(words.find(name), std::string::npos) << words;
+}
+
+
+
+// Where they change one by one, formulas do not have to tell them apart.
+TEST_F(OwnRecordsOfFewTests, ConditionsThatChangeOneByOneAreNotDoubted)
+{
+  const Judgement judgement = judged_two_effects(
+    {{0.1, 2.}, {10., 2.}, {1., 8.}, {1., 2.}, {1., 2. / 3.}}, 0.);
+  EXPECT_EQ(effect_names(judgement.found.model.parts),
+            std::vector<std::string>{"overstress"});
+  EXPECT_EQ(judgement.verdict, Verdict::named);
+  EXPECT_TRUE(judgement.confounded.empty());
 }
 
 

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/confounding.h>
+#include <slipstep/diagnosis/covariate.h>
+#include <slipstep/diagnosis/left_out.h>
+#include <slipstep/diagnosis/refits.h>
+#include <slipstep/utilities/lists.h>
+#include <slipstep/utilities/text.h>
+
+namespace SlipStep
+{
+  namespace
+  {
+    // What tests are made at, rather than what comes about in them.
+    bool is_condition(const std::string &along)
+    {
+      return along == "pressure" || along == "log10 speed";
+    }
+  } // namespace
+
+
+
+  std::vector<Rival> confounded_effects(const Workspace    &workspace,
+                                        const Model        &base,
+                                        const SearchResult &found)
+  {
+    constexpr double nearly = 0.8;
+
+    if (effect_names(found.model.parts).size() != 1)
+      return {};
+    const auto is_rival = [&](const std::string &name) {
+      return any_of(found.rivals,
+                    [&](const Rival &rival) { return rival.name == name; });
+    };
+    const Part        &named = found.model.parts.front();
+    const double       gain  = base.objective - found.model.objective;
+    std::vector<Rival> result;
+    for (const Model &first : found.first_fits.models)
+      {
+        const TrialFormula &formula = first.parts.front().formula;
+        if (is_rival(first.parts.front().name) ||
+            !is_condition(formula.along) ||
+            !is_condition(named.formula.along) ||
+            formula.along == named.formula.along)
+          continue;
+        // Since then some rows may count for less.
+        const std::optional<Model> alone =
+          fitted_model(workspace, first.parts, first.values(), base, 0.01);
+        if (alone.has_value() && !is_at_bound(*alone) &&
+            base.objective - alone->objective > nearly * gain &&
+            is_needed(base.objective - alone->objective,
+                      left_out_gain(workspace, base, *alone)))
+          result.push_back({first.parts.front().name,
+                            named.name,
+                            penalised(*alone) - penalised(found.model),
+                            *alone});
+      }
+    stable_sort(result, [](const Rival &a, const Rival &b) {
+      return a.distance < b.distance;
+    });
+    return result;
+  }
+
+
+
+  std::string confounding_words(const std::string        &name,
+                                const std::vector<Rival> &confounded)
+  {
+    std::vector<std::string> names;
+    for (const Rival &rival : confounded)
+      names.push_back(rival.name);
+    const std::string other =
+      covariate_in_expression(
+        confounded.front().model.parts.front().formula.along)
+        .name;
+    return "These tests hardly tell pressure from speed: " +
+           list_text(names, "or") + ", which goes with " + other +
+           ", explains nearly as much alone as " + name +
+           " does, and only the formulas tell them apart. Both may be missing; "
+           "tests at one speed under several pressures, and at several speeds "
+           "under one pressure, would tell.";
+  }
+} // namespace SlipStep
