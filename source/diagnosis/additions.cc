@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/additions.h>
+#include <slipstep/diagnosis/confounding.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/rules.h>
 #include <slipstep/utilities/lists.h>
@@ -195,6 +196,9 @@ namespace SlipStep
       std::vector<Model>   found = single(at_bound);
       add_pairs(found);
       add_beside(at_bound, found);
+      remove_erase_if(found, [&](const Model &tried) {
+        return fits_any_friction(workspace, tried);
+      });
       return found;
     }
   } // namespace

@@ -15,6 +15,29 @@ namespace SlipStep
     {
       return along == "pressure" || along == "log10 speed";
     }
+
+
+
+    // Those within a twentieth are one.
+    std::size_t n_levels(const Eigen::VectorXd &values)
+    {
+      constexpr double same = 1.05;
+
+      std::vector<double> sorted;
+      for (const double value : values)
+        if (value > 0.)
+          sorted.push_back(value);
+      std::sort(sorted.begin(), sorted.end());
+      std::size_t n     = 0;
+      double      level = 0.;
+      for (const double value : sorted)
+        if (value > same * level)
+          {
+            level = value;
+            ++n;
+          }
+      return n;
+    }
   } // namespace
 
 
@@ -58,6 +81,43 @@ namespace SlipStep
       return a.distance < b.distance;
     });
     return result;
+  }
+
+
+
+  std::vector<EffectsAlong> effects_along_conditions(const Workspace &workspace,
+                                                     const Model     &model)
+  {
+    std::vector<EffectsAlong> result;
+    for (const std::string covariate : {"pressure", "speed"})
+      {
+        const Covariate &known = covariate_called(covariate);
+        EffectsAlong     along;
+        along.covariate = covariate;
+        for (const Part &part : model.parts)
+          if (part.corrects.empty() &&
+              part.formula.along == known.in_expression)
+            {
+              along.names.push_back(part.name);
+              along.n_numbers +=
+                part.formula.parameters.size() + part.formula.n_in_texts;
+            }
+        along.n_levels = n_levels(workspace.covariates.*known.values);
+        result.push_back(along);
+      }
+    return result;
+  }
+
+
+
+  bool fits_any_friction(const Workspace &workspace, const Model &model)
+  {
+    return effect_names(model.parts).size() > 2 &&
+           any_of(effects_along_conditions(workspace, model),
+                  [](const EffectsAlong &along) {
+                    return along.names.size() > 1 &&
+                           along.n_levels < along.n_numbers;
+                  });
   }
 
 

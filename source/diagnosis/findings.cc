@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/diagnosis/confounding.h>
 #include <slipstep/diagnosis/findings.h>
 #include <slipstep/diagnosis/hum_of_tests.h>
 #include <slipstep/diagnosis/left_out.h>
@@ -9,7 +10,6 @@
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
-#include <boost/algorithm/string/join.hpp>
 #include <boost/crc.hpp>
 
 #include <algorithm>
@@ -356,62 +356,19 @@ namespace SlipStep
 
 
 
-  namespace
-  {
-    // Values that tests were made at: those within a twentieth are one.
-    std::size_t n_levels(const Eigen::VectorXd &values)
-    {
-      constexpr double same = 1.05;
-
-      std::vector<double> sorted;
-      for (const double value : values)
-        if (value > 0.)
-          sorted.push_back(value);
-      std::sort(sorted.begin(), sorted.end());
-      std::size_t n     = 0;
-      double      level = 0.;
-      for (const double value : sorted)
-        if (value > same * level)
-          {
-            level = value;
-            ++n;
-          }
-      return n;
-    }
-  } // namespace
-
-
-
   void describe_few_levels(const Workspace &workspace,
                            const Model     &model,
                            Diagnosis       &diagnosis)
   {
-    for (const std::string covariate : {"pressure", "speed"})
-      {
-        const Covariate         &known = covariate_called(covariate);
-        std::vector<std::string> names;
-        std::size_t              n_numbers = 1; // the coefficient
-        for (const Part &part : model.parts)
-          if (part.corrects.empty() &&
-              part.formula.along == known.in_expression)
-            {
-              names.push_back(part.name);
-              n_numbers +=
-                part.formula.parameters.size() + part.formula.n_in_texts;
-            }
-        const std::size_t n = n_levels(workspace.covariates.*known.values);
-        if (names.size() > 1 && n <= n_numbers)
-          diagnosis.warnings.push_back(
-            "The tests have " + std::to_string(n) + " levels of " + covariate +
-            ", and " + boost::algorithm::join(names, " and ") +
-            " with the "
-            "coefficient have " +
-            std::to_string(n_numbers) +
-            " numbers: they would fit any friction at these. Another formula "
-            "of " +
-            covariate + " does as well, and a test at another " + covariate +
-            " would tell.");
-      }
+    for (const EffectsAlong &along : effects_along_conditions(workspace, model))
+      if (along.names.size() > 1 && along.n_levels <= along.n_numbers)
+        diagnosis.warnings.push_back(
+          "The tests have " + std::to_string(along.n_levels) + " levels of " +
+          along.covariate + ", and " + list_text(along.names) +
+          " with the coefficient have " + std::to_string(along.n_numbers) +
+          " numbers: they would fit any friction at these. Another formula of " +
+          along.covariate + " does as well, and a test at another " +
+          along.covariate + " would tell.");
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/additions.h>
+#include <slipstep/diagnosis/confounding.h>
 #include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/search.h>
@@ -300,6 +301,7 @@ namespace SlipStep
           ++n_tried;
           std::optional<Model> tried = refit_with(workspace, less, seen);
           if (!tried.has_value() || is_at_bound(*tried) ||
+              fits_any_friction(workspace, *tried) ||
               is_same_formula(tried->parts.back().formula, part.formula))
             continue;
           // What is better only while its steps are another's would have to
