@@ -157,10 +157,11 @@ namespace SlipStep
     for (const auto &[old, unique] :
          {std::make_pair("\\bid=(['\"])", "id=$1" + name + "-"),
           std::make_pair("href=(['\"])#", "href=$1#" + name + "-"),
-          std::make_pair("url\\(#", "url(#" + name + "-"),
-          std::make_pair("<title>Gnuplot</title>",
-                         "<title>" + html_text(title) + "</title>")})
+          std::make_pair("url\\(#", "url(#" + name + "-")})
       svg = std::regex_replace(svg, std::regex(old), unique);
+    boost::algorithm::replace_first(svg,
+                                    "<title>Gnuplot</title>",
+                                    "<title>" + html_text(title) + "</title>");
     std::smatch       logarithmic;
     const std::string script = commands.str();
     std::regex_search(script, logarithmic, std::regex("set logscale ([xy]+)"));
@@ -308,6 +309,17 @@ namespace SlipStep
 
 
 
+  Range without_round_off(const Range &range)
+  {
+    const double size = std::max(std::abs(range.lower), std::abs(range.upper));
+    const double half = std::max(0.05 * size, 1e-12);
+    return range.width() > 1e-6 * size ?
+             range :
+             Range{range.middle() - half, range.middle() + half};
+  }
+
+
+
   Range
   with_margin(const Range &range, const double share, const bool is_logarithmic)
   {
@@ -351,8 +363,10 @@ namespace SlipStep
   std::string background(const std::vector<Colour3> &stops, const double share)
   {
     const auto [red, green, blue] = mixed_colour(stops, share);
+    // As eyes see it, whatever colour the page's text has.
+    const bool is_dark = 0.3 * red + 0.59 * green + 0.11 * blue < 110.;
     return "background:rgb(" + exact_text(red) + "," + exact_text(green) + "," +
-           exact_text(blue) + ")";
+           exact_text(blue) + ");color:" + (is_dark ? "#fff" : "#222");
   }
 
 

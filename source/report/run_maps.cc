@@ -109,7 +109,7 @@ namespace SlipStep
       Range range;
       range.add(cells, 2);
       // One colour and no number say nothing.
-      if (cells.empty() || !(range.width() > 0.))
+      if (cells.empty() || without_round_off(range).width() > range.width())
         return;
       Figure figure =
         figures.figure(name,
@@ -125,8 +125,11 @@ namespace SlipStep
         << "set xlabel " << gnuplot_text(grid.x.path) << "\nset ylabel "
         << gnuplot_text(grid.y.path) << "\nset cblabel " << gnuplot_text(title)
         << '\n'
-        << tics_of('x', grid.x) << tics_of('y', grid.y) << "plot " << data
-        << " using 1:2:3 with image pixels";
+        << tics_of('x', grid.x) << tics_of('y', grid.y) << "plot "
+        << data
+        // An image would need all of them.
+        << " using 1:2:(0.5):(0.5):3 with boxxyerror lc palette fs solid 1 "
+           "noborder";
       // Numbers as long as they have room; dark on bright.
       if (grid.x.values.size() <= 10)
         for (const bool is_bright : {false, true})
@@ -164,6 +167,7 @@ namespace SlipStep
         range.add(value);
       const double size =
         std::max(std::abs(range.lower), std::abs(range.upper));
+      std::string of;
       if (range.width() < 0.02 * size)
         {
           // Cells differ in size.
@@ -176,23 +180,31 @@ namespace SlipStep
             }
           mean /= area;
           field.offset = mean;
-          field.factor = 1e3;
-          field.label  = name + " − " + short_text(mean, 5) + " " + unit +
-                        "  [" + (unit == "mm" ? "µm" : "kPa") + "]";
+          of           = " − " + short_text(mean, 5) + " " + unit;
         }
-      else if (size < 0.01)
+      // In a unit by which numbers are short; round-off is no pattern.
+      constexpr double round_off = 1e-6, smallest = 1e-9;
+      const double     shown =
+        of.empty() ? size : std::max(range.width(), round_off * size);
+      const bool  is_length  = unit == "mm";
+      std::string shown_unit = unit;
+      if (shown > smallest && shown < 1e-5)
+        {
+          field.factor = 1e6;
+          shown_unit   = is_length ? "nm" : "Pa";
+        }
+      else if (shown > smallest && (shown < 0.01 || !of.empty()))
         {
           field.factor = 1e3;
-          field.label  = name + "  [" + (unit == "mm" ? "µm" : "kPa") + "]";
+          shown_unit   = is_length ? "µm" : "kPa";
         }
+      field.label = name + of + "  [" + shown_unit + "]";
       for (const double value : face[column])
         field.range.add(field.factor * (value - field.offset));
-
-      // Round-off shall not look like a pattern.
-      const double least = std::max(field.factor * 1e-6 * size, 1e-12);
+      const double least = field.factor * std::max(round_off * size, smallest);
       if (field.range.width() < least)
-        field.range = {field.range.lower - 0.5 * least,
-                       field.range.upper + 0.5 * least};
+        field.range = {field.range.middle() - 0.5 * least,
+                       field.range.middle() + 0.5 * least};
       return field;
     }
 
@@ -252,19 +264,22 @@ namespace SlipStep
                    const std::array<Field, 2> &fields,
                    const double                height)
     {
+      const Range y = extent_of(face, 1);
       script << "set palette defined (0 '#440154', 1 '#414487', 2 '#2a788e', "
                 "3 '#22a884', 4 '#7ad151', 5 '#fde725')\n"
                 "set border 15 lw 1 lc rgb '#444444'\nunset key\n"
                 "set tics out nomirror scale 0.6\nset size ratio -1\n"
              << "set ylabel '" << face.axes[1] << "  [mm]' offset 1.5\n"
              << "set multiplot\n"
-             << x_axis_of(face) << "set yrange " << extent_of(face, 1) << '\n';
+             << x_axis_of(face) << "set yrange " << y << '\n'
+             << few_tics('y', y.lower, y.upper, false);
       for (unsigned int k = 0; k < 2; ++k)
         script << "set lmargin at screen " << 0.085 + 0.5 * k
                << "\nset rmargin at screen " << 0.41 + 0.5 * k
                << "\nset tmargin at screen " << 1. - 40. / height
                << "\nset bmargin at screen " << 75. / height << "\nset cbrange "
-               << fields[k].range << "\nset title "
+               << fields[k].range << "\nset cbtics "
+               << round_up(fields[k].range.width() / 4.) << "\nset title "
                << gnuplot_text(fields[k].label) << "\nplot " << data
                << " using 1:2:3:4:" << 5 + k
                << " with boxxyerror lc palette fs solid 1 noborder\n";

@@ -194,9 +194,14 @@ namespace SlipStep
       const auto add = [&](const double x, const double y) {
         if (!std::isfinite(x) || !std::isfinite(y))
           return;
-        const double angle = x * dealii::numbers::PI / 180.;
+        const double angle     = x * dealii::numbers::PI / 180.;
+        const auto   component = [&](const double share) {
+          constexpr double round_off = 1e-12;
+          return std::abs(share) < round_off ? 0. : y * share;
+        };
         if (picture.x.name == "direction")
-          rows.push_back({y * std::cos(angle), y * std::sin(angle)});
+          rows.push_back(
+            {component(std::cos(angle)), component(std::sin(angle))});
         else
           rows.push_back({x, y});
       };
@@ -244,6 +249,29 @@ namespace SlipStep
              range.lower > 0. && range.upper > 15. * range.lower;
     }
 
+    /// What lies on a line would have no height.
+    std::string
+    flat_side(const char axis, const Range &range, const Range &other)
+    {
+      constexpr double least = 0.4;
+      const double     half  = 0.5 * least * other.width();
+      return range.width() > least * other.width() ?
+               "" :
+               std::string("set ") + axis + "range [" +
+                 exact_text(range.middle() - half) + ":" +
+                 exact_text(range.middle() + half) + "]\n";
+    }
+
+    /// The same where nothing but round-off differs; "" if more does.
+    std::string constant_side(const char axis, const Range &range)
+    {
+      const Range wide = without_round_off(range);
+      return wide.width() > range.width() ?
+               std::string("set ") + axis + "range [" + exact_text(wide.lower) +
+                 ":" + exact_text(wide.upper) + "]\n" :
+               "";
+    }
+
     std::string axes_of(const RequestedPicture &picture,
                         const Range            &x,
                         const Range            &y,
@@ -254,7 +282,8 @@ namespace SlipStep
       if (picture.is_polar())
         return "set size ratio -1\nset xzeroaxis lc rgb '#444444' dt solid\n"
                "set yzeroaxis lc rgb '#444444' dt solid\n"
-               "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
+               "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n" +
+               flat_side('x', x, y) + flat_side('y', y, x) +
                "set xlabel 'Along the first axis'\nset ylabel " +
                gnuplot_text(picture.x.name == "direction" ?
                               y_label + ", along the second axis" :
@@ -272,7 +301,7 @@ namespace SlipStep
         script += "set logscale y\nset format y '%g'\n";
       else if (y.lower >= 0. && y.lower < 0.5 * y.upper)
         script += "set yrange [0:*]\n";
-      return script;
+      return script + constant_side('x', x) + constant_side('y', y);
     }
 
     /// The points of a picture, of each run or of all runs together.
@@ -316,6 +345,9 @@ namespace SlipStep
                              return other[0] - one[0] <=
                                     1e-6 * std::abs(one[0]);
                            }) != all.end();
+      // Colours tell then what varies.
+      if (curves.is_zigzag)
+        return curves;
       curves.points = {all};
       curves.names  = {""};
       return curves;
@@ -335,8 +367,10 @@ namespace SlipStep
             "': no slide or step has both of them");
           return;
         }
-      std::string title           = requested.text;
-      title[0]                    = std::toupper(title[0]);
+      // Symbols stay as they are.
+      std::string title = requested.text;
+      if (requested.y.name.size() > 3)
+        title[0] = std::toupper(title[0]);
       const bool         is_curve = requested.is_of<OfStep>();
       const unsigned int height   = requested.is_polar() ? 560 : 400;
       LegendPlace        legend_place;

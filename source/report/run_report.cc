@@ -159,21 +159,21 @@ namespace SlipStep
     void add_found(ResultTable &table, const Reference &reference)
     {
       if (table.has(&ResultRow::has_peak))
-        table.add("peak", 4, &ResultRow::peak);
+        table.add_friction("peak", &ResultRow::peak);
       if (table.has(&ResultRow::has_dip))
-        table.add("dip", 4, &ResultRow::dip);
+        table.add_friction("dip", &ResultRow::dip);
       const bool with_kinetic = table.has(&ResultRow::has_kinetic);
       if (with_kinetic)
-        table.add("kinetic", 4, of_slide(&SlideSummary::kinetic));
+        table.add_friction("kinetic", of_slide(&SlideSummary::kinetic));
       if (table.has(&ResultRow::is_on_the_way))
-        table.add("at the end", 4, &ResultRow::end);
+        table.add_friction("at the end", &ResultRow::end);
       if (table.has(std::not_fn(&ResultRow::slides_fully)))
         table.add("slipping [%]", 1, [](const ResultRow &row) {
           return 100. * row.slide.slip_fraction;
         });
       if (reference.exists() && with_kinetic)
         {
-          table.add(reference.name, 4, &ResultRow::reference);
+          table.add_friction(reference.name, &ResultRow::reference);
           table.add("difference [%]", [](const ResultRow &row) {
             return (row.difference > 0. ? "+" : "") +
                    fixed_text(row.difference, 2);
@@ -198,7 +198,7 @@ namespace SlipStep
       if (with_kinetic)
         {
           table.add("r", 4, of_slide(&SlideSummary::dynamic_ratio));
-          table.add("μ", 4, of_slide(&SlideSummary::coefficient));
+          table.add_friction("μ", of_slide(&SlideSummary::coefficient));
         }
     }
 
@@ -239,7 +239,8 @@ namespace SlipStep
                 "in the last tenth of the slide. ";
       if (table.has(std::not_fn(&ResultRow::slides_fully)))
         text += "Slipping: share of the contact that slips at the end of the "
-                "slide; below 100 % there is no kinetic friction. ";
+                "slide; below 100 % there is no kinetic friction, nor while "
+                "the contact sticks and slips. ";
       return note(text);
     }
 
@@ -494,8 +495,10 @@ namespace SlipStep
                << html_table(cost_lines(runs));
           // Of several cases the parameters are of none.
           if (is_one_case)
-            html << heading("Friction law")
-                 << html_table(effect_table(drawn), "law")
+            html << table_section("Friction law",
+                                  effect_table(drawn),
+                                  "",
+                                  "law")
                  << heading("Conditions")
                  << html_table(condition_lines(parameters, runs), "values");
           html << heading("Repeat it")

@@ -151,11 +151,6 @@ namespace SlipStep
       }
     };
 
-    std::string four_decimals(const double value)
-    {
-      return fixed_text(value, 4);
-    }
-
     const Aspect speed_aspect    = {of_slide(&SlideSummary::speed),
                                     [](const double speed) {
                                    return "at " + speed_text(speed);
@@ -170,8 +165,8 @@ namespace SlipStep
                                   return "after " + short_text(rest, 6) + " s";
                                 }};
     const Aspect kinetic_aspect  = {of_slide(&SlideSummary::kinetic),
-                                    four_decimals};
-    const Aspect peak_aspect = {of_slide(&SlideSummary::peak), four_decimals};
+                                    friction_text};
+    const Aspect peak_aspect = {of_slide(&SlideSummary::peak), friction_text};
 
     /// First of the smallest, and last of the largest.
     std::pair<ResultRow, ResultRow> extremes(const ResultRows &rows,
@@ -243,11 +238,11 @@ namespace SlipStep
            "At ") +
         speed_text(row.slide.speed) + ", friction " +
         (row.has_peak ?
-           "peaks at " + fixed_text(row.slide.peak, 4) + " after " +
+           "peaks at " + friction_text(row.slide.peak) + " after " +
              short_text(row.slide.peak_displacement, 2) + " mm and is " +
-             fixed_text(row.slide.kinetic, 4) + " in the end, " +
+             friction_text(row.slide.kinetic) + " in the end, " +
              fixed_text(row.drop, 1) + " % lower" :
-           "comes to " + fixed_text(row.slide.kinetic, 4) + " without a peak");
+           "comes to " + friction_text(row.slide.kinetic) + " without a peak");
       if (reference.exists())
         text += "; that is " + against({row}, reference);
       return text;
@@ -401,14 +396,14 @@ namespace SlipStep
     /// Of slides at whose end friction goes up and down.
     std::string swings(const ResultRows &rows)
     {
-      const Aspect from = {of_slide(&SlideSummary::swing_from), four_decimals};
-      const Aspect to   = {of_slide(&SlideSummary::swing_to), four_decimals};
+      const Aspect from = {of_slide(&SlideSummary::swing_from), friction_text};
+      const Aspect to   = {of_slide(&SlideSummary::swing_to), friction_text};
       return "At " + list_of_speeds(rows) + " friction still swings between " +
              range(rows, from) + " and " + range(rows, to) +
              " when the slide ends: sliding is not steady there.";
     }
 
-    const Aspect end_aspect = {&ResultRow::end, four_decimals};
+    const Aspect end_aspect = {&ResultRow::end, friction_text};
 
     const Aspect share_aspect = {of_slide(&SlideSummary::slip_fraction),
                                  [](const double fraction) {
@@ -531,9 +526,12 @@ namespace SlipStep
       for (const SlideSummary &slide : runs[i].summary.slides)
         {
           ResultRow row;
-          row.label     = runs[i].short_label;
-          row.run       = i;
-          row.slide     = slide;
+          row.label = runs[i].short_label;
+          row.run   = i;
+          row.slide = slide;
+          // It is counted from the slide before.
+          if (&slide == &runs[i].summary.slides.front())
+            row.slide.rest = undefined;
           row.end       = slide.kinetic;
           row.is_steady = !runs[i].summary.is_unstable(slide);
           row.is_step   = is_speed_step(runs[i].summary.slides, slide);

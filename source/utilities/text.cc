@@ -60,6 +60,16 @@ namespace SlipStep
 
 
 
+  std::string friction_text(const double value)
+  {
+    constexpr double small = 0.01, round_off = 1e-12;
+    return std::abs(value) < small && std::abs(value) > round_off ?
+             short_text(value, 4) :
+             fixed_text(value, 4);
+  }
+
+
+
   std::string short_text(const double value, const int significant)
   {
     if (!std::isfinite(value))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/report/text_table.h>
+#include <slipstep/utilities/text.h>
 
 #include <gtest/gtest.h>
 
@@ -45,4 +46,17 @@ TEST(TextTable, TextIsBrokenBetweenWords)
             "  one two\n  µµµµ\n  four\n");
   EXPECT_EQ(wrapped_text("unbreakable", 2, 5), "  unbreakable\n");
   EXPECT_EQ(wrapped_text("", 2, 5), "");
+}
+
+
+
+// With four decimals friction of 0.0001 had risen by 10 % unseen.
+TEST(TextTable, SmallFrictionKeepsItsDigits)
+{
+  EXPECT_EQ(friction_text(0.1), "0.1000");
+  EXPECT_EQ(friction_text(-0.98765), "-0.9877");
+  EXPECT_EQ(friction_text(1.007e-4), "0.0001007");
+  EXPECT_EQ(friction_text(1e-6), "1e-06");
+  EXPECT_EQ(friction_text(-3e-17), "0.0000");
+  EXPECT_EQ(friction_text(0.), "0.0000");
 }

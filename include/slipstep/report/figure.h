@@ -123,6 +123,9 @@ namespace SlipStep
     return out << '[' << range.lower << ':' << range.upper << ']';
   }
 
+  /// Wide enough that a change by no more than round-off is none.
+  Range without_round_off(const Range &range);
+
   /// The range with so much of it on either side.
   Range with_margin(const Range &range,
                     const double share,
@@ -147,7 +150,8 @@ namespace SlipStep
   /// The colour at a share of the way through others, evenly spaced.
   Colour3 mixed_colour(const std::vector<Colour3> &stops, const double share);
 
-  /// The same as the style of an element with this background.
+  /// The same as the style of an element with this background, and text that
+  /// can be read on it.
   std::string background(const std::vector<Colour3> &stops, const double share);
 
   /// A gnuplot command with some four round numbers on the axis, so that their

@@ -80,6 +80,15 @@ namespace SlipStep
       });
     }
 
+    /// The same of a coefficient of friction.
+    template <typename Value>
+    void add_friction(const std::string &head, const Value &value)
+    {
+      add(head, [&](const Row &row) {
+        return friction_text(std::invoke(value, row));
+      });
+    }
+
     /// Whether a row is such.
     template <typename Test>
     bool has(const Test &test) const

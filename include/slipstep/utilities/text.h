@@ -23,6 +23,9 @@ namespace SlipStep
   /// So many digits behind the point; "–" for what is no number.
   std::string fixed_text(const double value, const int decimals);
 
+  /// A coefficient of friction: four decimals, of small ones four digits.
+  std::string friction_text(const double value);
+
   /// So many significant digits, with an exponent where that is shorter; "–"
   /// for what is no number.
   std::string short_text(const double value, const int significant = 4);
