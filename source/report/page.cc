@@ -72,9 +72,10 @@ namespace SlipStep
   std::string Page::draw(Figure            &figure,
                          const std::string &title,
                          const std::string &caption,
-                         const bool         is_map)
+                         const bool         is_map,
+                         const std::string &legend)
   {
-    return figure_element(title, svg_of(figure), caption, is_map);
+    return figure_element(title, svg_of(figure), caption, is_map, legend);
   }
 
 
@@ -233,13 +234,14 @@ namespace SlipStep
   std::string figure_element(const std::string &title,
                              const std::string &svg,
                              const std::string &caption,
-                             const bool         is_map)
+                             const bool         is_map,
+                             const std::string &legend)
   {
     return svg.empty() ?
              "" :
-             heading(title) + "<figure" + (is_map ? " class='map'" : "") +
-               ">\n" + svg + "<figcaption>" + html_text(caption) +
-               "</figcaption></figure>\n";
+             heading(title) + legend + "<figure" +
+               (is_map ? " class='map'" : "") + ">\n" + svg + "<figcaption>" +
+               html_text(caption) + "</figcaption></figure>\n";
   }
 
 
@@ -252,7 +254,7 @@ namespace SlipStep
   {
     script() << axes_style
              << "unset key\nset lmargin at screen 0.19\nset rmargin at "
-                "screen 0.97\nset tmargin at screen 0.96\nset bmargin "
+                "screen 0.945\nset tmargin at screen 0.96\nset bmargin "
                 "at screen 0.19\n";
   }
 
@@ -274,9 +276,12 @@ namespace SlipStep
       y.lower -= margin;
     y.upper += margin;
     script() << "set xlabel " << gnuplot_text(cut_text(x_label, 46))
-             << " offset 0,0.6\nset ylabel " << gnuplot_text(y_label)
-             << " offset 0.4\nset xrange " << range_text(x) << "set yrange "
-             << range_text(y) << (is_x_logarithmic ? "set logscale x\n" : "")
+             << " offset 0,0.6\nset label 1 "
+             << gnuplot_text(y_label)
+             // Wide numbers would push a ylabel out of the picture.
+             << " at screen 0.03, graph 0.5 center rotate by 90\nset xrange "
+             << range_text(x) << "set yrange " << range_text(y)
+             << (is_x_logarithmic ? "set logscale x\n" : "")
              << few_tics('x', x.lower, x.upper, is_x_logarithmic)
              << "set ytics " << round_up(y.width() / 8.) << '\n';
   }
@@ -297,16 +302,23 @@ namespace SlipStep
 
 
 
+  std::string legend_line(const std::vector<LegendLine> &lines)
+  {
+    std::string html = "<p class='legend'>";
+    for (const LegendLine &line : lines)
+      html += "<span><i class='" + line.kind + "' style='color:" + line.colour +
+              "'></i>" + html_text(line.text) + "</span> ";
+    return html + "</p>\n";
+  }
+
+
+
   std::string gallery_section(const Gallery &gallery)
   {
     if (gallery.pictures.empty())
       return "";
-    std::string html = gallery.title.empty() ? "" : heading(gallery.title);
-    html += "<p class='legend'>";
-    for (const LegendLine &line : gallery.legend)
-      html += "<span><i class='" + line.kind + "' style='color:" + line.colour +
-              "'></i>" + html_text(line.text) + "</span> ";
-    return html + "</p>\n<div class='gallery'>\n" + gallery.pictures +
-           "</div>\n" + note(gallery.caption);
+    return (gallery.title.empty() ? "" : heading(gallery.title)) +
+           legend_line(gallery.legend) + "<div class='gallery'>\n" +
+           gallery.pictures + "</div>\n" + note(gallery.caption);
   }
 } // namespace SlipStep

@@ -60,6 +60,32 @@ function nearest(plot, distance) {
     }
   return best;
 }
+// Where a curve over a growing abscissa is.
+function level(curve, x) {
+  for (let i = 1; i < curve.points.length; ++i) {
+    const a = curve.points[i - 1], b = curve.points[i];
+    if (a[0] <= x && x <= b[0]) return a[1] + (b[1] - a[1]) *
+      (b[0] > a[0] ? (x - a[0]) / (b[0] - a[0]) : 1);
+  }
+  return null;
+}
+// Of the run whose curve is nearest, all panels: they draw the same runs.
+function stacked(plots, plot, p, runs) {
+  const distance = curve => { const y = level(curve, p.x);
+    return y === null ? Infinity : Math.abs(y - p.y); };
+  const run = plot.curves.reduce((best, curve, i) =>
+    distance(curve) < distance(plot.curves[best]) ? i : best, 0);
+  if (!plot.curves.length || distance(plot.curves[run]) === Infinity) return [];
+  const lines = runs.length > 1 ? [runs[run]] : [];
+  lines.push('path ' + number(plot.x(p.x)) + ' mm');
+  for (const other of plots) {
+    const y = other.curves[run] ? level(other.curves[run], p.x) : null;
+    if (y === null) continue;
+    mark(other, [p.x, y], true);
+    lines.push(svg_name(other.svg) + ': ' + number(other.y(y)));
+  }
+  return lines;
+}
 function mark(plot, p, is_line) {
   if (!plot.mark) { plot.mark = document.createElementNS(
     plot.svg.namespaceURI, 'path');
@@ -106,20 +132,17 @@ for (const figure of all(document, 'figure:not(.map)')) {
     svg.addEventListener('pointermove', e => {
       const p = at(svg, e); clear();
       if (!inside(plot, p)) return;
-      const lines = [];
-      for (const other of is_stack ? plots : [plot]) {
-        const found = nearest(other, q => is_stack ? Math.abs(q[0] - p.x) +
-          (other === plot ? 1e-3 * Math.abs(q[1] - p.y) : 0) :
-          Math.hypot(q[0] - p.x, q[1] - p.y));
-        if (!found || (!is_stack && found.d > 40)) continue;
-        mark(other, found.p, is_stack);
-        const label = is_stack ? svg_name(other.svg) : found.curve.label;
-        if (is_stack && !lines.length)
-          lines.push('path ' + number(other.x(found.p[0])) + ' mm');
-        lines.push((label ? label + ': ' : '') + (is_stack ? '' :
-          number(other.x(found.p[0])) + ', ') + number(other.y(found.p[1])));
+      if (is_stack) {
+        const runs = (figure.dataset.runs || '').split('\n');
+        tell(e, stacked(plots, plot, p, runs).join('\n'));
+        return;
       }
-      tell(e, lines.join('\n'));
+      const found = nearest(plot, q => Math.hypot(q[0] - p.x, q[1] - p.y));
+      if (!found || found.d > 40) { tell(e, ''); return; }
+      mark(plot, found.p);
+      const label = found.curve.label;
+      tell(e, (label ? label + ': ' : '') + number(plot.x(found.p[0])) + ', ' +
+        number(plot.y(found.p[1])));
     });
     svg.addEventListener('pointerleave', clear);
   }

@@ -6,12 +6,13 @@
 #include <slipstep/utilities/units.h>
 
 #include <numeric>
+#include <set>
 
 namespace SlipStep
 {
   namespace
   {
-    std::string run_colour(const std::size_t i)
+    std::string colour_of_run(const std::size_t i)
     {
       static const std::array<const char *, 7> colours = {"#0072B2",
                                                           "#D55E00",
@@ -20,7 +21,12 @@ namespace SlipStep
                                                           "#E69F00",
                                                           "#56B4E9",
                                                           "#000000"};
-      return std::string("lc rgb '") + colours[i % colours.size()] + "'";
+      return colours[i % colours.size()];
+    }
+
+    std::string run_colour(const std::size_t i)
+    {
+      return "lc rgb '" + colour_of_run(i) + "'";
     }
 
     /// Displacement and friction along a direction.
@@ -123,14 +129,21 @@ namespace SlipStep
       return place_legend(figures.runs, others, height);
     }
 
-    /// Which run slides at this speed; runs.size() if none does.
+    /// The only run that slides at this speed; runs.size() if there is none or
+    /// several do.
     std::size_t run_of_speed(const Runs &runs, const double speed)
     {
+      std::size_t found = runs.size();
       for (std::size_t i = 0; i < runs.size(); ++i)
-        for (const SlideSummary &slide : runs[i].summary.slides)
-          if (std::abs(slide.speed - speed) < 1e-6 * speed)
-            return i;
-      return runs.size();
+        if (any_of(runs[i].summary.slides, [&](const SlideSummary &slide) {
+              return std::abs(slide.speed - speed) < 1e-6 * speed;
+            }))
+          {
+            if (found < runs.size())
+              return runs.size();
+            found = i;
+          }
+      return found;
     }
 
     /// Speeds at which the reference is marked: the stated ones, or else those
@@ -154,6 +167,13 @@ namespace SlipStep
       return speeds;
     }
 
+    /// Whether friction of its first slide is shown negative.
+    bool is_drawn_below(const RunResults &run)
+    {
+      return !run.summary.slides.empty() &&
+             std::cos(run.summary.slides[0].angle) < -1e-9;
+    }
+
     /// Short strokes right of the curves where the reference expects them.
     void plot_reference(Figure           &figure,
                         const RunFigures &figures,
@@ -163,9 +183,11 @@ namespace SlipStep
       const auto               &runs      = figures.runs;
       const Reference          &reference = figures.reference;
       const std::vector<double> speeds    = marked_speeds(figures);
+      // On the side of the curves.
+      const double sign = all_of(runs, is_drawn_below) ? -1. : 1.;
       for (const double speed : speeds)
         {
-          const double      level = reference.kinetic(speed);
+          const double      level = sign * reference.kinetic(speed);
           const std::size_t run   = run_of_speed(runs, speed);
           const std::string style =
             run < runs.size() ? run_colour(run) : "lc rgb '#777777'";
@@ -212,16 +234,18 @@ namespace SlipStep
                       << x.upper + 0.06 * x.width() << "]\n";
       // Round-off below 0 is nothing that can be seen.
       if (y.lower >= -1e-3)
-        figure.script() << (y.upper > 1e-6 ? "set yrange [0:*]\n" :
+        figure.script() << (y.upper > 1e-9 ? "set yrange [0:*]\n" :
                                              "set yrange [0:0.01]\n");
       else
         figure.script() << "set xzeroaxis lc rgb '#444444' lw 1 dt solid\n";
       std::string caption;
       if (any_of(runs, changes_direction))
         caption = "Both along the direction of the first slide. ";
-      if (reference.exists())
+      if (!marked_speeds(figures).empty())
         caption += "Strokes at the right end: kinetic level after " +
-                   reference.name + ", in the colour of the run.";
+                   reference.name +
+                   ", in the colour of the run at that speed, grey where there "
+                   "is none or several.";
       figures.add(figure, "Friction against displacement", caption);
     }
 
@@ -266,10 +290,11 @@ namespace SlipStep
           if (beyond != points.end())
             points.erase(beyond + 1, points.end());
           plot_run(figure, runs[i], i, {"displacement_mm", "friction"}, points);
-          if (runs[i].summary.slides.empty() ||
-              runs[i].summary.slides[0].peak_displacement > zoom)
+          const ResultRows rows = result_rows({runs[i]}, figures.reference);
+          if (rows.empty() || !rows[0].has_peak ||
+              rows[0].slide.peak_displacement > zoom)
             continue;
-          const SlideSummary &slide = runs[i].summary.slides[0];
+          const SlideSummary &slide = rows[0].slide;
           peaks.push_back(
             figure.add_data("peak of " + legend(runs[i]),
                             {"displacement_mm", "friction"},
@@ -284,26 +309,47 @@ namespace SlipStep
                          "set ylabel 'Friction  (tangential / normal load)'\n"
                          "set xrange [0:"
                       << zoom << "]\nset yrange [0:*]\n";
-      figures.add(figure,
-                  "The static peak",
-                  "The first " + short_text(zoom) +
-                    " mm of the slide; dots mark the peaks.");
+      const std::string part =
+        "The first " + short_text(zoom) + " mm of the slide";
+      if (peaks.empty())
+        figures.add(figure, "The start of the slide", part + ".");
+      else
+        figures.add(figure, "The static peak", part + "; dots mark the peaks.");
     }
 
 
 
-    // Of slides with kinetic friction, over their speeds [mm/min].
-    Rows steady_ratios(const RunFigures &figures, Range &speeds)
+    // Of slides with kinetic friction, over their speeds [mm/min], by run.
+    std::vector<Rows> steady_ratios(const RunFigures &figures, Range &speeds)
     {
-      Rows ratios;
+      std::vector<Rows> ratios(figures.runs.size());
       for (const ResultRow &row : result_rows(figures.runs, figures.reference))
         if (row.has_kinetic())
           {
-            ratios.push_back(
+            ratios[row.run].push_back(
               {row.slide.speed * mm_min, row.slide.dynamic_ratio});
             speeds.add(row.slide.speed * mm_min);
           }
       return ratios;
+    }
+
+
+
+    // Whether runs have slides at the same speed, so that speed does not say
+    // which is which.
+    bool share_speeds(const std::vector<Rows> &ratios)
+    {
+      std::set<double> speeds;
+      for (const Rows &of_run : ratios)
+        {
+          std::set<double> own;
+          for (const auto &row : of_run)
+            own.insert(row[0]);
+          for (const double speed : own)
+            if (!speeds.insert(speed).second)
+              return true;
+        }
+      return false;
     }
 
 
@@ -326,8 +372,8 @@ namespace SlipStep
     {
       const auto &reference = figures.reference;
       Range       speeds;
-      const Rows  simulated = steady_ratios(figures, speeds);
-      if (simulated.empty() || speeds.upper < 1.001 * speeds.lower)
+      const auto  simulated = steady_ratios(figures, speeds);
+      if (!(speeds.upper >= 1.001 * speeds.lower))
         return;
 
       Rows marks, line;
@@ -341,18 +387,21 @@ namespace SlipStep
           line = reference_line(reference, speeds);
         }
 
-      Figure figure = figures.figure("ratio_over_speed",
+      const bool is_by_run    = share_speeds(simulated);
+      const auto legend_place = place_legend(is_by_run ? figures.runs : Runs(),
+                                             {reference.name, "simulated"},
+                                             380);
+      const Range x      = {speeds.lower / 1.6, speeds.upper * 1.6};
+      Figure      figure = figures.figure("ratio_over_speed",
                                      "Dynamic loading ratio against speed",
-                                     380);
-      figure.script()
-        << axes_style
-        << place_legend({}, {reference.name, "simulated"}, 380).commands
-        << "set logscale x\nset format x '%g'\n"
-           "set xlabel 'Sliding speed  [mm/min]'\n"
-           "set ylabel 'Dynamic loading ratio  r  [–]'\n"
-           "set offsets 0, 0, graph 0.08, graph 0.08\n"
-        << "set xrange [" << speeds.lower / 1.6 << ":" << speeds.upper * 1.6
-        << "]\n";
+                                     380 + legend_place.more_height);
+      figure.script() << axes_style << legend_place.commands
+                      << "set logscale x\nset format x '%g'\n"
+                      << few_tics('x', x.lower, x.upper, true)
+                      << "set xlabel 'Sliding speed  [mm/min]'\n"
+                         "set ylabel 'Dynamic loading ratio  r  [–]'\n"
+                         "set offsets 0, 0, graph 0.08, graph 0.08\n"
+                      << "set xrange " << x << '\n';
       const std::vector<std::string> columns = {"speed_mm/min", "r"};
       if (!marks.empty())
         {
@@ -363,9 +412,19 @@ namespace SlipStep
             " with points pt 6 ps 1.3 lw 1.8 lc rgb '#D55E00' title " +
             gnuplot_text(reference.name));
         }
-      figure.plot(
-        figure.add_data("simulated", columns, simulated) +
-        " with points pt 7 ps 0.8 lc rgb '#0072B2' title 'simulated'");
+      const std::string dots = " with points pt 7 ps 0.8 ";
+      Rows              all;
+      for (std::size_t i = 0; i < simulated.size(); ++i)
+        if (!is_by_run)
+          all.insert(all.end(), simulated[i].begin(), simulated[i].end());
+        else if (!simulated[i].empty())
+          figure.plot(
+            figure.add_data(legend(figures.runs[i]), columns, simulated[i]) +
+            dots + run_colour(i) + " title " +
+            gnuplot_text(legend(figures.runs[i])));
+      if (!is_by_run)
+        figure.plot(figure.add_data("simulated", columns, all) + dots +
+                    "lc rgb '#0072B2' title 'simulated'");
       figures.add(figure,
                   "Rate dependence",
                   marks.empty() ? "r at the end of each slide." :
@@ -420,6 +479,19 @@ namespace SlipStep
     place.commands = "set key outside below left Left reverse maxcols " +
                      std::to_string(n_columns) + "\n";
     return place;
+  }
+
+
+
+  std::string run_legend(const Runs &runs)
+  {
+    static const std::array<std::string, 4> kinds = {
+      {"line", "dashed", "dotted", "dashed"}};
+    std::vector<LegendLine> lines;
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      lines.push_back(
+        {legend(runs[i]), colour_of_run(i), kinds[i % kinds.size()]});
+    return legend_line(lines);
   }
 
 

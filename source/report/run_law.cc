@@ -64,6 +64,9 @@ namespace SlipStep
       return rows;
     }
 
+    // For the names beside the first one.
+    constexpr unsigned int law_panel_height = 206;
+
     Range range_of(const std::vector<Rows> &curves, const unsigned int column)
     {
       Range range;
@@ -84,8 +87,7 @@ namespace SlipStep
         figures.figure("law_" + panel.name,
                        panel.label + " over the path of the drive",
                        is_last ? 200 : 155);
-      // Where they do not fit, the pictures above have the names.
-      const LegendPlace legend_place = place_legend(runs, {}, 206);
+      const LegendPlace legend_place = place_legend(runs, {}, law_panel_height);
       const bool        is_named = runs.size() > 1 && legend_place.is_beside;
       for (std::size_t i = 0; i < runs.size(); ++i)
         plot_run(figure,
@@ -95,21 +97,21 @@ namespace SlipStep
                  curves[i],
                  1.8,
                  is_first && is_named);
-      const Range x = range_of(curves, 0), y = range_of(curves, 1);
-      // Of what does not change nothing but round-off would be drawn.
-      const double width =
-        std::max({y.width(), 1e-3 * std::abs(y.upper), 1e-9});
-      const double margin = 0.06 * width;
+      const Range x = range_of(curves, 0);
+      const Range y = without_round_off(range_of(curves, 1));
       figure.script()
         << axes_style << "set lmargin at screen 0.11\n"
-        << (is_named ? legend_place.commands : "set rmargin at screen 0.98\n")
+        << (is_named ? legend_place.commands : "set rmargin at screen 0.95\n")
         << "set tmargin at screen 0.91\nset bmargin at screen "
         << (is_last ? 0.3 : 0.09) << "\nset xrange " << x << "\nset yrange "
-        << Range{y.lower - margin, y.upper + margin} << "\nset ytics "
-        << round_up(width / 3.)
+        << with_margin(y, 0.06)
+        << "\nset ytics "
+        // Two of them at least.
+        << round_up(y.width() / 4.5)
         // These stand below each other, however wide the numbers are.
         << "\nset label 1 " << gnuplot_text(panel.label)
         << " at screen 0.02, graph 0.5 center rotate by 90\n"
+        << few_tics('x', x.lower, x.upper, false)
         << (is_last ? "set xlabel 'Path of the drive  [mm]' offset 0,0.5\n" :
                       "set format x ''\n");
       return figures.page.svg_of(figure);
@@ -194,7 +196,15 @@ namespace SlipStep
       svg += draw_panel(figures, shown[i], curves[i], i + 1 == shown.size());
     if (svg.empty())
       return "";
-    return heading("The law at work") + "<figure class='stack'>\n" + svg +
+    const Runs       &runs         = figures.runs;
+    const LegendPlace legend_place = place_legend(runs, {}, law_panel_height);
+    std::string       names;
+    for (const RunResults &run : runs)
+      names += (names.empty() ? "" : "&#10;") + html_text(legend(run));
+    return heading("The law at work") +
+           (runs.size() > 1 && !legend_place.is_beside ? run_legend(runs) :
+                                                         "") +
+           "<figure class='stack' data-runs=\"" + names + "\">\n" + svg +
            "<figcaption>Means over the contact. r: load over strength, above 1 "
            "by overstress; r_s: what it may be at rest; μ: the coefficient." +
            (constants.empty() ? "" :

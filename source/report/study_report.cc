@@ -86,13 +86,29 @@ namespace SlipStep
 
 
     /// Colours of Okabe and Ito; shapes and dashes tell the same in print.
-    std::string style_of(const StudySequence::Kind kind)
+    LegendLine line_of(const StudyCurve &curve)
     {
-      return kind == StudySequence::Kind::uniform ?
-               "lc rgb '#0072B2' dt solid pt 7 ps 0.9 lw 2" :
-             kind == StudySequence::Kind::adaptive ?
-               "lc rgb '#D55E00' dt (12,4) pt 5 ps 0.9 lw 2" :
-               "lc rgb '#009E73' dt (4,3) pt 9 ps 1.1 lw 2";
+      using Kind = StudySequence::Kind;
+      return curve.kind == Kind::uniform ?
+               LegendLine{curve.sequence, "#0072B2"} :
+             curve.kind == Kind::adaptive ?
+               LegendLine{curve.sequence, "#D55E00", "dashed"} :
+               LegendLine{curve.sequence, "#009E73", "dotted"};
+    }
+
+    std::string style_of(const StudyCurve &curve)
+    {
+      using Kind = StudySequence::Kind;
+      return "lc rgb '" + line_of(curve).colour + "' " +
+             (curve.kind == Kind::uniform  ? "dt solid pt 7 ps 0.9 lw 2" :
+              curve.kind == Kind::adaptive ? "dt (12,4) pt 5 ps 0.9 lw 2" :
+                                             "dt (4,3) pt 9 ps 1.1 lw 2");
+    }
+
+    bool has_uncertainty(const StudyCurve &curve)
+    {
+      const double uncertainty = curve.relative_uncertainty();
+      return uncertainty > 0. && std::isfinite(uncertainty);
     }
 
     /// Steps, or unknowns.
@@ -142,9 +158,7 @@ namespace SlipStep
             figure.add_data(curve->quantity + ", " + curve->sequence,
                             {"unknowns", "steps", "cpu_s", "relative_error"},
                             rows);
-          const std::string style = " with linespoints " +
-                                    style_of(curve->kind) + " title " +
-                                    gnuplot_text(curve->sequence);
+          const std::string style = " with linespoints " + style_of(*curve);
           plots[0] +=
             separator + data + (is_time ? " using 2:4" : " using 1:4") + style;
           plots[1] += separator + data + " using 3:4" + style;
@@ -154,18 +168,35 @@ namespace SlipStep
         return {};
       const Rows guide = guide_of(first, is_time);
       if (!guide.empty())
-        plots[0] +=
-          ", " + figure.add_data("slope", {"size", "error"}, guide) +
-          " using 1:2 with lines lc rgb '#888888' dt (2,2) lw 1.5 title " +
-          gnuplot_text("order " + fixed_text(first.order, 2));
-      // Below nothing can be told.
-      const double uncertainty = first.relative_uncertainty();
-      if (uncertainty > 0. && std::isfinite(uncertainty))
-        for (std::string &plot : plots)
-          plot += ", " + exact_text(uncertainty) +
-                  " with lines lc rgb '#888888' lw 1.5 title " +
-                  gnuplot_text("uncertainty of the reference");
+        plots[0] += ", " + figure.add_data("slope", {"size", "error"}, guide) +
+                    " using 1:2 with lines lc rgb '#888888' dt (2,2) lw 1.5";
+      // Below nothing can be told. Across the frame, however far runs reach.
+      const std::string uncertainty = exact_text(first.relative_uncertainty());
+      const std::string grey        = " lc rgb '#888888' lw 1.5";
+      if (!has_uncertainty(first))
+        return plots;
+      figure.script() << "set arrow nohead from graph 0, first " << uncertainty
+                      << " to graph 1, first " << uncertainty << grey << '\n';
+      for (std::string &plot : plots)
+        plot += ", " + uncertainty + " with lines" + grey;
       return plots;
+    }
+
+
+
+    std::string legend_of(const std::vector<const StudyCurve *> &curves,
+                          const bool                             is_time)
+    {
+      const StudyCurve       &first = *curves.front();
+      std::vector<LegendLine> lines;
+      for (const StudyCurve *curve : curves)
+        lines.push_back(line_of(*curve));
+      if (!guide_of(first, is_time).empty())
+        lines.push_back(
+          {"order " + fixed_text(first.order, 2), "#888888", "dotted"});
+      if (has_uncertainty(first))
+        lines.push_back({"uncertainty of the reference", "#888888"});
+      return legend_line(lines);
     }
 
 
@@ -189,7 +220,7 @@ namespace SlipStep
       if (plots[0].empty())
         return {};
       figure.script() << axes_style
-                      << "set key inside left bottom Left reverse\n"
+                      << "unset key\n"
                          "set logscale xy\nset format '10^{%T}'\n"
                          "set multiplot layout 1,2\nset ylabel 'relative error'"
                          "\nset xlabel '"
@@ -206,7 +237,8 @@ namespace SlipStep
         "), which is itself uncertain by " +
         short_text(first.relative_uncertainty(), 2) +
         " of it. Runs whose difference is not above that are not shown.";
-      return page.draw(figure, title, caption);
+      return page.draw(
+        figure, title, caption, false, legend_of(curves, is_time));
     }
 
 

@@ -78,6 +78,10 @@ for (const svg of all(document, 'figure svg')) {
     }
   if (!/\d/.test(told)) fail(label + ': no value under the pointer');
   if (/NaN|Infinity/.test(told)) fail(label + ': ' + told);
+  const stack = svg.closest('.stack');
+  if (stack && stack.dataset.runs.includes('\n') &&
+      !stack.dataset.runs.split('\n').includes(told.split('\n')[0]))
+    fail(label + ': values of no run');
   ++n_values;
   svg.dispatchEvent(new PointerEvent('pointerleave'));
 }

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <slipstep/report/figure.h>
+
+#include <deal.II/base/numbers.h>
+
 #include "synthetic_runs.h"
 
 using namespace SyntheticRuns;
@@ -248,4 +252,63 @@ TEST(Report, ThePeakIsDrawnWhereItsSlideStarts)
   write_report(test_folder(), parameters, {run});
   EXPECT_TRUE(contains(content(test_folder() / "report" / "friction_start.dat"),
                        "\n0 0\n"));
+}
+
+
+
+TEST(Report, WithoutAPeakNoDotMarksOne)
+{
+  write_report(test_folder(),
+               parameters_with({}),
+               {make_slides("flat", {make_slide(1, 6., 0.1, 0.11, 0.11)})});
+  std::string page = content(test_folder() / "report.html");
+  EXPECT_FALSE(contains(page, "dots mark"));
+  write_report(test_folder(),
+               parameters_with({}),
+               {make_slides("peak", {make_slide(1, 6., 0.1, 0.12, 0.11)})});
+  EXPECT_FALSE(has_gnuplot() &&
+               !contains(content(test_folder() / "report.html"), "dots mark"));
+}
+
+
+
+// It is counted from the slide before, which the first one has not.
+TEST(Report, TheFirstSlideHasNoRestBefore)
+{
+  std::vector<SlideSummary> slides = {make_slide(2, 1., 0.05, 0.11, 0.1),
+                                      make_slide(4, 1., 0.05, 0.12, 0.1)};
+  slides[1].rest                   = 30.;
+  write_report(test_folder(),
+               parameters_with({}),
+               {make_slides("rest", slides)});
+  const std::string page = content(test_folder() / "report.html");
+  EXPECT_TRUE(contains(page, "<td>2</td><td>1</td><td>–</td>"));
+  EXPECT_TRUE(contains(page, "<td>4</td><td>1</td><td>30</td>"));
+}
+
+
+
+// What differs by round-off was drawn from the bottom to the top.
+TEST(Report, RoundOffIsNoChange)
+{
+  const Range constant = without_round_off({0.1 - 1e-17, 0.1});
+  EXPECT_LT(constant.lower, 0.099);
+  EXPECT_GT(constant.upper, 0.101);
+  const Range rising = {0.1, 0.1001};
+  EXPECT_EQ(without_round_off(rising).width(), rising.width());
+  EXPECT_GT(without_round_off({0., 0.}).width(), 0.);
+
+  std::vector<SlideSummary> slides = {make_slide(2, 1., 0.1, 0.1, 0.1),
+                                      make_slide(3, 9., 0.1, 0.1, 0.1)};
+  slides[0].kinetic                = std::nextafter(0.1, 0.);
+  slides[1].angle                  = dealii::numbers::PI;
+  write_report(test_folder(),
+               parameters_with(
+                 {{"Pictures", "kinetic over speed, kinetic over direction"}}),
+               {make_slides("same", slides)});
+  const auto script = [](const std::string &name) {
+    return content(test_folder() / "report" / name);
+  };
+  EXPECT_TRUE(contains(script("picture_1.gp"), "set yrange [0.09"));
+  EXPECT_TRUE(contains(script("picture_2.dat"), "\n-0.1 0\n"));
 }

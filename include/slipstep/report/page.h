@@ -22,7 +22,8 @@ namespace SlipStep
     std::string draw(Figure            &figure,
                      const std::string &title,
                      const std::string &caption,
-                     const bool         is_map = false);
+                     const bool         is_map = false,
+                     const std::string &legend = "");
 
     /// html_page() into the file.
     /// @throws RunError if the disk refuses
@@ -88,10 +89,12 @@ namespace SlipStep
 
   /// A picture with heading and caption; nothing if it was not drawn.
   /// @param is_map of cells: drawn without smoothing, else seams show
+  /// @param legend see legend_line()
   std::string figure_element(const std::string &title,
                              const std::string &svg,
                              const std::string &caption,
-                             const bool         is_map = false);
+                             const bool         is_map = false,
+                             const std::string &legend = "");
 
   /// What a line of a picture means.
   struct LegendLine
@@ -164,6 +167,9 @@ namespace SlipStep
   /// Pictures with legend, heading and caption, as HTML; of no pictures
   /// nothing.
   std::string gallery_section(const Gallery &gallery);
+
+  /// Names of lines, as HTML.
+  std::string legend_line(const std::vector<LegendLine> &lines);
 } // namespace SlipStep
 
 #endif

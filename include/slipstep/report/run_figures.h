@@ -51,6 +51,9 @@ namespace SlipStep
                            const std::vector<std::string> &others,
                            const unsigned int              height);
 
+  /// The names as a line of the page, for pictures that have no room for them.
+  std::string run_legend(const Runs &runs);
+
   /// Colour of Okabe and Ito (without yellow, which is lost on white) and dash
   /// of a run as gnuplot has it: apart for the colour-blind and in print.
   std::string run_style(const std::size_t i);
