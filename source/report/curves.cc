@@ -349,13 +349,15 @@ namespace SlipStep
               ++count[part];
             }
         }
+      // What too few rows tell of is left open.
       Rows rows;
       for (std::size_t part = 0; part < n_parts; ++part)
-        if (count[part] >= least)
-          rows.push_back(
-            {frame.x.lower + (part + 0.5) / n_parts * frame.x.width(),
-             sum[part] / count[part]});
-      return rows.size() > 1 ? rows : Rows();
+        rows.push_back(
+          {frame.x.lower + (part + 0.5) / n_parts * frame.x.width(),
+           count[part] < least ? std::nan("") : sum[part] / count[part]});
+      return all_of(count, [](const std::size_t n) { return n < least; }) ?
+               Rows() :
+               rows;
     }
 
     const LegendLine residual_line = {"measured − fitted", Colour::measured},
@@ -395,7 +397,7 @@ namespace SlipStep
         picture.plot(picture.add_data(frame.title + ", local means",
                                       {"position", "mean"},
                                       means) +
-                     " with lines " + mean_line.style(2.2));
+                     " with linespoints pt 7 ps 0.25 " + mean_line.style(2.2));
       y.add(band);
       frame.axes(picture, "Measured − fitted  [–]", {-y.upper, y.upper});
     }
@@ -540,8 +542,8 @@ namespace SlipStep
   {
     Gallery gallery{"What is left over",
                     "With a law that fits, nearly all lies within the band "
-                    "and the local mean, over a fortieth of the width, "
-                    "stays near zero.",
+                    "and the local mean, over a fortieth of the width where "
+                    "that has five rows, stays near zero.",
                     {residual_line}};
     for (std::size_t i = 0; i < frames.size(); ++i)
       {
@@ -553,7 +555,11 @@ namespace SlipStep
       }
     if (any_of(frames, has_replicates))
       gallery.legend.push_back(replicate_line);
-    gallery.legend.insert(gallery.legend.end(), {mean_line, noise_band_line});
+    if (any_of(frames, [](const ConditionFrame &frame) {
+          return !local_means(frame).empty();
+        }))
+      gallery.legend.push_back(mean_line);
+    gallery.legend.push_back(noise_band_line);
     return gallery_section(gallery);
   }
 

@@ -231,6 +231,28 @@ TEST(CalibrationReport, LongTestsAreThinnedWithoutLosingTheirExtremes)
 
 
 
+// A line across parts without rows showed means that nothing has.
+TEST(CalibrationReport, LocalMeansAreLeftOpenWhereRowsAreFew)
+{
+  Calibration calibration = SyntheticCalibration::make();
+  calibration.tests       = {SyntheticCalibration::test("gap", "", 400)};
+  auto &displacement      = calibration.tests[0].displacement;
+  for (std::size_t i = 0; i < displacement.size(); ++i)
+    displacement[i] = i < 200 ? 1e-3 * i : 10. + 1e-3 * i;
+  page_of(calibration);
+  const std::string text =
+    content(test_folder() / "report" / "residuals_1.dat");
+  const auto means = text.find("local means");
+  ASSERT_NE(means, std::string::npos);
+  EXPECT_NE(text.find(" NaN", means), std::string::npos);
+
+  // A row of each part: none to be drawn, or to be in the legend.
+  calibration.tests = {SyntheticCalibration::test("few", "", 40)};
+  EXPECT_FALSE(contains(page_of(calibration), "></i>local mean"));
+}
+
+
+
 TEST(CalibrationReport, WhatComesBackIsShownOverTime)
 {
   Calibration calibration = SyntheticCalibration::make();
