@@ -271,7 +271,7 @@ namespace SlipStep
                                  "their parameters.");
       const auto table = differences_of_keys(told);
       if (!table.empty())
-        return title + html_table(table, "values");
+        return title + html_table(table, "unbroken");
       return title + paragraph(unknown.empty() ?
                                  "Nothing: the cases say the same." :
                                  "Nothing between the cases that are known.");

@@ -51,7 +51,7 @@ function draw() {
   canvas.width = width * ratio; canvas.height = height * ratio;
   const pen = canvas.getContext('2d');
   pen.scale(ratio, ratio);
-  const ink = getComputedStyle(box).color;
+  const ink = '#222'; // on white, also where the page is dark
   const scale = data.scale * stretch.value;
   const c = data.centre, ct = Math.cos(turn), st = Math.sin(turn);
   const ce = Math.cos(tilt), se = Math.sin(tilt);

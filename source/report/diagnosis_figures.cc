@@ -224,11 +224,8 @@ namespace SlipStep
     /// apart by lightness.
     std::string cell_style(const double share)
     {
-      return background({{{255., 255., 255.}},
-                         {{240., 150., 70.}},
-                         {{110., 30., 0.}}},
-                        share) +
-             (share > 0.7 ? ";color:#fff" : "");
+      return background(
+        {{{255., 255., 255.}}, {{240., 150., 70.}}, {{110., 30., 0.}}}, share);
     }
 
     std::string table(const HeatMap           &map,

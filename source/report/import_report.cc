@@ -77,7 +77,8 @@ namespace SlipStep
                      name,
                      {"row",
                       "column " + std::to_string(column.number) +
-                        (column.name.empty() ? "" : " " + column.name)},
+                        (column.name.empty() ? "" : " " + column.name) +
+                        (column.unit.empty() ? "" : " [" + column.unit + "]")},
                      rows,
                      table[name],
                      gallery);
