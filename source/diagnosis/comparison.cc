@@ -507,6 +507,24 @@ namespace SlipStep
   std::vector<Contrast>
   Comparison::contrasts(const Eigen::VectorXd &difference) const
   {
+    // Where one of the tests has a spike they do not differ by noise.
+    Eigen::VectorXd left_over = difference, recorded = -measured;
+    for (const ComparedTest &test : tests)
+      for (std::size_t s = 0; s < test.series.size(); ++s)
+        {
+          const Eigen::Index begin = test.begin + s * test.n_bins();
+          const auto         part  = [&](const Eigen::VectorXd &values) {
+            const double *const first = values.data() + begin;
+            return std::vector<double>(first, first + test.n_bins());
+          };
+          const std::vector<bool> is_spike = spikes(part(measured));
+          for (Eigen::VectorXd *const values : {&left_over, &recorded})
+            {
+              std::vector<double> without = part(*values);
+              bridge(is_spike, without);
+              std::copy(without.begin(), without.end(), values->data() + begin);
+            }
+        }
     std::vector<Contrast> result;
     for (std::size_t c = 0; c < conditions.size(); ++c)
       {
@@ -516,8 +534,8 @@ namespace SlipStep
             members.push_back(i);
         for (std::size_t n = 1; n < members.size(); ++n)
           {
-            const Contrast left = helmert(tests, members, n, difference);
-            const Contrast raw  = helmert(tests, members, n, -measured);
+            const Contrast left = helmert(tests, members, n, left_over);
+            const Contrast raw  = helmert(tests, members, n, recorded);
             result.push_back(left.values.norm() < raw.values.norm() ? left :
                                                                       raw);
           }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/look_alike.h>
 #include <slipstep/diagnosis/refits.h>
+#include <slipstep/diagnosis/rules.h>
 #include <slipstep/diagnosis/workspace.h>
 #include <slipstep/utilities/lists.h>
 
@@ -108,13 +109,14 @@ namespace SlipStep
       void consider(const LookAlike            &look_alike,
                     const std::optional<Model> &model)
       {
-        constexpr double as_well = 4., most = 0.8;
+        constexpr double least_gain = 4., most = 0.8;
         if (!model.has_value())
           return;
-        const double gain       = base.objective - model->objective;
-        const double bound      = std::max(most * excess, as_well);
-        const bool   is_as_good = found.parts.empty() ||
-                                penalised(*model) <= penalised(found) + as_well;
+        const double gain  = base.objective - model->objective;
+        const double bound = std::max(most * excess, least_gain);
+        const bool   is_as_good =
+          found.parts.empty() ||
+          penalised(*model) <= penalised(found) + rival_distance;
         if (gain >= bound && is_as_good && model->objective < least &&
             relative_rms(comparison, *model) <= relative_rms(comparison, base))
           {
@@ -160,7 +162,8 @@ namespace SlipStep
 
 
 
-    // A few times smaller or larger, as far as is allowed.
+    // A few times larger, as far as is allowed: down to nothing and to the
+    // other sign, or as many times smaller where it has to be positive.
     CandidateParameter range_of_parameter(const Parameters  &start,
                                           const std::string &path)
     {
@@ -170,20 +173,21 @@ namespace SlipStep
         dynamic_cast<const Quantity &>(*start.entry(path).pattern);
       const double held = start.number(path);
       const double far  = held == 0. ? 1. : few * std::abs(held);
-      const double near = held == 0. ? -1. : std::abs(held) / few;
-      const double low  = held < 0. ? -far : near;
-      const double high = held < 0. ? -near : far;
+      const bool   is_positive =
+        held > 0. && allowed.minimum >= 0. &&
+        (allowed.minimum > 0. || allowed.minimum_is_excluded);
       return {path,
-              std::max(low, allowed.minimum),
-              std::min(high, allowed.maximum),
-              held > 0.};
+              std::max(is_positive ? held / few : -far, allowed.minimum),
+              std::min(far, allowed.maximum),
+              is_positive};
     }
 
 
 
     // The model with one more parameter of the starting model fitted, if that
-    // ends between its bounds. In the place of a name, which is a small part of
-    // the gap, it may end at one: farther off is as well then.
+    // ends between its bounds, or at nothing where less is not allowed. In the
+    // place of a name, which is a small part of the gap, it may end at any:
+    // farther off is as well then.
     std::optional<Model> fit_with(const Workspace   &workspace,
                                   const Model       &base,
                                   const std::string &path,
@@ -200,11 +204,14 @@ namespace SlipStep
       values[path]                    = workspace.start.number(path);
       const std::optional<Model> model =
         fitted_model(workspace, parts, values, base, 0.01);
-      if (!model.has_value() || (look_alike.instead_of.empty() &&
-                                 (model->scaled.back() < at_bound ||
-                                  model->scaled.back() > 1. - at_bound)))
+      if (!model.has_value())
         return {};
-      look_alike.value = model->values().at(path);
+      const double scaled = model->scaled.back();
+      const bool   is_off = parameter.lower == 0. && scaled < at_bound;
+      if (look_alike.instead_of.empty() && !is_off &&
+          (scaled < at_bound || scaled > 1. - at_bound))
+        return {};
+      look_alike.value = is_off ? 0. : model->values().at(path);
       look_alike.path  = path;
       look_alike.text =
         quantity_text(workspace.start, path, look_alike.value, 3);

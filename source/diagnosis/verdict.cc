@@ -368,6 +368,17 @@ namespace SlipStep
       workspace = std::move(weakened);
       judgement = again;
     }
+
+
+    void settle_names(Workspace &workspace, Judgement &judgement)
+    {
+      if (judgement.found.model.parts.empty())
+        return;
+      if (!are_sufficient(workspace, judgement))
+        withdraw(judgement);
+      else if (!workspace.is_late())
+        look_for_confounded(workspace, judgement);
+    }
   } // namespace
 
 
@@ -389,12 +400,13 @@ namespace SlipStep
     workspace.tell("looking for rows that nothing explains");
     const auto finish = [&]() {
       judge_without_outliers(workspace, result);
-      if (result.found.model.parts.empty())
-        return;
-      if (!are_sufficient(workspace, result))
-        withdraw(result);
-      else if (!workspace.is_late())
-        look_for_confounded(workspace, result);
+      settle_names(workspace, result);
+      // A name that was withdrawn may have followed bad rows.
+      if (!result.withdrawn.empty() && result.outlying.empty())
+        {
+          judge_without_outliers(workspace, result);
+          settle_names(workspace, result);
+        }
     };
     try
       {

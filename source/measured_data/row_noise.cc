@@ -33,6 +33,47 @@ namespace SlipStep
 
 
 
+  std::vector<bool> spikes(const std::vector<double> &values)
+  {
+    // As many on either side: of up to so many in a row the others tell.
+    constexpr std::size_t reach = 3;
+    constexpr double      far   = 10.; // standard deviations
+
+    std::vector<bool> result(values.size(), false);
+    if (values.size() <= 2 * reach)
+      return result;
+    std::vector<double> distance(values.size(), 0.);
+    for (std::size_t i = reach; i + reach < values.size(); ++i)
+      distance[i] =
+        std::abs(values[i] - median({values.begin() + i - reach,
+                                     values.begin() + i + reach + 1}));
+    // Of a step in its digits a record does not scatter.
+    const double usual = median(distance) / 0.6745;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      result[i] = usual > 0. && distance[i] > far * usual;
+    return result;
+  }
+
+
+
+  void bridge(const std::vector<bool> &is_spike, std::vector<double> &values)
+  {
+    for (std::size_t begin = 0; begin < values.size(); ++begin)
+      {
+        std::size_t end = begin;
+        while (end < values.size() && is_spike[end])
+          ++end;
+        if (end == begin || begin == 0 || end == values.size())
+          continue;
+        const double before = values[begin - 1], after = values[end];
+        for (std::size_t i = begin; i < end; ++i)
+          values[i] =
+            before + (after - before) * (i - begin + 1.) / (end - begin + 1.);
+      }
+  }
+
+
+
   namespace
   {
     constexpr std::size_t longest_scale = 8; // bins
@@ -101,7 +142,7 @@ namespace SlipStep
 
 
 
-  void RowNoiseFit::add(const std::vector<double> &values,
+  void RowNoiseFit::add(const std::vector<double> &recorded,
                         const std::vector<double> &time,
                         const double               rows_per_bin,
                         const double               row_deviation,
@@ -112,6 +153,8 @@ namespace SlipStep
     constexpr double      per_row = 0.37 / 1.5;
     constexpr std::size_t least   = 12; // means
 
+    std::vector<double> values = recorded;
+    bridge(spikes(values), values);
     Record record;
     record.level = level;
     if (rows_per_bin > 1.)

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -162,4 +163,46 @@ TEST(RowNoiseFit, LeavesWhiteRows)
         n_correlated += fit.solve().is_correlated;
       }
   EXPECT_LE(n_correlated, 1u);
+}
+
+
+
+TEST(Spikes, AreFoundInNoiseOfAnyKind)
+{
+  std::mt19937_64                            random(7);
+  std::uniform_int_distribution<std::size_t> place(10, 189);
+  for (const RowNoise &noise :
+       {RowNoise{0.001, 0., 0.}, {0.001, 0.8, 0.7}, {0.02, 1., 0.95}})
+    for (const double size : {15., 40., 1000.})
+      for (unsigned int n = 0; n < 20; ++n)
+        {
+          const std::vector<double> rows   = rows_of(noise, 200, random);
+          std::vector<double>       spiked = rows;
+          const std::size_t         row    = place(random);
+          spiked[row] += (n % 2 == 0 ? size : -size) * noise.deviation;
+          const std::vector<bool> found = spikes(spiked);
+          EXPECT_TRUE(found[row]) << size << ' ' << noise.decay;
+          EXPECT_LE(std::count(found.begin(), found.end(), true), 2);
+          bridge(found, spiked);
+          EXPECT_NEAR(spiked[row], rows[row], 6. * noise.deviation);
+        }
+}
+
+
+
+// A flank, a step, a peak of some rows, and digits.
+TEST(Spikes, AreNoFlanksStepsOrDigits)
+{
+  std::mt19937_64           random(8);
+  const std::vector<double> noise = rows_of({0.001, 0., 0.}, 200, random);
+  std::vector<double>       test(200), coarse(200);
+  for (std::size_t i = 0; i < 200; ++i)
+    {
+      const double rise = std::min(0.02 * i, 0.2 + 0.04 * std::exp(-0.1 * i));
+      test[i]           = (i < 100 ? rise : i < 150 ? 0.3 : -0.2) + noise[i];
+      coarse[i]         = 0.01 * std::round(100. * (0.2 + noise[i] * 4.));
+    }
+  for (const std::vector<double> &values : {test, coarse, {0.1, 0.1, 5.}})
+    for (const bool is_spike : spikes(values))
+      EXPECT_FALSE(is_spike);
 }

@@ -22,6 +22,13 @@ namespace SlipStep
     double covariance_of_means(const double n) const;
   };
 
+  /// Which numbers of a record are far from those on either side: no flank, no
+  /// step and no noise, unless it has many such.
+  std::vector<bool> spikes(const std::vector<double> &values);
+
+  /// With what lies between their neighbours in the place of these numbers.
+  void bridge(const std::vector<bool> &is_spike, std::vector<double> &values);
+
   /// How second differences of the means of n rows scatter.
   struct ScaleScatter
   {

@@ -302,7 +302,10 @@ TEST_F(CampaignFolder, WavesWithoutANameAreDescribed)
   parameters.set("Diagnosis/Candidates", "pressure, healing", "test");
   const Judgement judgement = judged();
   ASSERT_EQ(name_of(judgement.verdict), "unnamed");
-  const Workspace                    &workspace = *ingested.workspace;
+  // Of the starting model, as the correction is.
+  Workspace &workspace = *ingested.workspace;
+  workspace.range.track_wave =
+    clear_track_wave(workspace, judgement.base).wavelength;
   const std::optional<CorrectedModel> correction =
     find_correction(workspace,
                     judgement.base,

@@ -105,6 +105,7 @@ namespace SlipStep::Testing
            "set Friction/Static coefficient = 0.15\n"
            "set Calibration/Tests = measured\n"
         << contact << '\n';
+      parameters = Parameters();
       declare_loading_parameters(parameters);
       FrictionLaw::declare_parameters(parameters);
       declare_calibration_parameters(parameters);
@@ -129,6 +130,7 @@ namespace SlipStep::Testing
     double          across    = 0.;  // noise of a sensor there
     double          pressure  = 5.;
     double          noise     = 0.002; // of a row
+    double          spike     = 0.;    // of some
     unsigned int    n_rows    = 180;
 
     // Every condition twice, each by a contact of its own.
@@ -172,8 +174,10 @@ namespace SlipStep::Testing
                 displacement += slide.speed * step;
                 friction = contact(friction, slide.speed, displacement, step);
               }
-            const double measured = gain * friction + noise * normal(random);
-            const double beside   = across * normal_across(random_across);
+            constexpr unsigned int between = 60;
+            const double measured = gain * friction + noise * normal(random) +
+                                    (row % between == between / 2 ? spike : 0.);
+            const double beside = across * normal_across(random_across);
             const double c = std::cos(angle), s = std::sin(angle);
             out << time << ',' << c * displacement << ',' << s * displacement
                 << ',' << pressure << ',' << c * measured - s * beside << ','
