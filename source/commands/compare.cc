@@ -45,6 +45,17 @@ namespace SlipStep
 
 
 
+    // A run that has lost its history.
+    void tell_if_lost(const fs::path &folder)
+    {
+      if (fs::exists(folder / "summary.json") &&
+          !fs::exists(folder / "history.csv"))
+        print_warnings(
+          {folder.string() + " has no history.csv, and is left out"});
+    }
+
+
+
     // Those of the last sweep in its order, if the folder tells; else all, in
     // the order of their names. Others are of an earlier sweep.
     std::vector<fs::path> folders_of_runs(const fs::path &folder)
@@ -61,8 +72,11 @@ namespace SlipStep
               folders.push_back(folder / variant.folder);
         }
       for (const auto &entry : fs::directory_iterator(folder))
-        if (is_run(entry.path()) && !holds(folders, entry.path()))
-          others.push_back(entry.path());
+        {
+          tell_if_lost(entry.path());
+          if (is_run(entry.path()) && !holds(folders, entry.path()))
+            others.push_back(entry.path());
+        }
       std::sort(others.begin(), others.end());
       if (!is_sweep)
         return others;

@@ -2,6 +2,7 @@
 #include <slipstep/commands/commands.h>
 
 #include <slipstep/commands/case.h>
+#include <slipstep/commands/results_folder.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/friction/state_numbers.h>
 #include <slipstep/utilities/exceptions.h>
@@ -15,6 +16,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <sstream>
 
 namespace SlipStep
@@ -112,6 +114,12 @@ namespace SlipStep
     const std::string name             = is_abaqus ? "slipstep" : "law";
     const std::filesystem::path folder = chosen_output(the_case, line);
     std::filesystem::create_directories(folder);
+    // The case's own is told from other files by the mark.
+    std::unique_ptr<ResultsFolder> results;
+    if (line.output.empty())
+      results = std::make_unique<ResultsFolder>(folder,
+                                                line.command,
+                                                line.files.front());
     write_over_own(folder / (name + ".prm"),
                    law_text(parameters, law),
                    "# The law of ");

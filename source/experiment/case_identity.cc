@@ -36,38 +36,38 @@ namespace SlipStep
 
 
 
-    std::uint32_t checksum_of(const Programme &programme)
-    {
-      boost::crc_32_type crc;
-      const auto         add = [&crc](const double number) {
-        crc.process_bytes(&number, sizeof(number));
-      };
-      for (const Segment &segment : programme.segments())
-        {
-          for (const auto &end :
-               {std::make_pair(segment.start_time, segment.start),
-                std::make_pair(segment.end_time, segment.end)})
-            {
-              add(end.first);
-              add(end.second.pressure);
-              for (unsigned int i = 0; i < 2; ++i)
-                add(end.second.displacement[i]);
-            }
-          if (segment.pushes)
-            for (unsigned int i = 0; i < 2; ++i)
-              add(segment.push[i]);
-        }
-      return crc.checksum();
-    }
-
-
-
     // These are compared as a whole, by what they say.
     bool is_in_programme(const std::string &path)
     {
       return path == "Loading/Programme" || path == "Loading/Speed";
     }
   } // namespace
+
+
+
+  std::uint32_t checksum_of(const Programme &programme)
+  {
+    boost::crc_32_type crc;
+    const auto         add = [&crc](const double number) {
+      crc.process_bytes(&number, sizeof(number));
+    };
+    for (const Segment &segment : programme.segments())
+      {
+        for (const auto &end :
+             {std::make_pair(segment.start_time, segment.start),
+              std::make_pair(segment.end_time, segment.end)})
+          {
+            add(end.first);
+            add(end.second.pressure);
+            for (unsigned int i = 0; i < 2; ++i)
+              add(end.second.displacement[i]);
+          }
+        if (segment.pushes)
+          for (unsigned int i = 0; i < 2; ++i)
+            add(segment.push[i]);
+      }
+    return crc.checksum();
+  }
 
 
 

@@ -381,10 +381,12 @@ namespace SlipStep
 
 
     // What fields and lines there are is no part of the history.
-    void require_finished_case(const fs::path    &folder,
-                               const Parameters  &parameters,
-                               Parameters         used,
-                               const std::string &command)
+    // @param programme of what was done, 0 if that is not known
+    void require_finished_case(const fs::path     &folder,
+                               const Parameters   &parameters,
+                               Parameters          used,
+                               const std::string  &command,
+                               const std::uint32_t programme)
     {
       const std::string owner = "the finished run in " + folder.string();
       try
@@ -406,6 +408,11 @@ namespace SlipStep
         for (const char *path : {"Output/Fields", "Output/Lines"})
           identity.values.emplace_back(path, used.text(path));
       identity.require_same(parameters, owner);
+      // The words are the same, what stands in the tests may not be.
+      if (programme != 0 && programme != identity.programme)
+        parameters.reject("Loading/Programme",
+                          "a test that it follows has changed since " + owner +
+                            " was made" + anew_or_elsewhere);
     }
   } // namespace
 
@@ -422,9 +429,12 @@ namespace SlipStep
                        " holds results of slipstep " + summary->command +
                        ", not of slipstep " + command +
                        "; give another folder with --output");
-    if (summary && summary->status == "finished")
+    // Without its history a run is made once more.
+    if (summary && summary->status == "finished" &&
+        fs::exists(folder / "history.csv"))
       {
-        require_finished_case(folder, parameters, declared, command);
+        require_finished_case(
+          folder, parameters, declared, command, summary->programme);
         return EarlierRun::finished;
       }
     return CheckpointStore(folder).check(parameters) ? EarlierRun::stopped :

@@ -111,6 +111,7 @@ namespace SlipStep
     , work(programme)
   {
     summary.case_name = parameters.case_file().stem().string();
+    summary.programme = checksum_of(programme);
     summary.label     = options.label;
     summary.command   = command;
     summary.effects   = law.effects();

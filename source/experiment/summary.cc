@@ -115,6 +115,7 @@ namespace SlipStep
       members("newton_iterations", summary.newton_iterations);
       members("linear_iterations", summary.linear_iterations);
       members.optional("sessions", summary.sessions);
+      members.optional("programme_crc32", summary.programme);
       members("wall_s", summary.wall_time);
       members("cpu_s", summary.cpu_time);
       members("peak_memory_MB", summary.peak_memory);

@@ -101,6 +101,32 @@ TEST_F(ResumeAnywhere, AFinishedRunIsKeptFromAnyFolder)
 
 
 
+// Old and new runs would stand in one table.
+TEST_F(ResumeAnywhere, AFinishedRunOfAChangedTestIsNotKept)
+{
+  const std::string              cases = path("cases").string();
+  const std::vector<std::string> steps = {
+    "--set", "Time stepping/Equal steps per statement=8"};
+  ASSERT_EQ(resume("point", cases, steps).exit_code, 0);
+  const std::string finished = history("output");
+
+  fs::remove(path("output") / "history.csv");
+  const auto lost = resume("point", cases, steps);
+  EXPECT_EQ(lost.exit_code, 0) << lost.err;
+  EXPECT_FALSE(contains(lost.out, "results are kept"));
+  EXPECT_EQ(history("output"), finished);
+
+  process.write("cases/measured/one.csv",
+                "time_s,displacement_mm,pressure_MPa,friction\n"
+                "0,0,5,0\n1,0.02,5,0.1\n2,0.05,5,0.1\n");
+  const auto changed = resume("point", cases, steps);
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_TRUE(contains(changed.err, "has changed since the finished run in"));
+  EXPECT_EQ(history("output"), finished);
+}
+
+
+
 TEST_F(ResumeAnywhere, ADamagedSummaryDoesNotHideACheckpoint)
 {
   for (const std::string text : {"", "{\"case\": ", "[]", "\xff\xfe"})

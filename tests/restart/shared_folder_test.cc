@@ -60,6 +60,8 @@ TEST_F(SharedFolder, ASecondRunOnTwoRanksIsTold)
 
 TEST_F(SharedFolder, EveryCommandHasItsOwn)
 {
+  // What export leaves there is no foreign file.
+  EXPECT_EQ(process.run({"export", "case.prm", "--quiet"}).exit_code, 0);
   for (const std::string command : {"point", "run", "refine"})
     {
       std::vector<std::string> words = {command, "case.prm", "--quiet"};

@@ -11,6 +11,11 @@
 
 namespace SlipStep
 {
+  class Programme;
+
+  /// Of the segments, whatever words say them.
+  std::uint32_t checksum_of(const Programme &programme);
+
   /// What to do about results of another case, for the end of a message.
   constexpr const char *anew_or_elsewhere =
     "; run without --resume to start anew, or give another folder with "

@@ -131,12 +131,14 @@ namespace SlipStep
     unsigned int             rejected_steps    = 0;
     unsigned long long       newton_iterations = 0;
     unsigned long long       linear_iterations = 0;
-    unsigned int             sessions          = 1;  ///< 1 + resumptions
-    double                   wall_time         = 0.; ///< [s], all sessions
-    double                   cpu_time    = 0.; ///< [s], all sessions and ranks
-    double                   peak_memory = 0.; ///< [MB], all ranks
-    double                   peak_friction = 0.; ///< largest magnitude
-    double                   peak_displacement =
+    unsigned int             sessions          = 1; ///< 1 + resumptions
+    /// Of what was done, see CaseIdentity; 0 in results of earlier versions.
+    std::uint32_t programme     = 0;
+    double        wall_time     = 0.; ///< [s], all sessions
+    double        cpu_time      = 0.; ///< [s], all sessions and ranks
+    double        peak_memory   = 0.; ///< [MB], all ranks
+    double        peak_friction = 0.; ///< largest magnitude
+    double        peak_displacement =
       0.; ///< of the drive there, along its first direction [mm]
     bool   is_pushed      = false; ///< by a load, at some time
     double final_friction = 0.;    ///< along the last direction of motion
