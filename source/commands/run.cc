@@ -78,9 +78,9 @@ namespace SlipStep
               return print_warnings(
                 {"'" + the_case.variants[i].label + "' and '" +
                  the_case.variants[j].label +
-                 "' of the sweep are the same case: what they differ in does "
-                 "not act on the results of slipstep " +
-                 command});
+                 "' of the sweep are the same case as far as the results of "
+                 "slipstep " +
+                 command + " go"});
           identities.push_back(identity);
         }
     }

@@ -140,8 +140,8 @@ namespace SlipStep
           diagnosis.warnings.push_back(
             parameter.path + " of the starting model is at its bound " +
             parameter.text(parameter.from_scaled(scaled), 6) +
-            ": if Calibration/Parameters has that as a guess, what is missing "
-            "may be nothing but a wider range.");
+            ": if Calibration/Parameters has that as a guess, a wider range may "
+            "be all that it takes.");
       }
   }
 

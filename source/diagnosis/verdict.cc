@@ -370,6 +370,7 @@ namespace SlipStep
     }
 
 
+
     void settle_names(Workspace &workspace, Judgement &judgement)
     {
       if (judgement.found.model.parts.empty())

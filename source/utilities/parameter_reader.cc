@@ -393,7 +393,9 @@ namespace SlipStep
       {
         if (state.sweep.has_sweep)
           text.variants = variants_of_sweep(state.sweep, state);
-        else if (state.sweep.has_variants)
+        else if (!state.sweep.has_variants)
+          require_no_value_for_included_sweep(state);
+        else
           {
             // An empty section undoes the sweep of an included file.
             if (state.sweep.variants.empty() && text.variants.empty())
@@ -402,6 +404,21 @@ namespace SlipStep
                                "each variant, named after it");
             text.variants = state.sweep.variants;
           }
+      }
+
+      // The file overrides what it includes, but a sweep decides on its keys.
+      void require_no_value_for_included_sweep(const FileState &state) const
+      {
+        for (const Variant &variant : text.variants)
+          for (const Variant::Override &swept : variant.overrides)
+            if (const auto own = state.line_of_key.find(swept.path);
+                own != state.line_of_key.end() &&
+                swept.origin.rfind(state.file.string() + ":", 0) != 0)
+              throw InputError(
+                place(state.file, own->second) + ": " + swept.path +
+                " is swept by an included file (" + swept.origin +
+                "), so that this value would not act; sweep it here, or end "
+                "that sweep with an empty subsection Variants");
       }
 
       // The first key changes last.
@@ -413,6 +430,10 @@ namespace SlipStep
           throw InputError(
             state.file.string() +
             ": Sweep needs both \"set Key = ...\" and \"set Values = ...\"");
+        if (sweep.keys.begin()->first != 1)
+          throw InputError(sweep.keys.begin()->second.key_origin +
+                           ": Sweep has a further key, but no Key; it takes "
+                           "the place of the whole sweep of an included file");
         for (const auto &[number, swept] : sweep.keys)
           {
             const std::string n =

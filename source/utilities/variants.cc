@@ -81,6 +81,33 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    std::string name_of_key(const std::string &path)
+    {
+      return path.substr(path.rfind('/') + 1);
+    }
+
+    // "softening/Rate 0.1, subloading/Rate 500": two keys of one name.
+    std::string
+    label_with_sections(const std::vector<Variant::Override> &overrides)
+    {
+      std::vector<std::string> pieces;
+      for (const Variant::Override &setting : overrides)
+        {
+          const std::size_t key     = setting.path.rfind('/');
+          const std::size_t section = key == std::string::npos || key == 0 ?
+                                        std::string::npos :
+                                        setting.path.rfind('/', key - 1);
+          pieces.push_back(setting.path.substr(section + 1) + " " +
+                           setting.value);
+        }
+      return boost::algorithm::join(pieces, ", ");
+    }
+  } // namespace
+
+
+
   std::vector<Variant>
   variants_of_values(const Parameters               &known,
                      const std::string              &path,
@@ -88,7 +115,7 @@ namespace SlipStep
                      const std::string              &origin,
                      const bool                      is_alone)
   {
-    const std::string    name = path.substr(path.rfind('/') + 1);
+    const std::string    name = name_of_key(path);
     std::vector<Variant> variants;
     for (const std::string &value : values)
       {
@@ -123,15 +150,26 @@ namespace SlipStep
         origin + ": " + std::to_string(slow.size()) + " times " +
         std::to_string(fast.size()) + " values are more runs than the " +
         std::to_string(most_variants) + " that a sweep may have");
+    std::set<std::string> names;
+    for (const std::string &path : swept)
+      names.insert(name_of_key(path));
+    const bool is_ambiguous =
+      !fast.empty() && any_of(fast[0].overrides, [&](const auto &setting) {
+        return names.count(name_of_key(setting.path)) > 0;
+      });
     std::vector<Variant> variants;
     for (const Variant &one : slow)
       for (const Variant &other : fast)
         {
-          add_variant(variants, one.label + ", " + other.label, origin);
-          variants.back().overrides = one.overrides;
-          variants.back().overrides.insert(variants.back().overrides.end(),
-                                           other.overrides.begin(),
-                                           other.overrides.end());
+          std::vector<Variant::Override> overrides = one.overrides;
+          overrides.insert(overrides.end(),
+                           other.overrides.begin(),
+                           other.overrides.end());
+          add_variant(variants,
+                      is_ambiguous ? label_with_sections(overrides) :
+                                     one.label + ", " + other.label,
+                      origin);
+          variants.back().overrides = overrides;
         }
     return variants;
   }
