@@ -83,16 +83,17 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
       EXPECT_TRUE(object.contains(key)) << key;
     EXPECT_EQ(object.size(), keys.size());
   };
-  has_exactly(object, {"version",  "git_hash",       "case",
-                       "label",    "command",        "status",
-                       "reason",   "effects",        "dimension",
-                       "cells",    "dofs",           "ranks",
-                       "steps",    "rejected_steps", "newton_iterations",
-                       "wall_s",   "cpu_s",          "linear_iterations",
-                       "friction", "energy",         "peak_memory_MB",
-                       "slides",   "quantities",     "warnings",
-                       "sessions", "stability",      "mesh_error",
-                       "opening",  "probes",         "pushed"});
+  has_exactly(object, {"version",        "git_hash",       "case",
+                       "label",          "command",        "status",
+                       "reason",         "effects",        "dimension",
+                       "cells",          "dofs",           "ranks",
+                       "steps",          "rejected_steps", "newton_iterations",
+                       "wall_s",         "cpu_s",          "linear_iterations",
+                       "friction",       "energy",         "peak_memory_MB",
+                       "slides",         "quantities",     "warnings",
+                       "sessions",       "stability",      "mesh_error",
+                       "opening",        "probes",         "pushed",
+                       "programme_crc32"});
   has_exactly(object["friction"], {"peak", "at_displacement_mm", "final"});
   has_exactly(object["energy"],
               {"work", "stored", "kinetic", "dissipated", "balance_error"});
