@@ -8,62 +8,24 @@
 
 namespace SlipStep
 {
-  namespace
-  {
-    // What the largest residual of a row comes to in noise alone, but for a
-    // small chance.
-    double largest_by_chance(const Workspace &workspace)
-    {
-      constexpr double chance = 0.01;
-
-      std::vector<double> largest;
-      for (Eigen::Index draw = 0; draw < workspace.null_draws.cols(); ++draw)
-        largest.push_back(workspace.null_draws.col(draw).cwiseAbs().maxCoeff());
-      std::sort(largest.begin(), largest.end());
-      return largest[static_cast<std::size_t>((1. - chance) *
-                                              (largest.size() - 1))];
-    }
-  } // namespace
-
-
-
-  // The worst of each test at a time: whitening takes those after it for as
-  // far off as it was, and without it they are no worse than others.
   std::vector<Eigen::Index> outlying_rows(const Workspace &workspace,
                                           const Model     &model)
   {
-    constexpr double largest_share = 0.02;
+    constexpr double chance = 0.01, largest_share = 0.02;
 
-    Comparison            comparison = workspace.comparison;
-    const double          threshold  = largest_by_chance(workspace);
-    const double          most       = largest_share * comparison.n_rows();
-    const Eigen::VectorXd difference = comparison.difference(model);
-    const Eigen::VectorXd friction   = comparison.measured + difference;
-
+    std::vector<double> largest;
+    for (Eigen::Index draw = 0; draw < workspace.null_draws.cols(); ++draw)
+      largest.push_back(workspace.null_draws.col(draw).cwiseAbs().maxCoeff());
+    std::sort(largest.begin(), largest.end());
+    const double threshold =
+      largest[static_cast<std::size_t>((1. - chance) * (largest.size() - 1))];
+    const Eigen::Index        n = workspace.comparison.n_rows();
     std::vector<Eigen::Index> result;
-    for (bool is_any = true; is_any && result.size() <= most;)
-      {
-        is_any             = false;
-        RowMatrix residual = difference;
-        comparison.whiten(residual);
-        for (const ComparedTest &test : comparison.tests)
-          {
-            Eigen::Index worst;
-            const double size = residual.middleRows(test.begin, test.size)
-                                  .cwiseAbs()
-                                  .col(0)
-                                  .maxCoeff(&worst);
-            if (!(size > threshold))
-              continue;
-            is_any = true;
-            result.push_back(test.begin + worst);
-            comparison.weaken_row(result.back(), size);
-          }
-        comparison.set_noise(comparison.noise(), friction);
-      }
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result.size() <= most ? result : std::vector<Eigen::Index>();
+    for (Eigen::Index row = 0; row < n; ++row)
+      if (std::abs(model.residual(row)) > threshold)
+        result.push_back(row);
+    return result.size() <= largest_share * n ? result :
+                                                std::vector<Eigen::Index>();
   }
 
 

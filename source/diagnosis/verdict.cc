@@ -402,12 +402,6 @@ namespace SlipStep
     const auto finish = [&]() {
       judge_without_outliers(workspace, result);
       settle_names(workspace, result);
-      // A name that was withdrawn may have followed bad rows.
-      if (!result.withdrawn.empty() && result.outlying.empty())
-        {
-          judge_without_outliers(workspace, result);
-          settle_names(workspace, result);
-        }
     };
     try
       {

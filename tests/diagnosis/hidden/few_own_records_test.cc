@@ -243,31 +243,6 @@ TEST_F(OwnRecordsOfFewTests, HealingByTheFormulaOfAgeingIsNoRival)
 
 
 
-// The larger a spike was, the more rows after it were taken for as far off, so
-// that something was missing in one of 0.15 and nothing in one of 0.1.
-TEST_F(OwnRecordsOfFewTests, SpikesOfAnySizeAreNoGap)
-{
-  for (const double size : {0.05, 0.1, 0.2, 0.5})
-    {
-      spike = size;
-      for (unsigned int number = 0; number < 6; ++number)
-        write(number, {{0.2, 20.}}, slider([](double) { return 0.2; }));
-      const Judgement judgement =
-        judged("",
-               "",
-               coulomb_contact + "set Friction/Tangential stiffness = 100\n");
-      EXPECT_EQ(judgement.verdict, Verdict::no_gap) << size;
-      // And of a thousand rows some by chance.
-      EXPECT_GE(judgement.outlying.size(), 3u * 6u) << size;
-      EXPECT_LE(judgement.outlying.size(), 3u * 6u + 3u) << size;
-      // Replicates tell the noise of the other rows.
-      const Noise &found = ingested.workspace->noise.noise;
-      EXPECT_LT(std::hypot(found.drift, found.gain), 0.02) << size;
-    }
-}
-
-
-
 // A truth of nothing has no place in a range of positive values: it was not
 // found, and the gap had no name.
 TEST_F(OwnRecordsOfFewTests, AHeldNumberThatShouldBeNothingIsTold)
