@@ -113,13 +113,14 @@ namespace SlipStep
     const bool        is_abaqus        = line.format == "abaqus";
     const std::string name             = is_abaqus ? "slipstep" : "law";
     const std::filesystem::path folder = chosen_output(the_case, line);
-    std::filesystem::create_directories(folder);
     // The case's own is told from other files by the mark.
     std::unique_ptr<ResultsFolder> results;
     if (line.output.empty())
       results = std::make_unique<ResultsFolder>(folder,
                                                 line.command,
                                                 line.files.front());
+    else
+      std::filesystem::create_directories(folder);
     write_over_own(folder / (name + ".prm"),
                    law_text(parameters, law),
                    "# The law of ");

@@ -90,15 +90,14 @@ namespace SlipStep
           if (model.parts.empty())
             notes.gains.emplace_back(seen.candidate.name,
                                      model.objective - tried->objective);
-          const bool is_inside = !is_at_bound(*tried);
-          if (is_inside && model.parts.empty())
-            notes.models.push_back(*tried);
-          if (is_inside)
+          if (!is_at_bound(*tried))
             found.push_back(*tried);
           else if (!at_bound.has_value() ||
                    tried->objective < at_bound->objective)
             at_bound = tried;
         }
+      if (model.parts.empty())
+        notes.models = found;
       return found;
     }
 

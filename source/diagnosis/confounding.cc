@@ -6,14 +6,22 @@
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
+#include <algorithm>
+#include <array>
+
 namespace SlipStep
 {
   namespace
   {
     // What tests are made at, rather than what comes about in them.
+    const std::array<std::string, 2> conditions_of_tests = {
+      {"pressure", "speed"}};
+
     bool is_condition(const std::string &along)
     {
-      return along == "pressure" || along == "log10 speed";
+      return any_of(conditions_of_tests, [&](const std::string &name) {
+        return covariate_called(name).in_expression == along;
+      });
     }
 
 
@@ -54,16 +62,16 @@ namespace SlipStep
       return any_of(found.rivals,
                     [&](const Rival &rival) { return rival.name == name; });
     };
-    const Part        &named = found.model.parts.front();
-    const double       gain  = base.objective - found.model.objective;
+    const Part &named = found.model.parts.front();
+    if (!is_condition(named.formula.along))
+      return {};
+    const double       gain = base.objective - found.model.objective;
     std::vector<Rival> result;
     for (const Model &first : found.first_fits.models)
       {
-        const TrialFormula &formula = first.parts.front().formula;
-        if (is_rival(first.parts.front().name) ||
-            !is_condition(formula.along) ||
-            !is_condition(named.formula.along) ||
-            formula.along == named.formula.along)
+        const Part &other = first.parts.front();
+        if (is_rival(other.name) || !is_condition(other.formula.along) ||
+            other.formula.along == named.formula.along)
           continue;
         // Since then some rows may count for less.
         const std::optional<Model> alone =
@@ -72,7 +80,7 @@ namespace SlipStep
             base.objective - alone->objective > nearly * gain &&
             is_needed(base.objective - alone->objective,
                       left_out_gain(workspace, base, *alone)))
-          result.push_back({first.parts.front().name,
+          result.push_back({other.name,
                             named.name,
                             penalised(*alone) - penalised(found.model),
                             *alone});
@@ -89,7 +97,7 @@ namespace SlipStep
                                                      const Model     &model)
   {
     std::vector<EffectsAlong> result;
-    for (const std::string covariate : {"pressure", "speed"})
+    for (const std::string &covariate : conditions_of_tests)
       {
         const Covariate &known = covariate_called(covariate);
         EffectsAlong     along;

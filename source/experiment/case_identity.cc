@@ -93,6 +93,16 @@ namespace SlipStep
 
 
 
+  void reject_changed_test(const Parameters  &parameters,
+                           const std::string &owner)
+  {
+    parameters.reject("Loading/Programme",
+                      "a test that it follows has changed since " + owner +
+                        " was made" + anew_or_elsewhere);
+  }
+
+
+
   CaseIdentity::CaseIdentity(const Parameters  &parameters,
                              const std::string &command)
     : programme(checksum_of(parse_programme(parameters)))
@@ -126,9 +136,7 @@ namespace SlipStep
     for (const char *const path : {"Loading/Speed", "Loading/Programme"})
       if (parameters.text(path) != in_programme[path])
         refuse(path, in_programme[path]);
-    parameters.reject("Loading/Programme",
-                      "a test that it follows has changed since " + owner +
-                        " was made" + anew_or_elsewhere);
+    reject_changed_test(parameters, owner);
   }
 
 

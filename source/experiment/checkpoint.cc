@@ -410,9 +410,7 @@ namespace SlipStep
       identity.require_same(parameters, owner);
       // The words are the same, what stands in the tests may not be.
       if (programme != 0 && programme != identity.programme)
-        parameters.reject("Loading/Programme",
-                          "a test that it follows has changed since " + owner +
-                            " was made" + anew_or_elsewhere);
+        reject_changed_test(parameters, owner);
     }
   } // namespace
 

@@ -363,7 +363,8 @@ namespace SlipStep
     const LegendLine residual_line = {"measured − fitted", Colour::measured},
                      mean_line     = {"local mean", "#000000"};
 
-    void draw_left_over(SmallPicture &picture, const ConditionFrame &frame)
+    // Returns whether there are local means.
+    bool draw_left_over(SmallPicture &picture, const ConditionFrame &frame)
     {
       double band = 0.;
       Range  y;
@@ -400,6 +401,7 @@ namespace SlipStep
                      " with linespoints pt 7 ps 0.25 " + mean_line.style(2.2));
       y.add(band);
       frame.axes(picture, "Measured − fitted  [–]", {-y.upper, y.upper});
+      return !means.empty();
     }
   } // namespace
 
@@ -545,19 +547,18 @@ namespace SlipStep
                     "and the local mean, over a fortieth of the width where "
                     "that has five rows, stays near zero.",
                     {residual_line}};
+    bool    has_means = false;
     for (std::size_t i = 0; i < frames.size(); ++i)
       {
         SmallPicture picture(page,
                              "residuals_" + std::to_string(i + 1),
                              frames[i].title);
-        draw_left_over(picture, frames[i]);
+        has_means = draw_left_over(picture, frames[i]) || has_means;
         picture.finish(gallery);
       }
     if (any_of(frames, has_replicates))
       gallery.legend.push_back(replicate_line);
-    if (any_of(frames, [](const ConditionFrame &frame) {
-          return !local_means(frame).empty();
-        }))
+    if (has_means)
       gallery.legend.push_back(mean_line);
     gallery.legend.push_back(noise_band_line);
     return gallery_section(gallery);

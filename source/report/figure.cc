@@ -309,13 +309,20 @@ namespace SlipStep
 
 
 
+  bool is_constant(const Range &range)
+  {
+    return !(range.width() >
+             1e-6 * std::max(std::abs(range.lower), std::abs(range.upper)));
+  }
+
+
+
   Range without_round_off(const Range &range)
   {
-    const double size = std::max(std::abs(range.lower), std::abs(range.upper));
-    const double half = std::max(0.05 * size, 1e-12);
-    return range.width() > 1e-6 * size ?
-             range :
-             Range{range.middle() - half, range.middle() + half};
+    const double half = std::max(0.05 * std::abs(range.middle()), 1e-12);
+    return is_constant(range) ?
+             Range{range.middle() - half, range.middle() + half} :
+             range;
   }
 
 

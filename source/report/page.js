@@ -51,11 +51,11 @@ function legend(curve, text) {
 }
 const at = (svg, e) => new DOMPoint(e.clientX, e.clientY)
   .matrixTransform(svg.getScreenCTM().inverse());
-function nearest(plot, distance) {
+function nearest(plot, at) {
   let best = null;
   for (const curve of plot.curves) if (!curve.off)
     for (const p of curve.points) {
-      const d = distance(p);
+      const d = Math.hypot(p[0] - at.x, p[1] - at.y);
       if (!best || d < best.d) best = { d, p, curve };
     }
   return best;
@@ -137,7 +137,7 @@ for (const figure of all(document, 'figure:not(.map)')) {
         tell(e, stacked(plots, plot, p, runs).join('\n'));
         return;
       }
-      const found = nearest(plot, q => Math.hypot(q[0] - p.x, q[1] - p.y));
+      const found = nearest(plot, p);
       if (!found || found.d > 40) { tell(e, ''); return; }
       mark(plot, found.p);
       const label = found.curve.label;

@@ -278,6 +278,7 @@ namespace SlipStep
       Figure                   figure       = figures.figure("friction_start",
                                      "Friction at the start of the slide",
                                      380 + legend_place.more_height);
+      const ResultRows         rows = result_rows(runs, figures.reference);
       std::vector<std::string> peaks;
       for (const std::size_t i : from_top_to_bottom(runs))
         {
@@ -290,11 +291,14 @@ namespace SlipStep
           if (beyond != points.end())
             points.erase(beyond + 1, points.end());
           plot_run(figure, runs[i], i, {"displacement_mm", "friction"}, points);
-          const ResultRows rows = result_rows({runs[i]}, figures.reference);
-          if (rows.empty() || !rows[0].has_peak ||
-              rows[0].slide.peak_displacement > zoom)
+          const auto first =
+            std::find_if(rows.begin(), rows.end(), [i](const ResultRow &row) {
+              return row.run == i;
+            });
+          if (first == rows.end() || !first->has_peak ||
+              first->slide.peak_displacement > zoom)
             continue;
-          const SlideSummary &slide = rows[0].slide;
+          const SlideSummary &slide = first->slide;
           peaks.push_back(
             figure.add_data("peak of " + legend(runs[i]),
                             {"displacement_mm", "friction"},

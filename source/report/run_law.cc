@@ -64,9 +64,6 @@ namespace SlipStep
       return rows;
     }
 
-    // For the names beside the first one.
-    constexpr unsigned int law_panel_height = 206;
-
     Range range_of(const std::vector<Rows> &curves, const unsigned int column)
     {
       Range range;
@@ -79,6 +76,7 @@ namespace SlipStep
     std::string draw_panel(const RunFigures        &figures,
                            const LawPanel          &panel,
                            const std::vector<Rows> &curves,
+                           const LegendPlace       &legend_place,
                            const bool               is_last)
     {
       const auto &runs     = figures.runs;
@@ -87,8 +85,7 @@ namespace SlipStep
         figures.figure("law_" + panel.name,
                        panel.label + " over the path of the drive",
                        is_last ? 200 : 155);
-      const LegendPlace legend_place = place_legend(runs, {}, law_panel_height);
-      const bool        is_named = runs.size() > 1 && legend_place.is_beside;
+      const bool is_named = runs.size() > 1 && legend_place.is_beside;
       for (std::size_t i = 0; i < runs.size(); ++i)
         plot_run(figure,
                  runs[i],
@@ -181,8 +178,7 @@ namespace SlipStep
         if (!(range_of(of_runs, 0).width() > 0.))
           return "";
         const Range y = range_of(of_runs, 1);
-        if (panel.name == "friction" ||
-            y.width() > 1e-6 * std::max(std::abs(y.lower), std::abs(y.upper)))
+        if (panel.name == "friction" || !is_constant(y))
           {
             shown.push_back(panel);
             curves.push_back(of_runs);
@@ -191,14 +187,14 @@ namespace SlipStep
           constants += (constants.empty() ? "" : ", ") + panel.label + " = " +
                        short_text(y.upper, 5);
       }
-    std::string svg;
+    const Runs       &runs         = figures.runs;
+    const LegendPlace legend_place = place_legend(runs, {}, 206);
+    std::string       svg, names;
     for (std::size_t i = 0; i < shown.size(); ++i)
-      svg += draw_panel(figures, shown[i], curves[i], i + 1 == shown.size());
+      svg += draw_panel(
+        figures, shown[i], curves[i], legend_place, i + 1 == shown.size());
     if (svg.empty())
       return "";
-    const Runs       &runs         = figures.runs;
-    const LegendPlace legend_place = place_legend(runs, {}, law_panel_height);
-    std::string       names;
     for (const RunResults &run : runs)
       names += (names.empty() ? "" : "&#10;") + html_text(legend(run));
     return heading("The law at work") +

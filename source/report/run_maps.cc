@@ -109,7 +109,7 @@ namespace SlipStep
       Range range;
       range.add(cells, 2);
       // One colour and no number say nothing.
-      if (cells.empty() || without_round_off(range).width() > range.width())
+      if (cells.empty() || is_constant(range))
         return;
       Figure figure =
         figures.figure(name,

@@ -249,6 +249,12 @@ namespace SlipStep
              range.lower > 0. && range.upper > 15. * range.lower;
     }
 
+    std::string range_command(const char axis, const Range &range)
+    {
+      return std::string("set ") + axis + "range [" + exact_text(range.lower) +
+             ":" + exact_text(range.upper) + "]\n";
+    }
+
     /// What lies on a line would have no height.
     std::string
     flat_side(const char axis, const Range &range, const Range &other)
@@ -257,18 +263,15 @@ namespace SlipStep
       const double     half  = 0.5 * least * other.width();
       return range.width() > least * other.width() ?
                "" :
-               std::string("set ") + axis + "range [" +
-                 exact_text(range.middle() - half) + ":" +
-                 exact_text(range.middle() + half) + "]\n";
+               range_command(axis,
+                             {range.middle() - half, range.middle() + half});
     }
 
-    /// The same where nothing but round-off differs; "" if more does.
+    /// Where nothing differs; "" if something does.
     std::string constant_side(const char axis, const Range &range)
     {
-      const Range wide = without_round_off(range);
-      return wide.width() > range.width() ?
-               std::string("set ") + axis + "range [" + exact_text(wide.lower) +
-                 ":" + exact_text(wide.upper) + "]\n" :
+      return is_constant(range) ?
+               range_command(axis, without_round_off(range)) :
                "";
     }
 
@@ -294,9 +297,8 @@ namespace SlipStep
                            "\nset offsets graph 0.03, graph 0.03, graph 0.06, "
                            "graph 0.06\n";
       if (is_logarithmic(picture.x, x))
-        script += "set logscale x\nset format x '%g'\nset xrange [" +
-                  exact_text(x.lower / 2.) + ":" + exact_text(x.upper * 2.) +
-                  "]\n";
+        script += "set logscale x\nset format x '%g'\n" +
+                  range_command('x', {x.lower / 2., x.upper * 2.});
       if (is_logarithmic(picture.y, y))
         script += "set logscale y\nset format y '%g'\n";
       else if (y.lower >= 0. && y.lower < 0.5 * y.upper)

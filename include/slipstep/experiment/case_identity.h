@@ -21,6 +21,12 @@ namespace SlipStep
     "; run without --resume to start anew, or give another folder with "
     "--output";
 
+  /// Refuse a case that follows another test than before.
+  /// @param owner whose test it was, "the checkpoint in output/case"
+  /// @throws InputError
+  [[noreturn]] void reject_changed_test(const Parameters  &parameters,
+                                        const std::string &owner);
+
   /// What makes two cases the same as far as the histories of a command go: the
   /// programme with the tests that it follows, and the parameters that the
   /// command uses. What another command uses may change.

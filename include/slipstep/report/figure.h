@@ -123,6 +123,9 @@ namespace SlipStep
     return out << '[' << range.lower << ':' << range.upper << ']';
   }
 
+  /// Whether nothing but round-off differs.
+  bool is_constant(const Range &range);
+
   /// Wide enough that a change by no more than round-off is none.
   Range without_round_off(const Range &range);
 

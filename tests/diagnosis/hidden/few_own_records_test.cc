@@ -243,6 +243,19 @@ TEST_F(OwnRecordsOfFewTests, HealingByTheFormulaOfAgeingIsNoRival)
 
 
 
+// One in each replicate made 2.8 % of friction noise, of which 1.2 % is.
+TEST_F(OwnRecordsOfFewTests, SpikesAreNoNoiseOfReplicates)
+{
+  spike = 0.3;
+  for (unsigned int number = 0; number < 6; ++number)
+    write(number, {{0.2, 20.}}, slider([](double) { return 0.2; }));
+  read("", coulomb_contact + "set Friction/Tangential stiffness = 100\n");
+  const Noise &found = ingested.workspace->noise.noise;
+  EXPECT_LT(std::hypot(found.drift, found.gain), 0.02);
+}
+
+
+
 // A truth of nothing has no place in a range of positive values: it was not
 // found, and the gap had no name.
 TEST_F(OwnRecordsOfFewTests, AHeldNumberThatShouldBeNothingIsTold)
