@@ -504,6 +504,37 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // Of all numbers those along one axis of a test.
+    std::vector<double> along(const ComparedTest    &test,
+                              const std::size_t      axis,
+                              const Eigen::VectorXd &values)
+    {
+      const double *const first =
+        values.data() + test.begin + axis * test.n_bins();
+      return std::vector<double>(first, first + test.n_bins());
+    }
+  } // namespace
+
+
+
+  std::vector<Eigen::Index> Comparison::spikes_of_records() const
+  {
+    std::vector<Eigen::Index> result;
+    for (const ComparedTest &test : tests)
+      for (std::size_t s = 0; s < test.series.size(); ++s)
+        {
+          const std::vector<bool> is_spike = spikes(along(test, s, measured));
+          for (std::size_t bin = 0; bin < is_spike.size(); ++bin)
+            if (is_spike[bin])
+              result.push_back(test.begin + s * test.n_bins() + bin);
+        }
+    return result;
+  }
+
+
+
   std::vector<Contrast>
   Comparison::contrasts(const Eigen::VectorXd &difference) const
   {
@@ -512,17 +543,14 @@ namespace SlipStep
     for (const ComparedTest &test : tests)
       for (std::size_t s = 0; s < test.series.size(); ++s)
         {
-          const Eigen::Index begin = test.begin + s * test.n_bins();
-          const auto         part  = [&](const Eigen::VectorXd &values) {
-            const double *const first = values.data() + begin;
-            return std::vector<double>(first, first + test.n_bins());
-          };
-          const std::vector<bool> is_spike = spikes(part(measured));
+          const std::vector<bool> is_spike = spikes(along(test, s, measured));
           for (Eigen::VectorXd *const values : {&left_over, &recorded})
             {
-              std::vector<double> without = part(*values);
+              std::vector<double> without = along(test, s, *values);
               bridge(is_spike, without);
-              std::copy(without.begin(), without.end(), values->data() + begin);
+              std::copy(without.begin(),
+                        without.end(),
+                        values->data() + test.begin + s * test.n_bins());
             }
         }
     std::vector<Contrast> result;

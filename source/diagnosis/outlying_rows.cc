@@ -4,42 +4,95 @@
 #include <slipstep/utilities/text.h>
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
+#include <set>
 
 namespace SlipStep
 {
-  std::vector<Eigen::Index> outlying_rows(const Workspace &workspace,
-                                          const Model     &model)
+  namespace
   {
-    constexpr double chance = 0.01, largest_share = 0.02;
+    // What the largest residual of a row comes to in noise alone, but for a
+    // small chance.
+    double largest_by_chance(const Workspace &workspace)
+    {
+      constexpr double chance = 0.01;
 
-    std::vector<double> largest;
-    for (Eigen::Index draw = 0; draw < workspace.null_draws.cols(); ++draw)
-      largest.push_back(workspace.null_draws.col(draw).cwiseAbs().maxCoeff());
-    std::sort(largest.begin(), largest.end());
-    const double threshold =
-      largest[static_cast<std::size_t>((1. - chance) * (largest.size() - 1))];
-    const Eigen::Index        n = workspace.comparison.n_rows();
-    std::vector<Eigen::Index> result;
-    for (Eigen::Index row = 0; row < n; ++row)
-      if (std::abs(model.residual(row)) > threshold)
-        result.push_back(row);
-    return result.size() <= largest_share * n ? result :
-                                                std::vector<Eigen::Index>();
-  }
+      std::vector<double> largest;
+      for (Eigen::Index draw = 0; draw < workspace.null_draws.cols(); ++draw)
+        largest.push_back(workspace.null_draws.col(draw).cwiseAbs().maxCoeff());
+      std::sort(largest.begin(), largest.end());
+      return largest[static_cast<std::size_t>((1. - chance) *
+                                              (largest.size() - 1))];
+    }
 
 
 
-  void weaken_rows(Workspace                       &workspace,
-                   const Model                     &model,
-                   const std::vector<Eigen::Index> &rows)
+    // Of these rows the farthest of each test that is farther than that.
+    std::vector<Eigen::Index> farthest_rows(const Comparison &comparison,
+                                            const std::vector<Eigen::Index> &of,
+                                            const Eigen::VectorXd &distance,
+                                            const double           threshold)
+    {
+      std::vector<Eigen::Index> result;
+      for (const ComparedTest &test : comparison.tests)
+        {
+          std::optional<Eigen::Index> farthest;
+          for (const Eigen::Index row : of)
+            if (row >= test.begin && row < test.begin + test.size &&
+                distance(row) >
+                  (farthest.has_value() ? distance(*farthest) : threshold))
+              farthest = row;
+          if (farthest.has_value())
+            result.push_back(*farthest);
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  std::vector<Eigen::Index> weaken_outlying_rows(Workspace   &workspace,
+                                                 const Model &model)
   {
-    Comparison           &comparison = workspace.comparison;
-    const Eigen::VectorXd friction =
-      comparison.measured + comparison.difference(model);
-    for (const Eigen::Index row : rows)
-      comparison.weaken_row(row, std::abs(model.residual(row)));
-    comparison.set_noise(comparison.noise(), friction);
+    constexpr double largest_share = 0.02;
+
+    Comparison            comparison = workspace.comparison;
+    const double          most       = largest_share * comparison.n_rows();
+    const double          threshold  = largest_by_chance(workspace);
+    const Eigen::VectorXd difference = comparison.difference(model);
+    const auto            distances  = [&]() {
+      RowMatrix whitened = difference;
+      comparison.whiten(whitened);
+      return Eigen::VectorXd(whitened.cwiseAbs());
+    };
+    Eigen::VectorXd        distance = distances();
+    std::set<Eigen::Index> result;
+    const auto             weaken = [&](const std::vector<Eigen::Index> &rows) {
+      for (const Eigen::Index row : rows)
+        comparison.weaken_row(row, distance(row));
+      comparison.set_noise(comparison.noise(),
+                           comparison.measured + difference);
+      distance = distances();
+      result.insert(rows.begin(), rows.end());
+    };
+
+    // The farthest spikes first: whitening takes the rows after one for as far
+    // off as it is, and without it they are no farther than others.
+    const std::vector<Eigen::Index> spikes = comparison.spikes_of_records();
+    for (std::vector<Eigen::Index> rows;
+         !(rows = farthest_rows(comparison, spikes, distance, threshold))
+            .empty();)
+      weaken(rows);
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index row = 0; row < distance.size(); ++row)
+      if (distance(row) > threshold)
+        others.push_back(row);
+    if (result.size() + others.size() <= most)
+      weaken(others);
+    if (result.empty() || result.size() > most)
+      return {};
+
+    workspace.comparison = comparison;
     workspace.null_draws = draw_null(comparison,
                                      workspace.noise,
                                      workspace.null_draws.cols(),
@@ -47,6 +100,7 @@ namespace SlipStep
     prepare_gap_test(workspace);
     workspace.last_scored.reset();
     workspace.left_out.clear();
+    return {result.begin(), result.end()};
   }
 
 

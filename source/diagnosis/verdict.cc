@@ -327,16 +327,15 @@ namespace SlipStep
     // counting for less. If that cannot be fitted, they count as before.
     void judge_without_outliers(Workspace &workspace, Judgement &judgement)
     {
-      const std::vector<Eigen::Index> rows =
-        outlying_rows(workspace, judgement.found.model);
-      if (rows.empty() || workspace.is_late())
+      if (workspace.is_late())
         return;
       Workspace weakened = workspace;
-      weaken_rows(weakened, judgement.found.model, rows);
       Judgement again;
-      again.base     = judgement.base.copy();
-      again.outlying = rows;
-      Model first    = judgement.found.model.copy();
+      again.outlying = weaken_outlying_rows(weakened, judgement.found.model);
+      if (again.outlying.empty())
+        return;
+      again.base  = judgement.base.copy();
+      Model first = judgement.found.model.copy();
       if (!weakened.comparison.fit(again.base, 0.01) ||
           !weakened.comparison.fit(first, 0.01))
         return;
@@ -402,6 +401,12 @@ namespace SlipStep
     const auto finish = [&]() {
       judge_without_outliers(workspace, result);
       settle_names(workspace, result);
+      // A name that was withdrawn may have followed spikes.
+      if (!result.withdrawn.empty() && result.outlying.empty())
+        {
+          judge_without_outliers(workspace, result);
+          settle_names(workspace, result);
+        }
     };
     try
       {

@@ -161,6 +161,9 @@ namespace SlipStep
     /// of measured friction where a model that is far off makes them larger.
     std::vector<Contrast> contrasts(const Eigen::VectorXd &difference) const;
 
+    /// Numbers compared that are spikes(), as measured.
+    std::vector<Eigen::Index> spikes_of_records() const;
+
     Eigen::Index n_rows() const
     {
       return measured.size();

@@ -9,17 +9,14 @@
 
 namespace SlipStep
 {
-  /// Single numbers that a model leaves farther from zero than chance would
-  /// leave any of the campaign; none if they are more than a few in a hundred,
-  /// which are no outliers.
-  std::vector<Eigen::Index> outlying_rows(const Workspace &workspace,
-                                          const Model     &model);
-
-  /// Let these rows count as if their noise were as large as what the model
-  /// leaves of them, from now on.
-  void weaken_rows(Workspace                       &workspace,
-                   const Model                     &model,
-                   const std::vector<Eigen::Index> &rows);
+  /// Let single numbers that a model leaves farther from zero than chance would
+  /// leave any of the campaign count as if their noise were as large as what it
+  /// leaves of them, from now on. If they are more than a few in a hundred they
+  /// are no outliers: none does then, but for spikes of the records, if those
+  /// are few.
+  /// @return these numbers
+  std::vector<Eigen::Index> weaken_outlying_rows(Workspace   &workspace,
+                                                 const Model &model);
 
   /// The same in words, test by test.
   std::vector<Outlier>
