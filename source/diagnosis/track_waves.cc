@@ -157,23 +157,27 @@ namespace SlipStep
     const int    n     = static_cast<int>(std::min(steps, 200.));
     // No chances are asked for.
     const RowMatrix no_draws = RowMatrix::Zero(comparison.n_rows(), 2);
-    double          best = wavelength, largest = 0.;
+    const auto      tried    = [&](const double i) {
+      return wavelength * waves / (waves + reach * i / n);
+    };
+    std::vector<double> gains;
     for (int i = -n; i <= n; ++i)
-      {
-        const double tried = wavelength * waves / (waves + reach * i / n);
-        const double gain =
-          ScoreTest(comparison,
-                    model,
-                    no_draws,
-                    track_waves(comparison, covariates, {tried}))
-            .together()
-            .gain;
-        if (gain > largest)
-          {
-            largest = gain;
-            best    = tried;
-          }
-      }
-    return best;
+      gains.push_back(ScoreTest(comparison,
+                                model,
+                                no_draws,
+                                track_waves(comparison, covariates, {tried(i)}))
+                        .together()
+                        .gain);
+    const auto largest = std::max_element(gains.begin(), gains.end());
+    if (!(*largest > 0.))
+      return wavelength;
+    const double best = static_cast<double>(largest - gains.begin()) - n;
+    if (std::abs(best) == n)
+      return tried(best);
+    // The top of the parabola through the largest and those beside it.
+    const double below = largest[-1] - *largest, above = largest[1] - *largest;
+    return tried(below + above < 0. ?
+                   best + (below - above) / (2. * (below + above)) :
+                   best);
   }
 } // namespace SlipStep
