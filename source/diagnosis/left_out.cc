@@ -133,11 +133,9 @@ namespace SlipStep
                                           const Model     &less,
                                           const Model     &more)
   {
-    const LeftOut     a = left_out(workspace, less);
-    const LeftOut     b = left_out(workspace, more);
-    std::vector<bool> result(a.squares.size(), true);
+    std::vector<bool> result(workspace.comparison.conditions.size(), true);
     for (const std::size_t c : conditions_that_tell(workspace, less, more))
-      result[c] = a.squares[c] >= b.squares[c];
+      result[c] = false;
     return result;
   }
 

@@ -19,7 +19,8 @@ namespace SlipStep
                                                 const Model     &more);
 
   /// Those without which the others tell of what a model has more. Where one
-  /// alone tells of an effect, that has any size when it is left out.
+  /// alone tells of an effect, that has any size when it is left out, the size
+  /// that this condition asks for among them.
   std::vector<bool> conditions_that_judge(const Workspace &workspace,
                                           const Model     &less,
                                           const Model     &more);

@@ -121,6 +121,33 @@ TEST_F(OwnRecordsOfFewTests, ConditionsThatChangeTogetherAreTold)
 
 
 
+// The only test at low pressure is the fastest: left out, it told its own size
+// of an effect of pressure, which was proof of that, and against a second
+// effect.
+TEST_F(OwnRecordsOfFewTests, OneConditionDoesNotPredictItself)
+{
+  random.seed(2);
+  const Judgement judgement =
+    judged_two_effects({{0.1, 8.}, {0.3, 8.}, {1., 8.}, {3., 8.}, {10., 2.}},
+                       -0.2);
+  const SearchResult            &found = judgement.found;
+  const std::vector<std::string> names = effect_names(found.model.parts);
+  ASSERT_EQ(names.size(), 2u);
+  EXPECT_TRUE(holds(names, "overstress"));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    {
+      EXPECT_EQ(found.told_by[i].size(), names[i] == "overstress" ? 0u : 1u);
+      EXPECT_EQ(std::isnan(found.left_out_gains[i]), names[i] != "overstress");
+    }
+  Diagnosis told;
+  describe_tests(ingested, found.model, found.told_by, told);
+  for (const DiagnosedTest &test : told.tests)
+    EXPECT_EQ(std::isnan(test.left_out_after), test.condition == "4");
+  EXPECT_TRUE(std::isfinite(told.shrink.left_out_after));
+}
+
+
+
 // Of three speeds overstress and resonance fit anything: both were named beside
 // adhesion for friction of speed and pressure.
 TEST_F(OwnRecordsOfFewTests, NoMoreNumbersThanLevelsAreAdded)
@@ -248,7 +275,7 @@ TEST_F(OwnRecordsOfFewTests, HealingByTheFormulaOfAgeingIsNoRival)
 // in each replicate made 2.8 % of friction noise, of which 1.2 % is.
 TEST_F(OwnRecordsOfFewTests, SpikesOfAnySizeAreNoGap)
 {
-  for (const double size : {0.05, 0.1, 0.2, -0.3, 0.5})
+  for (const double size : {0.1, -0.3, 0.5})
     {
       spike = size;
       for (unsigned int number = 0; number < 6; ++number)
