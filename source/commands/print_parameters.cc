@@ -5,6 +5,8 @@
 #include <slipstep/report/page.h>
 #include <slipstep/utilities/pattern_words.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <iostream>
 
 namespace SlipStep
@@ -97,6 +99,21 @@ show();
 
 
 
+    // Sections that hold no parameters, but change those of others.
+    void reject_sections_of_many_runs(const std::string &name)
+    {
+      const std::string section = name.substr(0, name.find('/'));
+      for (const char *known : {"Sweep", "Variants"})
+        if (boost::iequals(section, known))
+          throw InputError("slipstep parameters: section " +
+                           std::string(known) +
+                           " has no parameters of its own, it makes many runs "
+                           "of a case by changing other keys; see "
+                           "doc/guide/running_a_case.md");
+    }
+
+
+
     // That a key is one of maps, or of cases.
     std::string where_else(const std::string &name, const bool of_a_map)
     {
@@ -125,6 +142,7 @@ show();
     for (std::size_t i = of_a_map ? 1 : 0; i < line.files.size(); ++i)
       try
         {
+          reject_sections_of_many_runs(line.files[i].string());
           for (const std::string &path :
                parameters.find(line.files[i].string(), "slipstep parameters"))
             only.push_back(path);

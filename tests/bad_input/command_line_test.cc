@@ -22,6 +22,8 @@ TEST(CommandLine, UnknownWordsComeWithTheNearest)
   expect_refusal(process.run({"parameters", "--format", "xml"}),
                  {"xml", "prm, html, md, keys, json, schema"});
   expect_refusal(process.run({"parameters", "--format="}), {"--format"});
+  expect_refusal(process.run({"parameters", "sweep"}),
+                 {"section Sweep", "makes many runs", "running_a_case.md"});
   expect_refusal(process.run({"a.prm"}), {"mean slipstep run a.prm?"});
   expect_refusal(process.run({"effects", "--set", "Block/Degree=2"}),
                  {"effects has no option --set"});
