@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/diagnosis.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace SlipStep
 {
   std::string name_of(const Verdict verdict)
@@ -28,6 +31,18 @@ namespace SlipStep
     static_assert(sizeof(names) / sizeof(*names) ==
                   static_cast<unsigned int>(Standing::in_the_model) + 1);
     return names[static_cast<unsigned int>(standing)];
+  }
+
+
+
+  bool Shrink::hardly_predicts() const
+  {
+    const auto beyond_noise = [this](const double gap) {
+      return std::sqrt(std::max(0., gap * gap - noise_floor * noise_floor));
+    };
+    return systematic_after <= hardly_less * systematic_before &&
+           beyond_noise(left_out_after) >
+             hardly_less * beyond_noise(left_out_before);
   }
 
 

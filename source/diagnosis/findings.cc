@@ -538,6 +538,12 @@ namespace SlipStep
               diagnosis.effects.front() +
               " is not quite right, or something weaker is "
               "missing beside it.");
+          if (diagnosis.shrink.hardly_predicts())
+            doubts.push_back(
+              "Conditions left out of the fit are predicted hardly better with " +
+              list_text(diagnosis.effects) +
+              ": between and beyond the conditions tested the formula may not "
+              "hold, and another effect may be what is missing.");
           doubts.push_back(
             "An effect that is not in the catalogue but changes friction in "
             "the same way under the conditions tested would be taken for " +

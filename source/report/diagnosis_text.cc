@@ -84,6 +84,9 @@ namespace SlipStep
                                 shrink.left_out_after > shrink.left_out_before ?
                               ", but rises under conditions left out of the "
                               "fit from " :
+                            shrink.hardly_predicts() ?
+                              ", but hardly under conditions left out of the "
+                              "fit, from " :
                               ", under conditions left out of the fit from ") +
                 percent_text(shrink.left_out_before) + " to " +
                 percent_text(shrink.left_out_after);
@@ -647,10 +650,8 @@ namespace SlipStep
 
   bool is_worth_little(const Diagnosis &diagnosis)
   {
-    constexpr double hardly_less = 0.8;
-
     return !diagnosis.effects.empty() &&
            diagnosis.shrink.systematic_after >
-             hardly_less * diagnosis.shrink.systematic_before;
+             Shrink::hardly_less * diagnosis.shrink.systematic_before;
   }
 } // namespace SlipStep

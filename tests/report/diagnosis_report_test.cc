@@ -254,6 +254,10 @@ TEST(DiagnosisHeadline, WhatRisesOrStaysIsNotSaidToFall)
   EXPECT_TRUE(contains(headline(diagnosis),
                        ", but rises under conditions left out of the fit from "
                        "5.13 % to 9.22 %."));
+  diagnosis.shrink.left_out_after = 0.0445;
+  EXPECT_TRUE(contains(headline(diagnosis),
+                       ", but hardly under conditions left out of the fit, "
+                       "from 5.13 % to 4.45 %."));
   diagnosis.shrink.fitted_after = diagnosis.shrink.fitted_before;
   EXPECT_TRUE(contains(headline(diagnosis),
                        "the gap to the measurements stays 4.91 % of friction"));

@@ -177,6 +177,12 @@ namespace SlipStep
       return fitted_after > 1.005 * fitted_before;
     }
 
+    /// Whether conditions left out of the fit keep most of what noise does not
+    /// explain, while those that are fitted do not. Share of it above which it
+    /// is hardly less.
+    static constexpr double hardly_less = 0.8;
+    bool                    hardly_predicts() const;
+
     /// Whether less is left than what was taken for noise: waves that rows
     /// share look like that until they have a name.
     bool is_noise_overrated() const
