@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/diagnosis/confounding.h>
 #include <slipstep/diagnosis/covariate.h>
-#include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
@@ -78,8 +77,7 @@ namespace SlipStep
           fitted_model(workspace, first.parts, first.values(), base, 0.01);
         if (alone.has_value() && !is_at_bound(*alone) &&
             base.objective - alone->objective > nearly * gain &&
-            is_needed(base.objective - alone->objective,
-                      left_out_gain(workspace, base, *alone)))
+            is_needed(workspace, base, *alone))
           result.push_back({other.name,
                             named.name,
                             penalised(*alone) - penalised(found.model),

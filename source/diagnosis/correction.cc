@@ -39,8 +39,7 @@ namespace SlipStep
                            const Model     &base,
                            const Model     &corrected)
     {
-      if (!is_needed(base.objective - corrected.objective,
-                     left_out_gain(workspace, base, corrected)))
+      if (!is_needed(workspace, base, corrected))
         return false;
       const Comparison &comparison   = workspace.comparison;
       const auto        left_out_rms = [&](const Model &model) {

@@ -346,7 +346,7 @@ namespace SlipStep
       ingested.workspace->comparison.deadline =
         std::chrono::steady_clock::time_point::max();
       show_formulas();
-      describe_tests(ingested, final_model, judgement.found.told_by, result);
+      describe_tests(ingested, final_model, result);
       describe_shrink(ingested, final_model, result);
       describe_doubts(workspace, result);
       describe_few_levels(workspace, final_model, result);

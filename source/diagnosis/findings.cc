@@ -75,14 +75,14 @@ namespace SlipStep
 
 
 
-    // NaN of a test of which no row counts.
     double root_mean_square(const Comparison      &comparison,
                             const Eigen::VectorXd &values,
                             const ComparedTest    &test)
     {
-      const auto counts = comparison.counts.segment(test.begin, test.size);
-      return values.segment(test.begin, test.size).cwiseProduct(counts).norm() /
-             std::sqrt(counts.sum() / test.series.size()) / test.level;
+      return values.segment(test.begin, test.size)
+               .cwiseProduct(comparison.counts.segment(test.begin, test.size))
+               .norm() /
+             std::sqrt(n_counted(comparison, test)) / test.level;
     }
 
 
@@ -198,8 +198,6 @@ namespace SlipStep
     struct Differences
     {
       Eigen::VectorXd before, after, left_out_before, left_out_after;
-      /// Counts the conditions that others predict.
-      Comparison predicted;
     };
 
 
@@ -241,15 +239,13 @@ namespace SlipStep
       const auto variances = noise_variances(comparison, compared);
       test.noise =
         compared.level * std::sqrt(variances.first + variances.second);
-      const auto rms = [&](const Comparison      &among,
-                           const Eigen::VectorXd &values) {
-        return root_mean_square(among, values, compared);
+      const auto rms = [&](const Eigen::VectorXd &values) {
+        return root_mean_square(comparison, values, compared);
       };
-      const Comparison &predicted = differences.predicted;
-      test.rms_before             = rms(comparison, differences.before);
-      test.rms_after              = rms(comparison, differences.after);
-      test.left_out_before        = rms(predicted, differences.left_out_before);
-      test.left_out_after         = rms(predicted, differences.left_out_after);
+      test.rms_before      = rms(differences.before);
+      test.rms_after       = rms(differences.after);
+      test.left_out_before = rms(differences.left_out_before);
+      test.left_out_after  = rms(differences.left_out_after);
       return test;
     }
 
@@ -302,19 +298,13 @@ namespace SlipStep
 
 
 
-  void describe_tests(const Ingested                              &ingested,
-                      const Model                                 &after,
-                      const std::vector<std::vector<std::size_t>> &told_by,
-                      Diagnosis                                   &diagnosis)
+  void describe_tests(const Ingested &ingested,
+                      const Model    &after,
+                      Diagnosis      &diagnosis)
   {
     const Workspace  &workspace  = *ingested.workspace;
     const Comparison &comparison = workspace.comparison;
-    Differences       differences{{}, {}, {}, {}, comparison};
-    // Of what one alone tells it predicts itself.
-    for (const std::vector<std::size_t> &conditions : told_by)
-      for (const ComparedTest &test : comparison.tests)
-        if (holds(conditions, test.condition))
-          differences.predicted.counts.segment(test.begin, test.size).setZero();
+    Differences       differences;
     differences.before = comparison.difference(ingested.base);
     differences.after  = comparison.difference(after);
     left_out(workspace, ingested.base, &differences.left_out_before);
@@ -328,9 +318,9 @@ namespace SlipStep
                   return a.name < b.name;
                 });
     diagnosis.shrink.left_out_before =
-      relative_rms(differences.predicted, differences.left_out_before);
+      relative_rms(comparison, differences.left_out_before);
     diagnosis.shrink.left_out_after =
-      relative_rms(differences.predicted, differences.left_out_after);
+      relative_rms(comparison, differences.left_out_after);
   }
 
 

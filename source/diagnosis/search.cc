@@ -16,12 +16,28 @@
 
 namespace SlipStep
 {
-  bool
-  is_needed(const double cost, const double left_out_gain, const std::size_t n)
+  bool is_needed(const double      cost,
+                 const double      left_out_gain,
+                 const std::size_t n_conditions,
+                 const std::size_t n)
   {
-    return std::isnan(left_out_gain) ?
-             cost >= n * sure_cost :
-             cost >= n * least_cost && left_out_gain > 0.;
+    const bool is_known = !std::isnan(left_out_gain);
+    return cost >=
+             n * (is_known || n_conditions > 1 ? least_cost : sure_cost) &&
+           !(is_known && left_out_gain <= 0.);
+  }
+
+
+
+  bool is_needed(const Workspace  &workspace,
+                 const Model      &less,
+                 const Model      &more,
+                 const std::size_t n)
+  {
+    return is_needed(less.objective - more.objective,
+                     left_out_gain(workspace, less, more),
+                     workspace.comparison.conditions.size(),
+                     n);
   }
 
 
@@ -184,8 +200,9 @@ namespace SlipStep
       const std::optional<FreeFactor> completed =
         complete_formula(workspace, result.model);
       const auto is_good = [&](const Model &more) {
-        return is_needed(result.model.objective - more.objective,
-                         left_out_gain(workspace, result.model, more),
+        return is_needed(workspace,
+                         result.model,
+                         more,
                          more.parts.size() - result.model.parts.size());
       };
       for (auto best = found.begin(); best != found.end(); ++best)
@@ -234,14 +251,14 @@ namespace SlipStep
           return false;
         }
       const double cost = less->objective - result.model.objective;
-      const double gain = left_out_gain(workspace, *less, result.model);
-      if (!is_needed(cost, gain))
+      if (!is_needed(workspace, *less, result.model))
         {
           result.model = *less;
           return true;
         }
       result.costs.push_back(cost);
-      result.left_out_gains.push_back(gain);
+      result.left_out_gains.push_back(
+        left_out_gain(workspace, *less, result.model));
       result.told_by.push_back(
         conditions_that_tell(workspace, *less, result.model));
       return result.model.parts[part].corrects.empty() &&
@@ -309,9 +326,7 @@ namespace SlipStep
           if (penalised(*tried) < penalised(result.model) - sure_gain)
             settle(workspace, *tried);
           const double distance = penalised(*tried) - penalised(result.model);
-          if (distance >= rival_distance ||
-              !is_needed(less.objective - tried->objective,
-                         left_out_gain(workspace, less, *tried)))
+          if (distance >= rival_distance || !is_needed(workspace, less, *tried))
             continue;
           if (distance < -sure_gain)
             {

@@ -230,7 +230,7 @@ namespace SlipStep
         table.lines,
         "Root mean square of measured minus simulated, in % of the friction of "
         "the test; left out: as predicted from the tests under all other "
-        "conditions, where these tell of every effect named.",
+        "conditions.",
         "numbers tests");
     }
 

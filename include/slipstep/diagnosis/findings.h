@@ -23,12 +23,9 @@ namespace SlipStep
   void describe_noise(const Workspace &workspace, Diagnosis &diagnosis);
 
   /// @param after the model that the diagnosis came to
-  /// @param told_by for each of its parts the conditions without which others
-  ///   do not ask for it: they are not among those that others predict
-  void describe_tests(const Ingested                              &ingested,
-                      const Model                                 &after,
-                      const std::vector<std::vector<std::size_t>> &told_by,
-                      Diagnosis                                   &diagnosis);
+  void describe_tests(const Ingested &ingested,
+                      const Model    &after,
+                      Diagnosis      &diagnosis);
 
   void describe_shrink(const Ingested &ingested,
                        const Model    &after,

@@ -19,8 +19,7 @@ namespace SlipStep
                                                 const Model     &more);
 
   /// Those without which the others tell of what a model has more. Where one
-  /// alone tells of an effect, that has any size when it is left out, the size
-  /// that this condition asks for among them.
+  /// alone tells of an effect, that has any size when it is left out.
   std::vector<bool> conditions_that_judge(const Workspace &workspace,
                                           const Model     &less,
                                           const Model     &more);
@@ -34,8 +33,9 @@ namespace SlipStep
                        const Model     &more);
 
   /// By how much those squares are less with one model than with another, on
-  /// conditions that judge what both have more than a base; NaN for tests of a
-  /// single condition.
+  /// conditions that judge what both have more than a base, and without which
+  /// the others tell of every part of both; NaN for tests of a single
+  /// condition.
   double left_out_lead(const Workspace &workspace,
                        const Model     &base,
                        const Model     &model,

@@ -10,9 +10,17 @@
 namespace SlipStep
 {
   /// Whether an addition lowers the fitted and the left-out differences enough.
+  /// @param left_out_gain NaN if it does not tell
   /// @param n effects that are added
   bool is_needed(const double      cost,
                  const double      left_out_gain,
+                 const std::size_t n_conditions,
+                 const std::size_t n = 1);
+
+  /// The same of two models.
+  bool is_needed(const Workspace  &workspace,
+                 const Model      &less,
+                 const Model      &more,
                  const std::size_t n = 1);
 
   /// A rival of a named effect: with it in the place of the name the tests are

@@ -25,6 +25,8 @@ namespace SlipStep
   {
     std::vector<double> squares;   ///< whitened, of the one left out
     std::vector<double> of_others; ///< the objective of those fitted
+    /// Whether those tell of all that was added.
+    std::vector<char> others_tell;
   };
 
   /// What a search looks at: the tests, their noise, and the rules.

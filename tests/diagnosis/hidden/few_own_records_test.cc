@@ -121,29 +121,49 @@ TEST_F(OwnRecordsOfFewTests, ConditionsThatChangeTogetherAreTold)
 
 
 
-// The only test at low pressure is the fastest: left out, it told its own size
-// of an effect of pressure, which was proof of that, and against a second
-// effect.
+// The only test at low pressure, left out, told its own size of an effect of
+// pressure, which was proof of that, and against a second effect.
 TEST_F(OwnRecordsOfFewTests, OneConditionDoesNotPredictItself)
 {
   random.seed(2);
   const Judgement judgement =
     judged_two_effects({{0.1, 8.}, {0.3, 8.}, {1., 8.}, {3., 8.}, {10., 2.}},
                        -0.2);
-  const SearchResult            &found = judgement.found;
-  const std::vector<std::string> names = effect_names(found.model.parts);
-  ASSERT_EQ(names.size(), 2u);
-  EXPECT_TRUE(holds(names, "overstress"));
-  for (std::size_t i = 0; i < names.size(); ++i)
+  unsigned int n_found = 0;
+  for (const Model &first : judgement.found.first_fits.models)
+    if (first.has("pressure") || first.has("largest_pressure"))
+      {
+        ++n_found;
+        Diagnosis told;
+        describe_tests(ingested, first, told);
+        for (const DiagnosedTest &test : told.tests)
+          {
+            EXPECT_LT(test.rms_after, 0.05);
+            EXPECT_EQ(test.left_out_after > 0.15, test.condition == "4")
+              << test.left_out_after;
+          }
+      }
+  EXPECT_GT(n_found, 0u);
+}
+
+
+
+// Friction of speed and pressure by the formula of speed alone that fits best.
+TEST_F(OwnRecordsOfFewTests, ANameThatHardlyPredictsIsDoubted)
+{
+  for (const double exponent : {-0.1, 0.})
     {
-      EXPECT_EQ(found.told_by[i].size(), names[i] == "overstress" ? 0u : 1u);
-      EXPECT_EQ(std::isnan(found.left_out_gains[i]), names[i] != "overstress");
+      random.seed(1);
+      const Judgement judgement = judged_two_effects(
+        {{0.1, 8.}, {0.3, 8.}, {1., 8.}, {3., 8.}, {10., 2.}}, exponent);
+      ASSERT_EQ(judgement.verdict, Verdict::named);
+      const SearchResult &found = judgement.found;
+      Diagnosis           told;
+      told.effects = effect_names(found.model.parts);
+      describe_tests(ingested, found.model, told);
+      describe_shrink(ingested, found.model, told);
+      EXPECT_EQ(told.shrink.hardly_predicts(), exponent < 0.);
     }
-  Diagnosis told;
-  describe_tests(ingested, found.model, found.told_by, told);
-  for (const DiagnosedTest &test : told.tests)
-    EXPECT_EQ(std::isnan(test.left_out_after), test.condition == "4");
-  EXPECT_TRUE(std::isfinite(told.shrink.left_out_after));
 }
 
 

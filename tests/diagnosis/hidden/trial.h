@@ -376,7 +376,7 @@ namespace SlipStep
           if (options.campaign_class != Planting::CampaignClass::other_formula)
             count_intervals(campaign, workspace, model, trial);
           Diagnosis diagnosis;
-          describe_tests(ingested, model, judgement.found.told_by, diagnosis);
+          describe_tests(ingested, model, diagnosis);
           describe_shrink(ingested, model, diagnosis);
           trial.left_out_ratio =
             diagnosis.shrink.left_out_after / diagnosis.shrink.noise_floor;
