@@ -6,6 +6,7 @@
 #include <slipstep/measured_data/measured_test.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/measured_data/tidy_rows.h>
+#include <slipstep/utilities/encoding.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
@@ -229,7 +230,7 @@ namespace SlipStep
                                        "column " + std::to_string(column + 1);
       }
 
-      // What a number stands for, without letters of another encoding.
+      // What a number stands for.
       std::string heading_behind(const std::string &reference,
                                  const std::size_t  column) const
       {
@@ -238,13 +239,7 @@ namespace SlipStep
                                     proposal.layout.names[column];
         if (reference == name || proposal.columns[column].name.empty())
           return "";
-        std::string heading;
-        for (const char c : name)
-          if (c >= 0x20 && c < 0x7f)
-            heading += c;
-          else if (heading.empty() || heading.back() != '?')
-            heading += '?';
-        return "'" + heading + "' ";
+        return "'" + readable_text(name) + "' ";
       }
 
       void choose_columns()

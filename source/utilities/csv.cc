@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/utilities/csv.h>
+#include <slipstep/utilities/encoding.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
 #include <slipstep/utilities/text.h>
@@ -45,7 +46,7 @@ namespace SlipStep
     // Old Macintoshes end lines with CR alone.
     if (text.find('\n') == std::string::npos)
       std::replace(text.begin(), text.end(), '\r', '\n');
-    return text;
+    return to_utf8(text);
   }
 
 
@@ -578,13 +579,9 @@ namespace SlipStep
   {
     constexpr std::size_t longest = 200;
 
-    std::string words = boost::algorithm::join(names, ", ");
-    // A binary file has anything.
-    for (char &letter : words)
-      if (std::iscntrl(static_cast<unsigned char>(letter)) != 0 ||
-          static_cast<unsigned char>(letter) > 0x7e)
-        letter = '?';
-    return words.size() > longest ? words.substr(0, longest) + " ..." : words;
+    const std::string words = boost::algorithm::join(names, ", ");
+    return readable_text(words.substr(0, longest)) +
+           (words.size() > longest ? " ..." : "");
   }
 
 

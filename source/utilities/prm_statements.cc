@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/utilities.h>
 
+#include <slipstep/utilities/encoding.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
@@ -23,26 +24,6 @@ namespace SlipStep
   namespace
   {
     using dealii::Utilities::trim;
-
-    // Names of the file appear in JSON, HTML and pictures.
-    bool is_utf8(const std::string &text)
-    {
-      unsigned int n_following = 0;
-      for (const unsigned char c : text)
-        if (n_following > 0)
-          {
-            if ((c & 0xC0) != 0x80)
-              return false;
-            --n_following;
-          }
-        else if (c >= 0xF8 || (c & 0xC0) == 0x80)
-          return false;
-        else
-          n_following = c >= 0xF0 ? 3 : c >= 0xE0 ? 2 : c >= 0xC0 ? 1 : 0;
-      return n_following == 0;
-    }
-
-
 
     // Split off the first word; the rest is trimmed.
     std::string first_word(std::string &text)
@@ -152,6 +133,7 @@ namespace SlipStep
         const std::size_t comment = line.find('#');
         const bool        is_only_comment =
           comment != std::string::npos && trim(line.substr(0, comment)).empty();
+        // Names of the file appear in JSON, HTML and pictures.
         if (!is_utf8(line))
           throw InputError(place(file, n_lines) +
                            ": this line is not UTF-8 text; save the file in "
