@@ -192,6 +192,42 @@ namespace SlipStep
       result.converged = summary.termination_type == ceres::CONVERGENCE;
       result.message   = reason(summary);
     }
+
+
+
+    // At a bound Ceres cuts a step, and so holds up what the others would do:
+    // they are fitted by themselves, and then all once more, since a bound may
+    // be left again.
+    void solve_at_bounds(Simulator                                  &simulator,
+                         const std::vector<unsigned int>            &free,
+                         const double                                precision,
+                         const std::chrono::steady_clock::time_point deadline,
+                         FitResult                                  &result)
+    {
+      constexpr unsigned int most = 5;
+
+      solve(simulator, free, precision, deadline, result);
+      const auto improve = [&](const std::vector<unsigned int> &some) {
+        FitResult better = result;
+        solve(simulator, some, precision, deadline, better);
+        result.iterations = better.iterations;
+        if (!(better.misfit < result.misfit))
+          return false;
+        const double gain = result.misfit - better.misfit;
+        result            = better;
+        return gain > precision * result.misfit;
+      };
+      for (unsigned int n = 0; n < most; ++n)
+        {
+          std::vector<unsigned int> inside;
+          for (const unsigned int i : free)
+            if (result.scaled[i] > 0. && result.scaled[i] < 1.)
+              inside.push_back(i);
+          if (inside.empty() || inside.size() == free.size() ||
+              !improve(inside) || !improve(free))
+            return;
+        }
+    }
   } // namespace
 
 
@@ -219,12 +255,13 @@ namespace SlipStep
       }
     if (replans > 0)
       simulator.plan(result.scaled);
-    solve(simulator, free, replans > 0 ? 1e-5 : 1e-9, deadline, result);
+    solve_at_bounds(
+      simulator, free, replans > 0 ? 1e-5 : 1e-9, deadline, result);
     for (unsigned int n = 0; n < replans; ++n)
       {
         const std::vector<double> before = result.scaled;
         simulator.plan(result.scaled);
-        solve(simulator, free, 1e-7, deadline, result);
+        solve_at_bounds(simulator, free, 1e-7, deadline, result);
         double moved = 0.;
         for (const unsigned int i : free)
           moved = std::max(moved, std::abs(result.scaled[i] - before[i]));

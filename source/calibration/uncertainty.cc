@@ -347,14 +347,21 @@ namespace SlipStep
 
       const Eigen::Index        p = known.indices.size();
       std::vector<LeftOutTests> result(p);
-      Eigen::Index              begin = 0;
+      // Not zero where a parameter is at its bound: what all tests ask for
+      // alike, each by its share of the information, is no difference.
+      const Eigen::VectorXd common =
+        known.rows.transpose() *
+        Eigen::Map<const Eigen::VectorXd>(residuals.data(), residuals.size());
+      Eigen::Index begin = 0;
       for (const CampaignTest &test : campaign.tests)
         {
           const Eigen::Index    n_rows = test.n_residuals();
           const Eigen::MatrixXd J      = known.rows.middleRows(begin, n_rows);
           const Eigen::VectorXd s =
             J.transpose() *
-            Eigen::Map<const Eigen::VectorXd>(residuals.data() + begin, n_rows);
+            (Eigen::Map<const Eigen::VectorXd>(residuals.data() + begin,
+                                               n_rows) -
+             J * common);
           begin += n_rows;
           const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> left(
             Eigen::MatrixXd::Identity(p, p) - J.transpose() * J);

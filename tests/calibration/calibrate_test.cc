@@ -62,6 +62,51 @@ TEST_F(Planted, ParametersAreFoundToTheNoise)
 
 
 
+// A search whose steps are cut at the bound left the others where they were,
+// and tests of one law differed from one another.
+TEST_F(Planted, AtABoundTheOthersAreAtTheirOptimum)
+{
+  const Settings truth = {{"Friction/Effects", "subloading, softening"},
+                          {"Friction/Static coefficient", "0.12"},
+                          {"Friction/softening/Kinetic coefficient", "0.1"},
+                          {"Friction/softening/Rate", "0.02"},
+                          {"Friction/softening/Steepness", "30"}};
+  plant(
+    folder.path(), calibration_case(truth), {1., 20., 200.}, 150, 5e-4, 1, 10.);
+  const auto fitted_with = [&](const std::string &bound,
+                               const std::string &parameters) {
+    Settings settings  = truth;
+    settings[1].second = bound;
+    settings.emplace_back("Calibration/Tests", folder.path().string());
+    settings.emplace_back("Calibration/Parameters",
+                          parameters +
+                            "Friction/softening/Kinetic coefficient from 0.02 "
+                            "to 0.2 start 0.09; Friction/softening/Rate from "
+                            "0.001 to 10 log start 0.1");
+    return calibrate(calibration_case(settings));
+  };
+  for (const std::string bound : {"0.13", "0.15"})
+    {
+      const Calibration held = fitted_with(bound, "");
+      const Calibration at_bound =
+        fitted_with(bound,
+                    "Friction/Static coefficient from " + bound +
+                      " to 0.3 start 0.25; ");
+      EXPECT_NEAR(at_bound.parameters[0].value, std::stod(bound), 1e-6);
+      for (unsigned int i = 0; i < 2; ++i)
+        EXPECT_NEAR(at_bound.parameters[i + 1].value,
+                    held.parameters[i].value,
+                    2e-3 * held.parameters[i].value);
+      for (const std::string &warning : at_bound.warnings)
+        EXPECT_EQ(warning.find("by more than their rows scatter"),
+                  std::string::npos)
+          << warning;
+      EXPECT_LT(at_bound.parameters[0].upper, std::stod(bound) + 0.01);
+    }
+}
+
+
+
 // Named by a wildcard.
 TEST_F(Planted, WithoutNoiseTheTruth)
 {
