@@ -180,6 +180,10 @@ namespace SlipStep
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, &old_interrupt);
     sigaction(SIGTERM, &action, &old_terminate);
+    sigaction(SIGHUP, &action, &old_hangup);
+    // What nohup started goes on.
+    if (old_hangup.sa_handler == SIG_IGN)
+      sigaction(SIGHUP, &old_hangup, nullptr);
     action.sa_handler = remember_request;
     action.sa_flags   = SA_RESTART;
     sigaction(SIGUSR1, &action, &old_user);
@@ -192,6 +196,7 @@ namespace SlipStep
     --n_guards;
     sigaction(SIGINT, &old_interrupt, nullptr);
     sigaction(SIGTERM, &old_terminate, nullptr);
+    sigaction(SIGHUP, &old_hangup, nullptr);
     sigaction(SIGUSR1, &old_user, nullptr);
   }
 

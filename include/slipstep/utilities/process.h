@@ -46,8 +46,9 @@ namespace SlipStep
                          const std::string           &log,
                          const std::chrono::seconds   time_limit);
 
-  /// While one lives, SIGINT and SIGTERM do not end the process but are
-  /// remembered, so that files can be completed first. The same signal a second
+  /// While one lives, SIGINT, SIGTERM and SIGHUP (unless that is ignored) do
+  /// not end the process but are remembered, so that files can be completed
+  /// first. The same signal a second
   /// time ends it at once, unless @p is_patient. SIGUSR1 asks for a checkpoint.
   class SignalGuard
   {
@@ -89,7 +90,7 @@ namespace SlipStep
     static void obey();
 
   private:
-    struct sigaction old_interrupt, old_terminate, old_user;
+    struct sigaction old_interrupt, old_terminate, old_hangup, old_user;
   };
 
   /// The point of time that many seconds from now.
