@@ -5,20 +5,40 @@
 #include <slipstep/utilities/text.h>
 
 #include <cmath>
+#include <limits>
 
 namespace SlipStep
 {
   std::string RateAndState::in_words() const
   {
-    const double fall = b - a;
+    const double      change = friction_faster - friction;
+    const std::string faster = std::isnan(change) ?
+                                 "" :
+                                 (change < 0. ? " falls by " : " rises by ") +
+                                   short_text(std::abs(change), 3) +
+                                   " with ten times the speed";
     return "rate and state at " + short_text(speed, 4) + " mm/s, " +
            short_text(pressure, 4) + " MPa: a = " + short_text(a, 3) +
            ", b = " + short_text(b, 3) + ", D_c = " + short_text(length, 4) +
-           " mm; steady friction " + short_text(friction, 4) +
-           (fall > 0. ? " falls by " : " rises by ") +
-           short_text(std::abs(fall) * std::log(10.), 3) +
-           " with ten times the speed";
+           " mm; steady friction " + short_text(friction, 4) + faster;
   }
+
+
+
+  namespace
+  {
+    // NaN if there is no steady state.
+    double steady_friction(const FrictionLaw &law,
+                           const Loading     &slide,
+                           const double       factor_of_speed = 1.)
+    {
+      const SteadySliding sliding(law,
+                                  factor_of_speed * slide.velocity,
+                                  slide.pressure);
+      return sliding.exists() ? sliding.friction() :
+                                std::numeric_limits<double>::quiet_NaN();
+    }
+  } // namespace
 
 
 
@@ -27,39 +47,46 @@ namespace SlipStep
                                            const Programme   &programme)
   {
     constexpr std::size_t    most = 4;
+    constexpr double         step = 1e-3; // of a logarithm
     std::vector<std::string> evolving;
     for (const std::string &name : law.effects())
       if (name == "ageing" || name == "slip_law")
         evolving.push_back(name);
     if (evolving.size() != 1)
       return {};
-    const std::string section = "Friction/" + evolving[0] + "/";
-    const double      growth  = parameters.number(section + "Growth");
-    const double      time    = parameters.number(section + "Time");
-    const double      length  = parameters.number(
-      section + (evolving[0] == "ageing" ? "Renewal length" : "Slip length"));
+    const std::string section   = "Friction/" + evolving[0] + "/";
+    const std::string time      = section + "Time";
+    const auto        with_time = [&](const double factor) {
+      Parameters changed = parameters;
+      changed.set(time,
+                  plain_text(factor * parameters.number(time), 17),
+                  "rate and state");
+      return FrictionLaw(changed);
+    };
+    const FrictionLaw sooner = with_time(std::exp(-step));
+    const FrictionLaw later  = with_time(std::exp(step));
 
     std::vector<RateAndState> result;
     for (const Loading &slide : steady_slides(programme, most))
       {
-        const SteadySliding sliding(law, slide.velocity, slide.pressure);
-        if (!sliding.exists())
-          continue;
         RateAndState reading;
-        reading.speed      = slide.velocity.norm();
-        reading.pressure   = slide.pressure;
-        reading.friction   = sliding.friction();
-        reading.length     = length;
-        const double share = 1e-4;
-        reading.a          = reading.friction *
-                    std::log(law.steady_ratio(reading.speed * (1. + share)) /
-                             law.steady_ratio(reading.speed * (1. - share))) /
-                    std::log((1. + share) / (1. - share));
-        const double theta = length / reading.speed;
-        reading.b          = reading.friction /
-                    (1. + growth * std::log1p(theta / time)) * growth * theta /
-                    (time + theta);
-        result.push_back(reading);
+        reading.speed           = slide.velocity.norm();
+        reading.pressure        = slide.pressure;
+        reading.friction        = steady_friction(law, slide);
+        reading.friction_faster = steady_friction(law, slide, 10.);
+        reading.length = parameters.number(section + (evolving[0] == "ageing" ?
+                                                        "Renewal length" :
+                                                        "Slip length"));
+        // The age counts in units of this time only.
+        reading.b =
+          (steady_friction(sooner, slide) - steady_friction(later, slide)) /
+          (2. * step);
+        const double slope = (steady_friction(law, slide, std::exp(step)) -
+                              steady_friction(law, slide, std::exp(-step))) /
+                             (2. * step);
+        reading.a = slope + reading.b;
+        if (std::isfinite(reading.a))
+          result.push_back(reading);
       }
     return result;
   }

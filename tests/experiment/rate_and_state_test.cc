@@ -16,20 +16,33 @@ using namespace SlipStep::Testing;
 
 namespace
 {
-  Settings rate_and_state_law(const std::string &evolution)
+  // With an effect that neither a nor b has in the closed form of the others.
+  Settings rate_and_state_law(const std::string &evolution,
+                              const std::string &other = "")
   {
     const std::string section = "Friction/" + evolution + "/";
-    return {{"Friction/Effects", "subloading, overstress, " + evolution},
-            {"Friction/Static coefficient", "0.1"},
-            {"Friction/Tangential stiffness", "1e6 MPa/mm"},
-            {section + "Growth", "0.1"},
-            {section + "Time", "0.05 s"},
-            {section +
-               (evolution == "ageing" ? "Renewal length" : "Slip length"),
-             "0.02 mm"},
-            {"Loading/Programme",
-             "press 5 MPa in 1 s; slide 0.3 mm/s for 1 mm; slide 0.3 mm/s for "
-             "1 mm; slide 30 mm/s for 1 mm"}};
+    const Settings    others  = {{"adhesion/Strength", "0.3 MPa"},
+                                 {"expression/Formula", "1 - 0.03*x"},
+                                 {"stribeck/Rise", "0.3"},
+                                 {"anisotropy/Ratio", "2"},
+                                 {"anisotropy/Angle", "90 deg"}};
+    Settings          result  = {
+                {"Friction/Effects",
+                 "subloading, overstress, " + evolution +
+                   (other.empty() ? "" : ", " + other)},
+                {"Friction/Static coefficient", "0.1"},
+                {"Friction/Tangential stiffness", "1e6 MPa/mm"},
+                {section + "Growth", "0.1"},
+                {section + "Time", "0.05 s"},
+                {section + (evolution == "ageing" ? "Renewal length" : "Slip length"),
+                 "0.02 mm"},
+                {"Loading/Programme",
+                 "press 5 MPa in 1 s; slide 0.3 mm/s for 1 mm; slide 0.3 mm/s for "
+                           "1 mm; slide 30 mm/s for 1 mm"}};
+    for (const auto &[key, value] : others)
+      if (!other.empty() && key.rfind(other, 0) == 0)
+        result.emplace_back("Friction/" + key, value);
+    return result;
   }
 } // namespace
 
@@ -38,10 +51,17 @@ namespace
 TEST(RateAndState, IsWhatAStepOfSpeedShows)
 {
   const double D_c = 0.02, up = 1.1;
-  for (const std::string evolution : {"ageing", "slip_law"})
+  for (const auto &[evolution, other] :
+       std::vector<std::pair<std::string, std::string>>{
+         {"ageing", ""},
+         {"slip_law", ""},
+         {"ageing", "adhesion"},
+         {"ageing", "stribeck"},
+         {"ageing", "anisotropy"},
+         {"slip_law", "expression"}})
     {
       const Parameters parameters =
-        point_parameters(rate_and_state_law(evolution));
+        point_parameters(rate_and_state_law(evolution, other));
       const FrictionLaw law(parameters);
       const auto        readings =
         rate_and_state(parameters, law, parse_programme(parameters));
@@ -73,8 +93,12 @@ TEST(RateAndState, IsWhatAStepOfSpeedShows)
           EXPECT_NEAR((state.traction[0] / p - before.friction()) /
                         std::log(up),
                       reading.a,
-                      5e-3 * (reading.a + reading.b))
-            << evolution << " " << reading.in_words();
+                      5e-3 * (std::abs(reading.a) + reading.b))
+            << evolution << " " << other << " " << reading.in_words();
+          fast *= 10. / std::sqrt(up);
+          EXPECT_NEAR(reading.friction_faster,
+                      SteadySliding(law, fast, p).friction(),
+                      1e-6);
         }
     }
 }

@@ -12,21 +12,26 @@ namespace SlipStep
 {
   /// A law as those who use rate and state read it: friction jumps by
   /// \f$a \ln(V_2/V_1)\f$ and then goes by \f$-b \ln(V_2/V_1)\f$ over slips of
-  /// \f$D_c\f$. Of this law, a and b depend on the speed: with friction f in
-  /// steady sliding, the ratio r(V) of `overstress` or `perzyna`, and the
-  /// factor \f$G = 1 + b_G \ln(1 + \theta/t_0)\f$ of `ageing` or `slip_law`,
-  /// \f$\theta = D_c/V\f$,
-  /// \f[ a = f\,\frac{d\ln r}{d\ln V}, \qquad
-  ///     b = f\,\frac{d\ln G}{d\ln\theta} =
-  ///         \frac{f}{G}\,\frac{b_G\,\theta}{t_0 + \theta}. \f]
+  /// \f$D_c\f$. Of this law, a and b depend on the speed. The factor
+  /// \f$G = 1 + b_G \ln(1 + \theta/t_0)\f$ of `ageing` or `slip_law` has the
+  /// age in units of \f$t_0\f$ only, so that with friction f in steady sliding
+  /// \f[ b = \frac{\partial f}{\partial \ln\theta} =
+  ///         -\frac{\partial f}{\partial \ln t_0}, \qquad
+  ///     a = \frac{d f}{d\ln V} + b. \f]
+  /// Of a law of `overstress` and `ageing` alone, with the ratio r(V), these
+  /// are \f$f\,d\ln r/d\ln V\f$ and \f$(f/G)\,b_G\,\theta / (t_0 + \theta)\f$.
+  /// What other effects change with speed is in a, whether at once or not. By
+  /// differences of steady states.
   struct RateAndState
   {
     double speed    = 0.; ///< [mm/s]
     double pressure = 0.; ///< [MPa]
     double friction = 0.; ///< in steady sliding
-    double a        = 0.;
-    double b        = 0.;
-    double length   = 0.; ///< D_c [mm]
+    /// The same at ten times the speed; NaN if there is none.
+    double friction_faster = 0.;
+    double a               = 0.;
+    double b               = 0.;
+    double length          = 0.; ///< D_c [mm]
 
     /// "rate and state at 1 mm/s, 5 MPa: a = 0.0023, b = 0.0042, ..."
     std::string in_words() const;
