@@ -175,8 +175,9 @@ namespace SlipStep
       // A little more than what slipstep itself allows, so that its own steps
       // stay whole.
       constexpr double       allowed = 1e-3, shortest = 1e-14;
-      constexpr std::size_t  most_parts = 10000;
-      constexpr unsigned int most_jumps = 5;
+      constexpr double       allowed_of_work = 5e-3;
+      constexpr std::size_t  most_parts      = 10000;
+      constexpr unsigned int most_jumps      = 5;
 
       const ContactPoint tried  = part(from, begin, end, slip, pressure);
       const double       middle = 0.5 * (begin + end);
@@ -196,7 +197,14 @@ namespace SlipStep
                slip,
                pressure)
             .trial();
-        return distance(halves, tried.trial()) <= allowed;
+        // Of what friction dissipates at most.
+        const double work =
+          tried.trial().strength *
+          ((end - begin) * slip.norm() +
+           tried.trial().strength / law.tangential_stiffness());
+        return distance(halves, tried.trial()) <= allowed &&
+               std::abs(halves.dissipation - tried.trial().dissipation) <=
+                 allowed_of_work * work;
       };
       if (end - begin < shortest || is_good())
         {
