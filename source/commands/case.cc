@@ -19,6 +19,8 @@
 #include <slipstep/utilities/text.h>
 #include <slipstep/utilities/variants.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -144,6 +146,29 @@ namespace SlipStep
 
 
 
+    // Another effect may need its memory, as a formula of the temperature does.
+    bool is_asked_for(const std::string &name, const Parameters &parameters)
+    {
+      std::vector<std::string> others = parameters.list("Friction/Effects");
+      others.erase(std::remove(others.begin(), others.end(), name),
+                   others.end());
+      Parameters without = parameters;
+      without.set("Friction/Effects",
+                  boost::algorithm::join(others, ", "),
+                  "without " + name);
+      try
+        {
+          const FrictionLaw law(without);
+          return false;
+        }
+      catch (const InputError &)
+        {
+          return true;
+        }
+    }
+
+
+
     // Without a flow rule nothing is taken out of coefficients that were read
     // at a speed; a diagnosis may add one.
     bool has_idle_speed_of_coefficients(const Parameters &parameters)
@@ -165,7 +190,8 @@ namespace SlipStep
         {
           const EffectInfo &info = effect_registry().at(name);
           if (all_of(the_case.complete, [&](const Parameters &parameters) {
-                return is_idle(info, parameters);
+                return is_idle(info, parameters) &&
+                       !is_asked_for(name, parameters);
               }))
             warnings.insert("effect " + name +
                             " is on but does nothing: " + info.section() +

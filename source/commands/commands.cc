@@ -8,10 +8,12 @@
 #include <slipstep/friction/law.h>
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/progress.h>
+#include <slipstep/utilities/text.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <sys/prctl.h>
 
+#include <cerrno>
 #include <csignal>
 #include <functional>
 #include <iostream>
@@ -25,7 +27,7 @@ namespace SlipStep
     {
       std::vector<std::string> names;
       for (const auto &name : line.files)
-        names.push_back(name.string());
+        names.push_back(lower_case(name.string()));
       print_effects(std::cout, line.format == "md", names);
       return done;
     }
@@ -106,6 +108,8 @@ namespace SlipStep
     dealii::deal_II_exceptions::disable_abort_on_exception();
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
     Outcome outcome = start(argc, argv, file);
+    // Why an earlier write failed is not known any more.
+    errno = 0;
     if (!std::cout.flush() && outcome.exit_code == done)
       outcome = {run_failed, write_failure("the output").what()};
     // Under mpirun every rank finds the same errors in the input.

@@ -125,6 +125,11 @@ namespace SlipStep
                           std::string("it is not used with ") +
                             equal_steps_key + " = " +
                             std::to_string(equal_steps));
+    if (equal_steps > most_steps)
+      parameters.reject(most_steps_key,
+                        std::string(equal_steps_key) + " = " +
+                          std::to_string(equal_steps) +
+                          " needs no fewer than that");
     start_segment();
   }
 

@@ -146,6 +146,10 @@ namespace SlipStep
           why = hint;
         if (error.GetCode() == mu::ecTOO_MANY_PARAMS)
           why += "; decimals begin with a point";
+        else if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN &&
+                 !variables.empty())
+          why +=
+            "; what it knows is " + list_text(variables) + ", pi and functions";
         throw InputError(why);
       }
   }

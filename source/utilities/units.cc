@@ -380,8 +380,9 @@ namespace SlipStep
     const std::string why   = parse(text, dimension, unit_required, value);
     if (!why.empty())
       return why;
-    if (value > maximum && maximum >= reachable)
-      return "the number is too large";
+    if (std::abs(value) > reachable)
+      return "the number is too large: " + short_text(reachable, 2) + " " +
+             base_unit(dimension) + " is the most";
     if (value < minimum || value > maximum ||
         (minimum_is_excluded && value == minimum))
       return "out of range";

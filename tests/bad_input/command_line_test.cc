@@ -22,6 +22,7 @@ TEST(CommandLine, UnknownWordsComeWithTheNearest)
   expect_refusal(process.run({"parameters", "--format", "xml"}),
                  {"xml", "prm, html, md, keys, json, schema"});
   expect_refusal(process.run({"parameters", "--format="}), {"--format"});
+  EXPECT_EQ(process.run({"effects", "Softening"}).exit_code, 0);
   expect_refusal(process.run({"parameters", "sweep"}),
                  {"section Sweep", "makes many runs", "running_a_case.md"});
   expect_refusal(process.run({"a.prm"}), {"mean slipstep run a.prm?"});

@@ -307,6 +307,12 @@ TEST(OddInput, AnEffectThatDoesNothingIsTold)
   EXPECT_EQ(errors(healing + "set Calibration/Parameters = " + rate +
                    " from 0 to 1\nset Calibration/Tests = test.csv\n"),
             "");
+  // Its temperature is asked for by another one.
+  EXPECT_EQ(errors("set Friction/Effects = subloading, heating, expression\n"
+                   "set Friction/heating/Weakening = 0 1/degC\n"
+                   "set Friction/expression/Covariate = temperature\n"
+                   "set Friction/expression/Formula = 1 - x/1000\n"),
+            "");
   const std::string length = "set Friction/Effects = subloading, overstress, "
                              "memory_length\n";
   EXPECT_NE(errors(length), "");
