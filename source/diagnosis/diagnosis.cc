@@ -40,7 +40,8 @@ namespace SlipStep
     const auto beyond_noise = [this](const double gap) {
       return std::sqrt(std::max(0., gap * gap - noise_floor * noise_floor));
     };
-    return systematic_after <= hardly_less * systematic_before &&
+    return systematic_before > 0. &&
+           systematic_after <= hardly_less * systematic_before &&
            beyond_noise(left_out_after) >
              hardly_less * beyond_noise(left_out_before);
   }

@@ -530,8 +530,12 @@ namespace SlipStep
               "missing beside it.");
           if (diagnosis.shrink.hardly_predicts())
             doubts.push_back(
-              "Conditions left out of the fit are predicted hardly better with " +
-              list_text(diagnosis.effects) +
+              "Conditions left out of the fit are predicted " +
+              std::string(diagnosis.shrink.left_out_after >
+                              diagnosis.shrink.left_out_before ?
+                            "worse" :
+                            "hardly better") +
+              " with " + list_text(diagnosis.effects) +
               ": between and beyond the conditions tested the formula may not "
               "hold, and another effect may be what is missing.");
           doubts.push_back(

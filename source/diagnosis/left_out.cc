@@ -14,48 +14,114 @@ namespace SlipStep
 {
   namespace
   {
-    // Where a parameter of what was added leaves nothing of it, and how much
-    // that is believed where the tests do not tell.
-    struct Belief
+    /// The parameters of an effect that was added, and how far from the present
+    /// ones those of its strength leave nothing of it.
+    struct Removal
     {
-      Eigen::VectorXd scaled, weight;
+      std::vector<Eigen::Index> parameters;
+      Eigen::VectorXd           to_nothing; ///< of all, scaled
     };
 
 
 
-    Belief belief_in_nothing(const Model &model)
+    // Of effects whose strength is in parameters of their own.
+    std::vector<Removal> removals(const Model &model)
     {
-      constexpr double deviation = 0.5; // of what is allowed
-
       const std::vector<FitParameter> &fitted = model.campaign->fitted;
-      const Eigen::Index               n      = fitted.size();
-      Belief result{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+      std::vector<Removal>             result;
       for (const Part &part : model.parts)
-        for (const TrialFormula::Shape &shape : part.formula.shapes)
-          {
-            const Values nothing = shape(0.), much = shape(1.);
-            for (Eigen::Index i = 0; i < n; ++i)
-              {
-                const auto found = nothing.find(fitted[i].path);
-                if (found == nothing.end() ||
-                    found->second == much.at(found->first))
-                  continue;
-                const double scaled = fitted[i].to_scaled(found->second);
-                // On a logarithmic scale it is out of reach.
-                result.scaled(i) = scaled > 0. ? std::min(scaled, 1.) : 0.;
-                result.weight(i) = 1. / (deviation * deviation);
-              }
-          }
+        {
+          Removal removal;
+          removal.to_nothing = Eigen::VectorXd::Zero(fitted.size());
+          bool has_strength  = false;
+          for (std::size_t i = 0; i < fitted.size(); ++i)
+            {
+              if (model.owner_of(fitted[i].path) != &part)
+                continue;
+              removal.parameters.push_back(i);
+              for (const TrialFormula::Shape &shape : part.formula.shapes)
+                {
+                  const Values nothing = shape(0.), much = shape(1.);
+                  const auto   found = nothing.find(fitted[i].path);
+                  if (found == nothing.end() ||
+                      found->second == much.at(found->first))
+                    continue;
+                  const double scaled = fitted[i].to_scaled(found->second);
+                  has_strength        = true;
+                  // On a logarithmic scale it is out of reach.
+                  removal.to_nothing(i) =
+                    (scaled > 0. ? std::min(scaled, 1.) : 0.) - model.scaled[i];
+                }
+            }
+          if (has_strength)
+            result.push_back(removal);
+        }
       return result;
     }
 
 
 
+    // A step of Gauss and Newton; effects without which the rows would hardly
+    // be met worse are nothing after it.
+    struct Step
+    {
+      Step(const Eigen::MatrixXd      &derivatives,
+           const Eigen::VectorXd      &residual,
+           const Eigen::Index          n_rows,
+           const std::vector<Removal> &removals);
+
+      Eigen::VectorXd   step;
+      std::vector<bool> is_untold;
+    };
+
+
+
+    Step::Step(const Eigen::MatrixXd      &derivatives,
+               const Eigen::VectorXd      &residual,
+               const Eigen::Index          n_rows,
+               const std::vector<Removal> &removals)
+      : is_untold(derivatives.cols(), false)
+    {
+      const auto step_without =
+        [&](const std::vector<const Removal *> &untold) {
+          Eigen::VectorXd result = Eigen::VectorXd::Zero(derivatives.cols());
+          Eigen::MatrixXd told   = derivatives;
+          for (const Removal *removal : untold)
+            for (const Eigen::Index i : removal->parameters)
+              {
+                result(i) = removal->to_nothing(i);
+                told.col(i).setZero();
+              }
+          const Eigen::MatrixXd curvature = told.transpose() * told;
+          const Eigen::VectorXd free =
+            curvature.completeOrthogonalDecomposition().solve(
+              told.transpose() * (residual - derivatives * result));
+          return Eigen::VectorXd(result + free);
+        };
+      const auto squares = [&](const Eigen::VectorXd &step) {
+        return (residual - derivatives * step).head(n_rows).squaredNorm();
+      };
+      step                               = step_without({});
+      const double                 least = squares(step);
+      std::vector<const Removal *> untold;
+      for (const Removal &removal : removals)
+        if (squares(step_without({&removal})) <
+            least + cost_of_parameter * removal.parameters.size())
+          untold.push_back(&removal);
+      for (const Removal *removal : untold)
+        for (const Eigen::Index i : removal->parameters)
+          is_untold[i] = true;
+      if (!untold.empty())
+        step = step_without(untold);
+    }
+
+
+
     // A model as fitted to all conditions but one, with its objective of those:
-    // by one step of Gauss and Newton from the optimum of all, by a fit of its
-    // own where that goes far. What only the one that is left out told of an
-    // effect is nothing then: it would predict itself.
-    // From then on the model simulates that condition only.
+    // by one step from the optimum of all, by a fit of its own where that goes
+    // far. What only the one that is left out told of an effect is nothing
+    // then: it would predict itself. From then on the model simulates that
+    // condition only.
     // @param is_all_told whether there was nothing of the kind
     Model fit_without(const Comparison &comparison,
                       const Model      &model,
@@ -74,45 +140,31 @@ namespace SlipStep
           derivatives.middleRows(test.begin, test.size).setZero();
           residual.segment(test.begin, test.size).setZero();
         }
-      // In the place of what is believed where a fit begins.
-      const Belief       belief = belief_in_nothing(model);
-      const Eigen::Index n      = belief.scaled.size();
-      for (Eigen::Index i = 0; i < n; ++i)
-        if (belief.weight(i) > 0.)
-          {
-            const Eigen::Index row    = comparison.n_rows() + i;
-            const double       weight = std::sqrt(belief.weight(i));
-            derivatives(row, i)       = weight;
-            residual(row) = weight * (belief.scaled(i) - model.scaled[i]);
-          }
-      Model      result = model.copy();
-      const auto normal = Eigen::MatrixXd(derivatives.transpose() * derivatives)
-                            .completeOrthogonalDecomposition();
-      const Eigen::VectorXd variances = normal.pseudoInverse().diagonal();
-      Eigen::VectorXd   step = normal.solve(derivatives.transpose() * residual);
-      std::vector<bool> is_untold;
-      bool              is_near = true;
+      const Eigen::Index n = model.scaled.size();
+      const Step         newton(derivatives,
+                        residual,
+                        comparison.n_rows(),
+                        removals(model));
+      Eigen::VectorXd    step    = newton.step;
+      Model              result  = model.copy();
+      bool               is_near = true;
       for (Eigen::Index i = 0; i < n; ++i)
         {
-          // What is believed of it is most of what is known.
-          is_untold.push_back(variances(i) * belief.weight(i) > 0.5);
           const double slope =
             natural_slope(model.campaign->fitted[i], model.scaled[i]);
           is_near          = is_near && std::abs(step(i)) * slope < 0.5;
-          result.scaled[i] = is_untold[i] ?
-                               belief.scaled(i) :
-                               std::clamp(model.scaled[i] + step(i), 0., 1.);
+          result.scaled[i] = std::clamp(model.scaled[i] + step(i), 0., 1.);
           step(i)          = result.scaled[i] - model.scaled[i];
         }
-      is_all_told      = none_of(is_untold, [](const bool is) { return is; });
+      is_all_told = none_of(newton.is_untold, [](const bool is) { return is; });
       result.objective = (residual - derivatives * step).squaredNorm();
       if (!is_near)
         {
           for (Eigen::Index i = 0; i < n; ++i)
-            if (!is_untold[i])
+            if (!newton.is_untold[i])
               result.scaled[i] = model.scaled[i];
           result.simulator->leave_out(left_out);
-          comparison.fit(result, 1., left_out, is_untold);
+          comparison.fit(result, 1., left_out, newton.is_untold);
         }
       result.simulator->leave_out(others);
       return result;
@@ -241,8 +293,12 @@ namespace SlipStep
       if (judges[c])
         gain += a.squares[c] - b.squares[c];
     // What one condition alone tells of, others can only speak against.
-    return gain > 0. || gain <= -least_cost ||
-               conditions_that_tell(workspace, less, more).empty() ?
+    const bool is_lone =
+      conditions_that_tell(workspace, less, more).size() == 1;
+    const bool is_known =
+      none_of(judges, [](const bool judge) { return !judge; }) &&
+      (!is_lone || gain > 0.);
+    return is_known || gain <= -least_cost ?
              gain :
              std::numeric_limits<double>::quiet_NaN();
   }

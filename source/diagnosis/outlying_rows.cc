@@ -65,6 +65,8 @@ namespace SlipStep
       comparison.whiten(whitened);
       return Eigen::VectorXd(whitened.cwiseAbs());
     };
+    if (difference.size() == 0)
+      return {};
     Eigen::VectorXd        distance = distances();
     std::set<Eigen::Index> result;
     const auto             weaken = [&](const std::vector<Eigen::Index> &rows) {
@@ -78,11 +80,19 @@ namespace SlipStep
 
     // The farthest spikes first: whitening takes the rows after one for as far
     // off as it is, and without it they are no farther than others.
-    const std::vector<Eigen::Index> spikes = comparison.spikes_of_records();
-    for (std::vector<Eigen::Index> rows;
-         !(rows = farthest_rows(comparison, spikes, distance, threshold))
-            .empty();)
-      weaken(rows);
+    std::vector<Eigen::Index> spikes = comparison.spikes_of_records(), rows;
+    while (
+      result.size() <= most &&
+      !(rows = farthest_rows(comparison, spikes, distance, threshold)).empty())
+      {
+        weaken(rows);
+        spikes.erase(std::remove_if(spikes.begin(),
+                                    spikes.end(),
+                                    [&](const Eigen::Index row) {
+                                      return result.count(row) > 0;
+                                    }),
+                     spikes.end());
+      }
     std::vector<Eigen::Index> others;
     for (Eigen::Index row = 0; row < distance.size(); ++row)
       if (distance(row) > threshold)

@@ -18,12 +18,11 @@ namespace SlipStep
 {
   bool is_needed(const double      cost,
                  const double      left_out_gain,
-                 const std::size_t n_conditions,
+                 const bool        is_told_by_one,
                  const std::size_t n)
   {
     const bool is_known = !std::isnan(left_out_gain);
-    return cost >=
-             n * (is_known || n_conditions > 1 ? least_cost : sure_cost) &&
+    return cost >= n * (is_known || is_told_by_one ? least_cost : sure_cost) &&
            !(is_known && left_out_gain <= 0.);
   }
 
@@ -36,7 +35,8 @@ namespace SlipStep
   {
     return is_needed(less.objective - more.objective,
                      left_out_gain(workspace, less, more),
-                     workspace.comparison.conditions.size(),
+                     workspace.comparison.conditions.size() > 1 &&
+                       conditions_that_tell(workspace, less, more).size() == 1,
                      n);
   }
 

@@ -354,8 +354,11 @@ namespace SlipStep
         }
       else
         {
-          again.verdict           = without_gap(again.view);
-          again.named_by_outliers = effect_names(judgement.found.model.parts);
+          again.verdict = without_gap(again.view);
+          again.named_by_outliers =
+            judgement.withdrawn.empty() ?
+              effect_names(judgement.found.model.parts) :
+              judgement.withdrawn;
         }
       workspace.was_late    = weakened.was_late;
       workspace.was_stopped = weakened.was_stopped;

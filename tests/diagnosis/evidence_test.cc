@@ -83,16 +83,16 @@ TEST(Evidence, IsSignificantAndTestable)
 TEST(Evidence, LowersFittedAndLeftOutDifferences)
 {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(is_needed(16., 0.1, 5));
-  EXPECT_FALSE(is_needed(14., 20., 5));
-  EXPECT_FALSE(is_needed(1000., -1., 5));
-  EXPECT_FALSE(is_needed(1000., 0., 5));
+  EXPECT_TRUE(is_needed(16., 0.1, false));
+  EXPECT_FALSE(is_needed(14., 20., false));
+  EXPECT_FALSE(is_needed(1000., -1., false));
+  EXPECT_FALSE(is_needed(1000., 0., false));
   // One condition: nothing can be left out.
-  EXPECT_TRUE(is_needed(31., none, 1));
-  EXPECT_FALSE(is_needed(29., none, 1));
+  EXPECT_TRUE(is_needed(31., none, false));
+  EXPECT_FALSE(is_needed(29., none, false));
   // One of several conditions alone tells of it.
-  EXPECT_TRUE(is_needed(16., none, 5));
-  EXPECT_FALSE(is_needed(14., none, 5));
+  EXPECT_TRUE(is_needed(16., none, true));
+  EXPECT_FALSE(is_needed(14., none, true));
 }
 
 

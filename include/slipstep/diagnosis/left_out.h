@@ -18,16 +18,17 @@ namespace SlipStep
                                                 const Model     &less,
                                                 const Model     &more);
 
-  /// Those without which the others tell of what a model has more. Where one
-  /// alone tells of an effect, that has any size when it is left out.
+  /// Those without which the others tell of what a model has more, and those
+  /// that speak for it nevertheless. Left out, one that alone tells of an
+  /// effect is predicted without it, or by what others hardly tell.
   std::vector<bool> conditions_that_judge(const Workspace &workspace,
                                           const Model     &less,
                                           const Model     &more);
 
   /// By how much the squares of whitened differences on left-out conditions are
   /// less with more effects. NaN if that does not tell: for tests of a single
-  /// condition, or where one does not judge and the others have little against
-  /// it.
+  /// condition, or where one does not judge, or alone tells of it, and the
+  /// others have little against it.
   double left_out_gain(const Workspace &workspace,
                        const Model     &less,
                        const Model     &more);

@@ -11,10 +11,11 @@ namespace SlipStep
 {
   /// Whether an addition lowers the fitted and the left-out differences enough.
   /// @param left_out_gain NaN if it does not tell
+  /// @param is_told_by_one of several conditions alone, so that it cannot
   /// @param n effects that are added
   bool is_needed(const double      cost,
                  const double      left_out_gain,
-                 const std::size_t n_conditions,
+                 const bool        is_told_by_one,
                  const std::size_t n = 1);
 
   /// The same of two models.
