@@ -197,11 +197,9 @@ namespace SlipStep
                slip,
                pressure)
             .trial();
-        // Of what friction dissipates at most.
-        const double work =
-          tried.trial().strength *
-          ((end - begin) * slip.norm() +
-           tried.trial().strength / law.tangential_stiffness());
+        const double strength = std::max(from.strength, tried.trial().strength);
+        const double work     = strength * ((end - begin) * slip.norm() +
+                                        strength / law.tangential_stiffness());
         return distance(halves, tried.trial()) <= allowed &&
                std::abs(halves.dissipation - tried.trial().dissipation) <=
                  allowed_of_work * work;

@@ -146,6 +146,32 @@ INSTANTIATE_TEST_SUITE_P(
 
 
 
+// Steps as long as the waves of the surface end at the same place in one: what
+// they pass over is dissipated all the same, mu p L over whole waves.
+TEST(LawLibraryStep, DissipationHasWhatPassesInBetween)
+{
+  const double length = 10.;
+  for (const unsigned int n_steps : {1u, 5u, 10u, 1000u})
+    {
+      ParsedLaw point("set Static coefficient = 0.2\n"
+                      "set Tangential stiffness = 1e4\n"
+                      "set Effects = texture\n"
+                      "subsection texture\n"
+                      "set Amplitude = 0.5\n"
+                      "set Wavelength = 2 mm\n"
+                      "end\n");
+      move(point, point.state, {0., 0.}, 1.);
+      move(point, point.state, {length, 0.}, 10., n_steps);
+      for (int i = 0; i < slipstep_state_size(point.law); ++i)
+        if (slipstep_state_name(point.law, i) ==
+            std::string("dissipation_MPa_mm"))
+          EXPECT_NEAR(point.state[i], strength * length, 0.005 * length)
+            << n_steps << " steps";
+    }
+}
+
+
+
 #ifdef SLIPSTEP_ABAQUS_DRIVER
 namespace
 {
@@ -230,28 +256,50 @@ namespace
 
 
 
-// Steps as long as the waves of the surface end at the same place in one: what
-// they pass over is dissipated all the same, mu p L over whole waves.
-TEST(LawLibraryStep, DissipationHasWhatPassesInBetween)
+// A host may turn the slip directions from increment to increment: stress,
+// tangent and all that is remembered are those of the same path in directions
+// that stay, seen from where they are.
+TEST(UserSubroutine, ItFollowsTheAxesOfTheSurface)
 {
-  const double length = 10.;
-  for (const unsigned int n_steps : {1u, 5u, 10u, 1000u})
-    {
-      ParsedLaw point("set Static coefficient = 0.2\n"
-                      "set Tangential stiffness = 1e4\n"
-                      "set Effects = texture\n"
-                      "subsection texture\n"
-                      "set Amplitude = 0.5\n"
-                      "set Wavelength = 2 mm\n"
-                      "end\n");
-      move(point, point.state, {0., 0.}, 1.);
-      move(point, point.state, {length, 0.}, 10., n_steps);
-      for (int i = 0; i < slipstep_state_size(point.law); ++i)
-        if (slipstep_state_name(point.law, i) ==
-            std::string("dissipation_MPa_mm"))
-          EXPECT_NEAR(point.state[i], strength * length, 0.005 * length)
-            << n_steps << " steps";
-    }
+  const std::string text =
+    "set Static coefficient = 0.2\nset Tangential stiffness = 1e4\n"
+    "set Effects = subloading, overstress, elastic_core, anisotropy, "
+    "direction, texture, expression\n"
+    "subsection elastic_core\nset Rate = 300\nset Limit = 0.7\nend\n"
+    "subsection anisotropy\nset Ratio = 0.6\nset Angle = 30\nend\n"
+    "subsection direction\nset Change = 0.3\nset Forward angle = 70\nend\n"
+    "subsection texture\nset Amplitude = 0.2\nset Wavelength = 0.01\n"
+    "set Angle = 20\nend\n"
+    "subsection expression\nset Covariate = position\n"
+    "set Formula = 1 + 10*x\nset From = -0.05\nset To = 0.1\nend\n";
+  ParsedLaw point(text);
+  std::ofstream(test_folder() / "slipstep.prm") << "subsection Friction\n"
+                                                << text << "end\n";
+
+  std::ofstream             seen(test_folder() / "increments");
+  const std::vector<Answer> exact = random_path(point, seen);
+  seen.close();
+  ASSERT_EQ(drive(point.state.size() + 1), 0);
+  std::ifstream stresses(test_folder() / "stresses");
+  double        largest = 0.;
+  for (const Answer &answer : exact)
+    for (unsigned int part = 0; part < 6; ++part)
+      {
+        Vector told = {};
+        ASSERT_TRUE(stresses >> told[0] >> told[1]);
+        if (part > 3)
+          continue; // the energies and the slip
+        const double error = distance(told, answer[part]) * strength;
+        // Derivatives are differences over a millionth of what matters.
+        ASSERT_LT(error,
+                  part == 0 ? 1e-9 :
+                  part == 3 ? 1e-3 :
+                              1e-3 * stiffness)
+          << &answer - exact.data() << ' ' << part;
+        if (part == 0)
+          largest = std::max(largest, error);
+      }
+  std::cout << "largest difference " << largest << " MPa" << std::endl;
 }
 
 
