@@ -348,8 +348,9 @@ namespace SlipStep
       if (rows.size() < 2)
         parameters.reject(
           skip_key,
-          "nothing is left of " + test.file.string() + ", which takes " +
-            std::to_string(test.time.back() - test.time.front()) + " s");
+          std::string(rows.empty() ? "nothing" : "a single row") +
+            " is left of " + test.file.string() + ", which takes " +
+            short_text(test.time.back() - test.time.front()) + " s");
       // Nearly the least, but for a few stamps that are next to each other.
       std::vector<double> distances;
       for (std::size_t i = 1; i < rows.size(); ++i)

@@ -223,8 +223,11 @@ namespace SlipStep
           for (const unsigned int i : free)
             if (result.scaled[i] > 0. && result.scaled[i] < 1.)
               inside.push_back(i);
-          if (inside.empty() || inside.size() == free.size() ||
-              !improve(inside) || !improve(free))
+          const auto is_late = [&]() {
+            return std::chrono::steady_clock::now() > deadline;
+          };
+          if (inside.empty() || inside.size() == free.size() || is_late() ||
+              !improve(inside) || is_late() || !improve(free))
             return;
         }
     }
