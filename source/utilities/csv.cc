@@ -580,8 +580,12 @@ namespace SlipStep
     constexpr std::size_t longest = 200;
 
     const std::string words = boost::algorithm::join(names, ", ");
-    return readable_text(words.substr(0, longest)) +
-           (words.size() > longest ? " ..." : "");
+    std::size_t       end   = std::min(words.size(), longest);
+    // Not within a character.
+    while (end < words.size() && (words[end] & 0xC0) == 0x80)
+      ++end;
+    return readable_text(words.substr(0, end)) +
+           (end < words.size() ? " ..." : "");
   }
 
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/utilities/encoding.h>
 
+#include <algorithm>
+
 namespace SlipStep
 {
   namespace
@@ -10,7 +12,13 @@ namespace SlipStep
                                     const std::size_t  begin)
     {
       const unsigned char first = text[begin];
-      if (first >= 0xF8 || (first & 0xC0) == 0x80)
+      const unsigned char second =
+        begin + 1 < text.size() ? text[begin + 1] : '\0';
+      // The last four: longer than they need to be, of UTF-16, beyond all.
+      if (first >= 0xF5 || (first & 0xC0) == 0x80 || first == 0xC0 ||
+          first == 0xC1 || (first == 0xE0 && second < 0xA0) ||
+          (first == 0xED && second >= 0xA0) ||
+          (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90))
         return 0;
       const std::size_t length = first >= 0xF0 ? 4 :
                                  first >= 0xE0 ? 3 :
@@ -44,14 +52,24 @@ namespace SlipStep
     if (is_utf8(text))
       return text;
     std::string result;
-    for (const unsigned char byte : text)
-      if (byte < 0x80)
-        result += byte;
-      else
-        {
-          result += 0xC0 | (byte >> 6);
-          result += 0x80 | (byte & 0x3F);
-        }
+    for (std::size_t begin = 0; begin < text.size();)
+      {
+        const std::size_t end =
+          std::min(text.find('\n', begin), text.size() - 1) + 1;
+        const std::string line = text.substr(begin, end - begin);
+        begin                  = end;
+        if (is_utf8(line))
+          result += line;
+        else
+          for (const unsigned char byte : line)
+            if (byte < 0x80)
+              result += byte;
+            else
+              {
+                result += 0xC0 | (byte >> 6);
+                result += 0x80 | (byte & 0x3F);
+              }
+      }
     return result;
   }
 

@@ -26,6 +26,9 @@ TEST(Encoding, OtherTextIsLatin1)
 {
   EXPECT_EQ(to_utf8("a \xC2\xB5 b"), "a \xC2\xB5 b");
   EXPECT_EQ(to_utf8("a \xB5\xFC\xE9"), "a \xC2\xB5\xC3\xBC\xC3\xA9");
+  // Line by line.
+  EXPECT_EQ(to_utf8("\xC2\xB5\n\xB5\n\xC2\xB5"),
+            "\xC2\xB5\n\xC2\xB5\n\xC2\xB5");
 }
 
 
@@ -33,7 +36,13 @@ TEST(Encoding, OtherTextIsLatin1)
 TEST(Encoding, WhatCannotBeReadIsAQuestionMark)
 {
   // Latin-1, one that is cut off, the second byte alone.
-  for (const std::string text : {"\xB5", "\xC2", "\xE2\x80", "\x80"})
+  for (const std::string text : {"\xB5",
+                                 "\xC2",
+                                 "\xE2\x80",
+                                 "\x80",
+                                 "\xC0\x80",
+                                 "\xED\xA0\x80",
+                                 "\xF8\x88"})
     {
       EXPECT_FALSE(is_utf8(text));
       EXPECT_EQ(readable_text("a" + text), "a" + std::string(text.size(), '?'));
