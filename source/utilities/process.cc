@@ -180,6 +180,8 @@ namespace SlipStep
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, &old_interrupt);
     sigaction(SIGTERM, &action, &old_terminate);
+    // Of which there may be two, by the shell and by the terminal.
+    action.sa_flags = 0;
     sigaction(SIGHUP, &action, &old_hangup);
     // What nohup started goes on.
     if (old_hangup.sa_handler == SIG_IGN)

@@ -30,7 +30,7 @@ namespace SlipStep
 
   /// Run the jobs as child processes, side by side on the cores, and show one
   /// progress for all. What a child writes to stderr is passed on with its
-  /// label; a failed job does not stop the others. On SIGINT or SIGTERM the
+  /// label; a failed job does not stop the others. On a signal to stop the
   /// children are stopped, and then this process ends by the same signal.
   /// @param n_parallel at most so many at once; 0 = one per core
   /// @param is_resumable if not, a signal is left to the caller

@@ -48,8 +48,8 @@ namespace SlipStep
 
   /// While one lives, SIGINT, SIGTERM and SIGHUP (unless that is ignored) do
   /// not end the process but are remembered, so that files can be completed
-  /// first. The same signal a second
-  /// time ends it at once, unless @p is_patient. SIGUSR1 asks for a checkpoint.
+  /// first. SIGINT or SIGTERM a second time ends it at once, unless
+  /// @p is_patient. SIGUSR1 asks for a checkpoint.
   class SignalGuard
   {
   public:
