@@ -152,6 +152,8 @@ namespace SlipStep
       std::vector<std::string> others = parameters.list("Friction/Effects");
       others.erase(std::remove(others.begin(), others.end(), name),
                    others.end());
+      if (others.empty())
+        return false;
       Parameters without = parameters;
       without.set("Friction/Effects",
                   boost::algorithm::join(others, ", "),

@@ -239,7 +239,8 @@ namespace SlipStep
          "a test that turns round or trembles wants many: allow more, follow "
          "fewer rows, or a larger Time stepping/Tolerance" :
          "stick-slip, and a mass that rings on its spring, want many: allow "
-         "more, slide for less, or damp it (effect viscous)"));
+         "more, slide for less, or damp it (effect viscous)") +
+      sudden);
   }
 
 

@@ -82,8 +82,8 @@ namespace SlipStep
 
 
     // Looked for, in this order: the path in other capitals or with sections
-    // left out, the same name in another section, a similar name in the
-    // section, a similar path.
+    // left out, the name with an ending that is missing, the same name in
+    // another section, a similar name in the section, a similar path.
     std::string nearest_path(const std::string              &path,
                              const std::vector<std::string> &candidates)
     {
@@ -98,6 +98,13 @@ namespace SlipStep
           if (candidate.find('/') != std::string::npos &&
               is_same_word(candidate, path.substr(slash + 1)))
             same = {candidate};
+      constexpr std::size_t most_missing = 2;
+      for (const std::string &candidate : candidates)
+        if (same.empty() && candidate.size() > path.size() &&
+            candidate.size() <= path.size() + most_missing &&
+            path.find('/') != std::string::npos &&
+            is_same_word(candidate.substr(0, path.size()), path))
+          return candidate;
       if (same.empty())
         {
           same                   = endings(last_name(path), candidates);

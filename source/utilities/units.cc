@@ -381,8 +381,7 @@ namespace SlipStep
     if (!why.empty())
       return why;
     if (std::abs(value) > reachable)
-      return "the number is too large: " + short_text(reachable, 2) + " " +
-             base_unit(dimension) + " is the most";
+      return "the number is too large: beyond " + short_text(reachable, 2);
     if (value < minimum || value > maximum ||
         (minimum_is_excluded && value == minimum))
       return "out of range";

@@ -64,6 +64,8 @@ TEST(CommandLine, SettingsAreChecked)
   expect_refusal(with("Friction/Normal stiffness"), {"--set", "= value"});
   expect_refusal(with("Friction/Normal stifness=1"),
                  {"--set", "mean Friction/Normal stiffness?"});
+  // And no Test of another section.
+  expect_refusal(with("Calibration/Test = a.csv"), {"mean Calibration/Tests?"});
   expect_refusal(with("Friction/Normal stiffness = -1"),
                  {"--set Friction/Normal stiffness = -1", "greater than 0"});
   expect_refusal(with("Friction/healing/Rate = 1"),
