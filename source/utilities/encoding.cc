@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/utilities/encoding.h>
 
-#include <algorithm>
-
 namespace SlipStep
 {
   namespace
@@ -52,24 +50,18 @@ namespace SlipStep
     if (is_utf8(text))
       return text;
     std::string result;
-    for (std::size_t begin = 0; begin < text.size();)
-      {
-        const std::size_t end =
-          std::min(text.find('\n', begin), text.size() - 1) + 1;
-        const std::string line = text.substr(begin, end - begin);
-        begin                  = end;
-        if (is_utf8(line))
-          result += line;
-        else
-          for (const unsigned char byte : line)
-            if (byte < 0x80)
-              result += byte;
-            else
-              {
-                result += 0xC0 | (byte >> 6);
-                result += 0x80 | (byte & 0x3F);
-              }
-      }
+    for (std::size_t i = 0; i < text.size();)
+      if (const std::size_t length = length_of_character(text, i); length > 0)
+        {
+          result += text.substr(i, length);
+          i += length;
+        }
+      else
+        {
+          const unsigned char byte = text[i++];
+          result += static_cast<char>(0xC0 | (byte >> 6));
+          result += static_cast<char>(0x80 | (byte & 0x3F));
+        }
     return result;
   }
 

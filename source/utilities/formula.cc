@@ -147,9 +147,8 @@ namespace SlipStep
         if (error.GetCode() == mu::ecTOO_MANY_PARAMS)
           why += "; decimals begin with a point";
         else if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN &&
-                 !variables.empty())
-          why +=
-            "; what it knows is " + list_text(variables) + ", pi and functions";
+                 variables == std::vector<std::string>{"x"})
+          why += "; what it knows is x, pi and functions";
         throw InputError(why);
       }
   }

@@ -26,9 +26,8 @@ TEST(Encoding, OtherTextIsLatin1)
 {
   EXPECT_EQ(to_utf8("a \xC2\xB5 b"), "a \xC2\xB5 b");
   EXPECT_EQ(to_utf8("a \xB5\xFC\xE9"), "a \xC2\xB5\xC3\xBC\xC3\xA9");
-  // Line by line.
-  EXPECT_EQ(to_utf8("\xC2\xB5\n\xB5\n\xC2\xB5"),
-            "\xC2\xB5\n\xC2\xB5\n\xC2\xB5");
+  // Beside UTF-8.
+  EXPECT_EQ(to_utf8("\xC2\xB5 \xB5 \xC2\xB5"), "\xC2\xB5 \xC2\xB5 \xC2\xB5");
 }
 
 

@@ -8,7 +8,7 @@ namespace SlipStep
 {
   bool is_utf8(const std::string &text);
 
-  /// A line that is no UTF-8 is taken for Latin-1.
+  /// With each byte that is no UTF-8 taken for a letter of Latin-1.
   std::string to_utf8(const std::string &text);
 
   /// The text with a question mark for each byte that is no UTF-8 or cannot be
