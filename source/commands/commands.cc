@@ -108,10 +108,17 @@ namespace SlipStep
     dealii::deal_II_exceptions::disable_abort_on_exception();
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
     Outcome outcome = start(argc, argv, file);
-    // Why an earlier write failed is not known any more.
-    errno = 0;
+    errno           = 0;
     if (!std::cout.flush() && outcome.exit_code == done)
-      outcome = {run_failed, write_failure("the output").what()};
+      {
+        // Why an earlier write failed a new one tells.
+        if (errno == 0)
+          {
+            std::cout.clear();
+            std::cout << std::endl;
+          }
+        outcome = {run_failed, write_failure("the output").what()};
+      }
     // Under mpirun every rank finds the same errors in the input.
     if (!outcome.message.empty() && launched_rank() == 0)
       std::cerr << outcome.message << std::endl;
