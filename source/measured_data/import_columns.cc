@@ -4,6 +4,7 @@
 #include <slipstep/measured_data/column_words.h>
 #include <slipstep/measured_data/import_columns.h>
 #include <slipstep/measured_data/measured_test.h>
+#include <slipstep/utilities/encoding.h>
 #include <slipstep/utilities/lists.h>
 
 #include <boost/algorithm/string/predicate.hpp>
@@ -195,7 +196,7 @@ namespace SlipStep
       std::size_t position = header.size();
       for (std::size_t i = 0; i < header.size(); ++i)
         {
-          if (header[i] != name)
+          if (header[i] != to_utf8(name))
             continue;
           if (position < header.size())
             reject(table.name() + " has two columns '" + name +
