@@ -217,15 +217,15 @@ namespace SlipStep
         result            = better;
         return gain > precision * result.misfit;
       };
+      const auto is_late = [&]() {
+        return std::chrono::steady_clock::now() > deadline;
+      };
       for (unsigned int n = 0; n < most; ++n)
         {
           std::vector<unsigned int> inside;
           for (const unsigned int i : free)
             if (result.scaled[i] > 0. && result.scaled[i] < 1.)
               inside.push_back(i);
-          const auto is_late = [&]() {
-            return std::chrono::steady_clock::now() > deadline;
-          };
           if (inside.empty() || inside.size() == free.size() || is_late() ||
               !improve(inside) || is_late() || !improve(free))
             return;

@@ -90,10 +90,10 @@ namespace SlipStep
           if (result.p > level)
             result.p = std::numeric_limits<double>::quiet_NaN();
           result.is_testable = true;
-          if (part < found.costs.size())
+          if (part < found.evidence.size())
             {
-              result.gain          = found.costs[part];
-              result.left_out_gain = found.left_out_gains[part];
+              result.gain          = found.evidence[part].cost;
+              result.left_out_gain = found.evidence[part].left_out_gain;
             }
           for (const DiagnosedParameter &parameter : parameters)
             if (parameter.effect == result.name)

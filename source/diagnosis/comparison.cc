@@ -214,7 +214,7 @@ namespace SlipStep
   {
     counts(row) = 0.;
     for (ComparedTest &test : tests)
-      if (row >= test.begin && row < test.begin + test.size)
+      if (test.has_row(row))
         {
           const Eigen::Index n_bins = test.n_bins();
           test.series[(row - test.begin) / n_bins]

@@ -77,7 +77,7 @@ namespace SlipStep
           fitted_model(workspace, first.parts, first.values(), base, 0.01);
         if (alone.has_value() && !is_at_bound(*alone) &&
             base.objective - alone->objective > nearly * gain &&
-            is_needed(workspace, base, *alone))
+            evidence_for(workspace, base, *alone).is_enough())
           result.push_back({other.name,
                             named.name,
                             penalised(*alone) - penalised(found.model),

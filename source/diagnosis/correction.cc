@@ -39,7 +39,7 @@ namespace SlipStep
                            const Model     &base,
                            const Model     &corrected)
     {
-      if (!is_needed(workspace, base, corrected))
+      if (!evidence_for(workspace, base, corrected).is_enough())
         return false;
       const Comparison &comparison   = workspace.comparison;
       const auto        left_out_rms = [&](const Model &model) {

@@ -142,12 +142,12 @@ namespace SlipStep
       result.explained_share = judgement.explained_share;
       result.remainder_p     = judgement.remainder.p;
       final_model            = judgement.found.model;
-      const std::vector<double> &costs = judgement.found.costs;
-      std::vector<std::size_t>   order(final_model.parts.size());
+      const std::vector<Evidence> &evidence = judgement.found.evidence;
+      std::vector<std::size_t>     order(final_model.parts.size());
       std::iota(order.begin(), order.end(), 0);
-      if (costs.size() == order.size())
+      if (evidence.size() == order.size())
         stable_sort(order, [&](const std::size_t a, const std::size_t b) {
-          return costs[a] > costs[b];
+          return evidence[a].cost > evidence[b].cost;
         });
       for (const std::size_t part : order)
         if (final_model.parts[part].corrects.empty())
@@ -179,10 +179,10 @@ namespace SlipStep
     // By one test alone it may be that test that went wrong.
     void Diagnostician::tell_lone_tests(const std::size_t part)
     {
-      if (part >= judgement.found.told_by.size())
+      if (part >= judgement.found.evidence.size())
         return;
       const Comparison &comparison = ingested.workspace->comparison;
-      for (const std::size_t condition : judgement.found.told_by[part])
+      for (const std::size_t condition : judgement.found.evidence[part].told_by)
         {
           std::vector<std::string> tests;
           for (std::size_t t = 0; t < comparison.tests.size(); ++t)

@@ -203,10 +203,11 @@ namespace SlipStep
       bool        is_all_told = true;
       const Model other       = fit_without(comparison, model, c, is_all_told);
       result.others_tell[c]   = is_all_told;
-      const Eigen::VectorXd difference = comparison.difference(other);
-      result.of_others[c]              = other.objective;
+      Eigen::VectorXd difference = comparison.difference(other);
+      result.of_others[c]        = other.objective;
+      // What cannot be simulated predicts no friction at all.
       if (difference.size() == 0)
-        return;
+        difference = -comparison.measured;
       RowMatrix whitened = difference;
       comparison.whiten(whitened);
       for (std::size_t t = 0; t < comparison.tests.size(); ++t)
@@ -230,31 +231,42 @@ namespace SlipStep
 
 
 
-  std::vector<std::size_t> conditions_that_tell(const Workspace &workspace,
-                                                const Model     &less,
-                                                const Model     &more)
+  Evidence
+  evidence_for(const Workspace &workspace, const Model &less, const Model &more)
   {
-    const std::vector<double> a = left_out(workspace, less).of_others;
-    const std::vector<double> b = left_out(workspace, more).of_others;
-    std::vector<std::size_t>  result;
-    for (std::size_t c = 0; c < a.size(); ++c)
-      if (a[c] - b[c] < least_cost)
-        result.push_back(c);
+    const LeftOut a = left_out(workspace, less);
+    const LeftOut b = left_out(workspace, more);
+    Evidence      result{less.objective - more.objective};
+    double        gain = 0.;
+    for (std::size_t c = 0; c < a.squares.size(); ++c)
+      {
+        const double here = a.squares[c] - b.squares[c];
+        const bool   others_ask =
+          a.of_others[c] - b.of_others[c] >= least_cost || std::isnan(here);
+        if (!others_ask)
+          result.told_by.push_back(c);
+        result.judges.push_back(others_ask || here >= 0.);
+        if (result.judges.back())
+          gain += here;
+      }
+    // What one condition alone tells of, others can only speak against.
+    const bool is_known =
+      none_of(result.judges, [](const bool judge) { return !judge; }) &&
+      (result.told_by.size() != 1 || gain > 0.);
+    if (is_known || gain <= -least_cost)
+      result.left_out_gain = gain;
     return result;
   }
 
 
 
-  std::vector<bool> conditions_that_judge(const Workspace &workspace,
-                                          const Model     &less,
-                                          const Model     &more)
+  bool Evidence::is_enough(const std::size_t n) const
   {
-    const LeftOut     a = left_out(workspace, less);
-    const LeftOut     b = left_out(workspace, more);
-    std::vector<bool> result(a.squares.size(), true);
-    for (const std::size_t c : conditions_that_tell(workspace, less, more))
-      result[c] = a.squares[c] >= b.squares[c];
-    return result;
+    const bool is_known = !std::isnan(left_out_gain);
+    // What can be asked of other conditions has less to show.
+    const double least =
+      is_known || told_by.size() == 1 ? least_cost : sure_cost;
+    return cost >= n * least && !(is_known && left_out_gain <= 0.);
   }
 
 
@@ -264,42 +276,17 @@ namespace SlipStep
                        const Model     &model,
                        const Model     &other)
   {
-    const auto judges = [&](const Model &more) {
-      return conditions_that_judge(workspace, base, more);
-    };
-    const LeftOut           a        = left_out(workspace, model);
-    const LeftOut           b        = left_out(workspace, other);
-    const std::vector<bool> judges_a = judges(model), judges_b = judges(other);
-    double                  lead = 0.;
+    const LeftOut           a = left_out(workspace, model);
+    const LeftOut           b = left_out(workspace, other);
+    const std::vector<bool> judges_a =
+      evidence_for(workspace, base, model).judges;
+    const std::vector<bool> judges_b =
+      evidence_for(workspace, base, other).judges;
+    double lead = 0.;
     // Without a part of it no model can lead.
     for (std::size_t c = 0; c < judges_a.size(); ++c)
       if (judges_a[c] && judges_b[c] && a.others_tell[c] && b.others_tell[c])
         lead += b.squares[c] - a.squares[c];
     return lead;
-  }
-
-
-
-  double left_out_gain(const Workspace &workspace,
-                       const Model     &less,
-                       const Model     &more)
-  {
-    const LeftOut           a = left_out(workspace, less);
-    const LeftOut           b = left_out(workspace, more);
-    const std::vector<bool> judges =
-      conditions_that_judge(workspace, less, more);
-    double gain = 0.;
-    for (std::size_t c = 0; c < judges.size(); ++c)
-      if (judges[c])
-        gain += a.squares[c] - b.squares[c];
-    // What one condition alone tells of, others can only speak against.
-    const bool is_lone =
-      conditions_that_tell(workspace, less, more).size() == 1;
-    const bool is_known =
-      none_of(judges, [](const bool judge) { return !judge; }) &&
-      (!is_lone || gain > 0.);
-    return is_known || gain <= -least_cost ?
-             gain :
-             std::numeric_limits<double>::quiet_NaN();
   }
 } // namespace SlipStep

@@ -38,7 +38,7 @@ namespace SlipStep
         {
           std::optional<Eigen::Index> farthest;
           for (const Eigen::Index row : of)
-            if (row >= test.begin && row < test.begin + test.size &&
+            if (test.has_row(row) &&
                 distance(row) >
                   (farthest.has_value() ? distance(*farthest) : threshold))
               farthest = row;
@@ -126,7 +126,7 @@ namespace SlipStep
         const std::vector<double> &time = workspace.tests[t].rows.time;
         std::vector<std::string>   times;
         for (const Eigen::Index row : rows)
-          if (row >= test.begin && row < test.begin + test.size)
+          if (test.has_row(row))
             times.push_back(short_text(
               time[test.borders[(row - test.begin) % test.n_bins()]]));
         if (times.empty())

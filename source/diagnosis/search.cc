@@ -4,7 +4,6 @@
 #include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/gap.h>
 #include <slipstep/diagnosis/search.h>
-#include <slipstep/diagnosis/left_out.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/rules.h>
 #include <slipstep/utilities/exceptions.h>
@@ -16,32 +15,6 @@
 
 namespace SlipStep
 {
-  bool is_needed(const double      cost,
-                 const double      left_out_gain,
-                 const bool        is_told_by_one,
-                 const std::size_t n)
-  {
-    const bool is_known = !std::isnan(left_out_gain);
-    return cost >= n * (is_known || is_told_by_one ? least_cost : sure_cost) &&
-           !(is_known && left_out_gain <= 0.);
-  }
-
-
-
-  bool is_needed(const Workspace  &workspace,
-                 const Model      &less,
-                 const Model      &more,
-                 const std::size_t n)
-  {
-    return is_needed(less.objective - more.objective,
-                     left_out_gain(workspace, less, more),
-                     workspace.comparison.conditions.size() > 1 &&
-                       conditions_that_tell(workspace, less, more).size() == 1,
-                     n);
-  }
-
-
-
   namespace
   {
     /// Another first addition to a model.
@@ -96,6 +69,8 @@ namespace SlipStep
       double level() const;
 
       bool exchange_and_prune();
+
+      std::size_t weakest() const;
 
       bool is_soaking_up(const unsigned int n_allowed);
 
@@ -200,10 +175,8 @@ namespace SlipStep
       const std::optional<FreeFactor> completed =
         complete_formula(workspace, result.model);
       const auto is_good = [&](const Model &more) {
-        return is_needed(workspace,
-                         result.model,
-                         more,
-                         more.parts.size() - result.model.parts.size());
+        return evidence_for(workspace, result.model, more)
+          .is_enough(more.parts.size() - result.model.parts.size());
       };
       for (auto best = found.begin(); best != found.end(); ++best)
         {
@@ -245,24 +218,19 @@ namespace SlipStep
         refit_without(workspace, result.model, part);
       if (!less.has_value())
         {
-          result.costs.push_back(std::numeric_limits<double>::infinity());
-          result.left_out_gains.push_back(0.);
-          result.told_by.emplace_back();
+          result.evidence.push_back(
+            {std::numeric_limits<double>::infinity(), 0.});
           return false;
         }
-      const double cost = less->objective - result.model.objective;
-      if (!is_needed(workspace, *less, result.model))
+      const Evidence evidence = evidence_for(workspace, *less, result.model);
+      if (!evidence.is_enough())
         {
           result.model = *less;
           return true;
         }
-      result.costs.push_back(cost);
-      result.left_out_gains.push_back(
-        left_out_gain(workspace, *less, result.model));
-      result.told_by.push_back(
-        conditions_that_tell(workspace, *less, result.model));
+      result.evidence.push_back(evidence);
       return result.model.parts[part].corrects.empty() &&
-             try_rivals(*less, result.model.parts[part], cost);
+             try_rivals(*less, result.model.parts[part], evidence.cost);
     }
 
 
@@ -326,7 +294,8 @@ namespace SlipStep
           if (penalised(*tried) < penalised(result.model) - sure_gain)
             settle(workspace, *tried);
           const double distance = penalised(*tried) - penalised(result.model);
-          if (distance >= rival_distance || !is_needed(workspace, less, *tried))
+          if (distance >= rival_distance ||
+              !evidence_for(workspace, less, *tried).is_enough())
             continue;
           if (distance < -sure_gain)
             {
@@ -346,9 +315,7 @@ namespace SlipStep
     bool Searcher::exchange_and_prune()
     {
       result.rivals.clear();
-      result.costs.clear();
-      result.left_out_gains.clear();
-      result.told_by.clear();
+      result.evidence.clear();
       for (std::size_t part = 0; part < result.model.parts.size(); ++part)
         if (workspace.is_late())
           return false;
@@ -359,20 +326,32 @@ namespace SlipStep
 
 
 
+    // The part that costs least to leave out.
+    std::size_t Searcher::weakest() const
+    {
+      return std::min_element(result.evidence.begin(),
+                              result.evidence.end(),
+                              [](const Evidence &a, const Evidence &b) {
+                                return a.cost < b.cost;
+                              }) -
+             result.evidence.begin();
+    }
+
+
+
     // Each name gains less than the one before it. If those that are still
     // allowed could not explain what remains, the formula of a stronger name is
     // not the right one, and the weakest takes up what that leaves.
     bool Searcher::is_soaking_up(const unsigned int n_allowed)
     {
       if (result.model.parts.size() < 2 ||
-          result.costs.size() < result.model.parts.size())
+          result.evidence.size() < result.model.parts.size())
         return false;
       const GapTest remainder =
         test_gap(workspace,
                  result.model,
                  score_candidates(workspace, result.model));
-      const double least =
-        *std::min_element(result.costs.begin(), result.costs.end());
+      const double least = result.evidence[weakest()].cost;
       return remainder.p <= workspace.level &&
              remainder.excess > (n_allowed + 1) * least + sure_excess;
     }
@@ -391,10 +370,8 @@ namespace SlipStep
 
     void Searcher::drop_weakest()
     {
-      const auto weakest =
-        std::min_element(result.costs.begin(), result.costs.end());
       const std::optional<Model> less =
-        refit_without(workspace, result.model, weakest - result.costs.begin());
+        refit_without(workspace, result.model, weakest());
       if (less.has_value())
         {
           result.model = *less;
@@ -568,9 +545,9 @@ namespace SlipStep
       workspace.tell("beginning with " + other->model.parts.back().name);
       SearchResult others = Searcher(workspace, other->model).go_on();
       // Nothing has to be added to it.
-      if (others.costs.empty())
+      if (others.evidence.empty())
         others = Searcher(workspace, other->model).run();
-      if (others.costs.empty() || workspace.is_late())
+      if (others.evidence.empty() || workspace.is_late())
         return found;
       return better_of(
         found,

@@ -24,9 +24,7 @@ namespace SlipStep
       judgement.withdrawn   = effect_names(judgement.found.model.parts);
       judgement.found.model = judgement.base;
       judgement.found.rivals.clear();
-      judgement.found.costs.clear();
-      judgement.found.left_out_gains.clear();
-      judgement.found.told_by.clear();
+      judgement.found.evidence.clear();
       judgement.remainder       = judgement.gap;
       judgement.explained_share = 0.;
       judgement.verdict         = Verdict::unnamed;
@@ -197,7 +195,7 @@ namespace SlipStep
       left_out(workspace, base, &before);
       left_out(workspace, model, &after);
       const std::vector<bool> judges =
-        conditions_that_judge(workspace, base, model);
+        evidence_for(workspace, base, model).judges;
       for (const ComparedTest &test : comparison.tests)
         if (!judges[test.condition])
           for (Eigen::VectorXd *differences : {&before, &after})
@@ -234,7 +232,7 @@ namespace SlipStep
       const Model &model = judgement.found.model;
       const Model &base  = judgement.base;
       if (is_at_bound(model) || is_farther(workspace, base, model) ||
-          left_out_gain(workspace, base, model) <= 0. ||
+          evidence_for(workspace, base, model).left_out_gain <= 0. ||
           !explains_by_itself(workspace, judgement))
         return false;
       judgement.is_incomplete = judgement.remainder.p <= workspace.level;

@@ -82,17 +82,21 @@ TEST(Evidence, IsSignificantAndTestable)
 
 TEST(Evidence, LowersFittedAndLeftOutDifferences)
 {
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(is_needed(16., 0.1, false));
-  EXPECT_FALSE(is_needed(14., 20., false));
-  EXPECT_FALSE(is_needed(1000., -1., false));
-  EXPECT_FALSE(is_needed(1000., 0., false));
+  const double none      = std::numeric_limits<double>::quiet_NaN();
+  const auto   is_enough = [](const Evidence &evidence) {
+    return evidence.is_enough();
+  };
+  EXPECT_TRUE(is_enough({16., 0.1}));
+  EXPECT_FALSE(is_enough({14., 20.}));
+  EXPECT_FALSE(is_enough({1000., -1.}));
+  EXPECT_FALSE(is_enough({1000., 0.}));
   // One condition: nothing can be left out.
-  EXPECT_TRUE(is_needed(31., none, false));
-  EXPECT_FALSE(is_needed(29., none, false));
+  EXPECT_TRUE(is_enough({31., none}));
+  EXPECT_FALSE(is_enough({29., none}));
   // One of several conditions alone tells of it.
-  EXPECT_TRUE(is_needed(16., none, true));
-  EXPECT_FALSE(is_needed(14., none, true));
+  EXPECT_TRUE(is_enough({16., none, {2}}));
+  EXPECT_FALSE(is_enough({14., none, {2}}));
+  EXPECT_FALSE(is_enough({29., none, {0, 2}}));
 }
 
 

@@ -33,6 +33,11 @@ namespace SlipStep
       return borders.size() - 1;
     }
 
+    bool has_row(const Eigen::Index row) const
+    {
+      return row >= begin && row < begin + size;
+    }
+
     /// Of the rows of a number.
     std::size_t middle_row(const std::size_t bin) const
     {

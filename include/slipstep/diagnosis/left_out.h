@@ -4,6 +4,9 @@
 
 #include <slipstep/diagnosis/workspace.h>
 
+#include <limits>
+#include <vector>
+
 namespace SlipStep
 {
   /// How well every condition is predicted by a model fitted to all others; NaN
@@ -13,25 +16,30 @@ namespace SlipStep
                    const Model     &model,
                    Eigen::VectorXd *differences = nullptr);
 
-  /// Those without which the others do not ask for what a model has more.
-  std::vector<std::size_t> conditions_that_tell(const Workspace &workspace,
-                                                const Model     &less,
-                                                const Model     &more);
+  /// What speaks for what a model has more than another.
+  struct Evidence
+  {
+    double cost = 0.; ///< of leaving it out
+    /// By how much the squares of whitened differences on left-out conditions
+    /// are less with it. NaN if that does not tell: for tests of a single
+    /// condition, or where one does not judge, or alone tells of it, and the
+    /// others have little against it.
+    double left_out_gain = std::numeric_limits<double>::quiet_NaN();
+    /// Conditions without which the others do not ask for it.
+    std::vector<std::size_t> told_by = {};
+    /// By condition: left out, one that alone tells of an effect is predicted
+    /// without it, or by what others hardly tell. All others judge, and those
+    /// that speak for it nevertheless.
+    std::vector<bool> judges = {};
 
-  /// Those without which the others tell of what a model has more, and those
-  /// that speak for it nevertheless. Left out, one that alone tells of an
-  /// effect is predicted without it, or by what others hardly tell.
-  std::vector<bool> conditions_that_judge(const Workspace &workspace,
-                                          const Model     &less,
-                                          const Model     &more);
+    /// Whether fitted and left-out differences are enough lower.
+    /// @param n effects that it is
+    bool is_enough(const std::size_t n = 1) const;
+  };
 
-  /// By how much the squares of whitened differences on left-out conditions are
-  /// less with more effects. NaN if that does not tell: for tests of a single
-  /// condition, or where one does not judge, or alone tells of it, and the
-  /// others have little against it.
-  double left_out_gain(const Workspace &workspace,
-                       const Model     &less,
-                       const Model     &more);
+  Evidence evidence_for(const Workspace &workspace,
+                        const Model     &less,
+                        const Model     &more);
 
   /// By how much those squares are less with one model than with another, on
   /// conditions that judge what both have more than a base, and without which

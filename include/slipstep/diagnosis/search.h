@@ -3,27 +3,13 @@
 #define slipstep_diagnosis_search_h
 
 #include <slipstep/diagnosis/additions.h>
+#include <slipstep/diagnosis/left_out.h>
 
 #include <string>
 #include <vector>
 
 namespace SlipStep
 {
-  /// Whether an addition lowers the fitted and the left-out differences enough.
-  /// @param left_out_gain NaN if it does not tell
-  /// @param is_told_by_one of several conditions alone, so that it cannot
-  /// @param n effects that are added
-  bool is_needed(const double      cost,
-                 const double      left_out_gain,
-                 const bool        is_told_by_one,
-                 const std::size_t n = 1);
-
-  /// The same of two models.
-  bool is_needed(const Workspace  &workspace,
-                 const Model      &less,
-                 const Model      &more,
-                 const std::size_t n = 1);
-
   /// A rival of a named effect: with it in the place of the name the tests are
   /// explained as well.
   struct Rival
@@ -37,13 +23,10 @@ namespace SlipStep
   /// What a search came to.
   struct SearchResult
   {
-    Model              model;
-    std::vector<Rival> rivals;
-    /// Cost of removing each part, and what left-out conditions gain by it.
-    std::vector<double> costs, left_out_gains;
-    /// Without which of the conditions the others do not ask for it.
-    std::vector<std::vector<std::size_t>> told_by;
-    FirstFits                             first_fits;
+    Model                 model;
+    std::vector<Rival>    rivals;
+    std::vector<Evidence> evidence; ///< for each part
+    FirstFits             first_fits;
   };
 
   /// Of what two searches came to, the one that explains the tests better and

@@ -321,8 +321,8 @@ TEST_F(OwnRecords, TheConditionThatTellsOfANameIsKnown)
     };
   });
   const Judgement judgement = judged("subloading", "");
-  ASSERT_FALSE(judgement.found.told_by.empty());
-  const std::vector<std::size_t> told_by = judgement.found.told_by[0];
+  ASSERT_FALSE(judgement.found.evidence.empty());
+  const std::vector<std::size_t> told_by = judgement.found.evidence[0].told_by;
   ASSERT_EQ(told_by.size(), 1u);
   EXPECT_EQ(ingested.workspace->comparison.conditions[told_by[0]], "6");
 }
