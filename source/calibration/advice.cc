@@ -72,8 +72,9 @@ namespace SlipStep
           const double pressure = typical_pressure(rows);
           result.lowest         = std::min(result.lowest, pressure);
           result.highest        = std::max(result.highest, pressure);
-          result.longest =
-            std::max(result.longest, range_of(rows.displacement));
+          result.longest        = std::max(result.longest,
+                                    std::hypot(range_of(rows.displacement),
+                                               range_of(rows.displacement_y)));
         }
       return result;
     }

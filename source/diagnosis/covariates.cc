@@ -9,6 +9,8 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
 namespace SlipStep
 {
@@ -324,6 +326,24 @@ namespace SlipStep
 
 
 
+    // How most of the motion along a line goes.
+    bool goes_mostly_back(const Covariates &rows, const double line)
+    {
+      constexpr double most = 0.6;
+
+      double along = 0., back = 0.;
+      for (Eigen::Index k = 0; k < rows.speed.size(); ++k)
+        if (is_motion(rows, k) &&
+            std::abs(std::cos(rows.angle(k) - line)) > 0.5)
+          {
+            along += 1.;
+            back += std::cos(rows.angle(k) - line) < 0.;
+          }
+      return back > most * along;
+    }
+
+
+
     // See TestedRange.
     double main_line(const Covariates &rows)
     {
@@ -339,12 +359,19 @@ namespace SlipStep
               lines[(degrees % half_turn + half_turn) % half_turn] +=
                 1. - 0.01 * i * i;
             }
-      const auto commonest = std::max_element(lines.begin(), lines.end());
+      const auto commonest      = std::max_element(lines.begin(), lines.end());
+      const auto turned_forward = [&](const double line) {
+        if (!goes_mostly_back(rows, line))
+          return line;
+        return line > 0. ? line - dealii::numbers::PI :
+                           line + dealii::numbers::PI;
+      };
       if (lines[0] > 0.5 * *commonest)
-        return 0.;
+        return turned_forward(0.);
       const int degrees = commonest - lines.begin();
-      return (degrees > half_turn / 2 ? degrees - half_turn : degrees) *
-             dealii::numbers::PI / half_turn;
+      return turned_forward(
+        (degrees > half_turn / 2 ? degrees - half_turn : degrees) *
+        dealii::numbers::PI / half_turn);
     }
 
 
@@ -410,13 +437,15 @@ namespace SlipStep
                            const Covariates                &covariates)
   {
     TestedRange         result;
-    std::vector<double> moving, angles, frictions;
+    std::vector<double> moving, angles, pressures, frictions;
     result.main_line = covariates.main_line;
     for (Eigen::Index k = 0; k < comparison.n_rows(); ++k)
       if (is_motion(covariates, k))
         {
           moving.push_back(covariates.speed(k));
           angles.push_back(covariates.angle(k));
+          if (covariates.pressure(k) > 0.)
+            pressures.push_back(covariates.pressure(k));
         }
     // The few rows of a start or a stop do not count.
     if (!angles.empty())
@@ -441,24 +470,23 @@ namespace SlipStep
                        2);
           frictions.push_back(std::sqrt(square));
         }
-    std::sort(moving.begin(), moving.end());
-    if (!moving.empty())
-      {
-        // Without the few rows of a start or a stop.
-        result.slowest = moving[moving.size() / 50];
-        result.fastest = moving[moving.size() - 1 - moving.size() / 50];
-      }
-    result.typical_friction = median(frictions);
-    result.lowest           = std::numeric_limits<double>::infinity();
+    // Without the few rows of a start or a stop.
+    const auto bulk_of = [](std::vector<double> values) {
+      std::sort(values.begin(), values.end());
+      const std::size_t n = values.size(), few = n / 50;
+      return n == 0 ? std::make_pair(0., 0.) :
+                      std::make_pair(values[few], values[n - 1 - few]);
+    };
+    std::tie(result.slowest, result.fastest) = bulk_of(moving);
+    std::tie(result.lowest, result.highest)  = bulk_of(pressures);
+    result.typical_friction                  = median(frictions);
     for (std::size_t t = 0; t < tests.size(); ++t)
       {
         const MeasuredTest &rows = tests[t].rows;
-        for (const double pressure : rows.pressure)
-          if (pressure > 0.)
-            {
-              result.lowest  = std::min(result.lowest, pressure);
-              result.highest = std::max(result.highest, pressure);
-            }
+        result.largest_pressure =
+          std::max(result.largest_pressure,
+                   *std::max_element(rows.pressure.begin(),
+                                     rows.pressure.end()));
         result.longest_test =
           std::max(result.longest_test, rows.time.back() - rows.time.front());
         const ComparedTest &test = comparison.tests[t];

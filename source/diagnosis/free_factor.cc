@@ -167,10 +167,12 @@ namespace SlipStep
       const Parameters &parameters = model.simulator->with(model.scaled);
       const std::vector<std::string> effects =
         parameters.list("Friction/Effects");
-      const bool has_texture = holds(effects, "texture");
+      const bool   has_texture = holds(effects, "texture");
+      const double line        = has_texture ?
+                                   parameters.number("Friction/texture/Angle") :
+                                   workspace.range.main_line;
       // A position along the first axis is all that a factor knows.
-      if (has_texture ? parameters.number("Friction/texture/Angle") != 0. :
-                        workspace.range.main_line != 0.)
+      if (std::abs(std::sin(line)) > 1e-6)
         return {};
       const double wavelength =
         has_texture ? parameters.number("Friction/texture/Wavelength") :

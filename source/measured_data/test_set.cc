@@ -15,33 +15,35 @@ namespace SlipStep
   {
     constexpr double largest_ratio = 1.2;
 
-    struct MotionOfTest
+    // Below which displacements do not tell motion from jitter [mm].
+    double jitter_of(const MeasuredTest &test)
     {
-      double path     = 0.; ///< [mm]
-      double duration = 0.; ///< from first to last motion [s]
-    };
+      return 0.005 * std::max(range_of(test.displacement),
+                              range_of(test.displacement_y));
+    }
 
-    MotionOfTest motion_of(const MeasuredTest &test)
+
+
+    // From first to last motion [s].
+    double duration_of_motion(const MeasuredTest &test)
     {
-      MotionOfTest result;
-      std::size_t  first = test.time.size(), last = 0;
+      std::size_t first = test.time.size(), last = 0;
       for (const auto *displacement :
            {&test.displacement, &test.displacement_y})
         {
           const std::vector<double> smooth =
-            without_jitter(*displacement, 0.005 * range_of(*displacement));
+            without_jitter(*displacement, jitter_of(test));
           for (std::size_t i = 1; i < smooth.size(); ++i)
             if (smooth[i] != smooth[i - 1])
               {
-                result.path += std::abs(smooth[i] - smooth[i - 1]);
                 first = std::min(first, i - 1);
                 last  = std::max(last, i);
               }
         }
-      if (first < last)
-        result.duration = test.time[last] - test.time[first];
-      return result;
+      return first < last ? test.time[last] - test.time[first] : 0.;
     }
+
+
 
     // Along rows that are farther apart than jitter; turns and ends count in
     // full.
@@ -49,7 +51,7 @@ namespace SlipStep
     {
       const std::vector<double> &x = test.displacement,
                                 &y = test.displacement_y;
-      const double          band   = 0.005 * std::max(range_of(x), range_of(y));
+      const double          band   = jitter_of(test);
       std::set<std::size_t> fixed;
       for (const auto *displacement : {&x, &y})
         for (const std::size_t row : turning_rows(*displacement, band))
@@ -194,8 +196,8 @@ namespace SlipStep
 
   double mean_speed(const MeasuredTest &test)
   {
-    const MotionOfTest motion = motion_of(test);
-    return motion.duration > 0. ? motion.path / motion.duration : 0.;
+    const double duration = duration_of_motion(test);
+    return duration > 0. ? path_of(test) / duration : 0.;
   }
 
 

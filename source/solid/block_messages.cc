@@ -267,7 +267,9 @@ namespace SlipStep
                      const Programme       &programme)
     {
       for (unsigned int i = 0; i + 1 < parameters.dimension; ++i)
-        if (parameters.subdivisions[parameters.tangential_axis(i)] < 3 &&
+        if (parameters.subdivisions[parameters.tangential_axis(i)] *
+                parameters.refinement.initial_cells_per_subdivision() <
+              3 &&
             std::any_of(programme.segments().begin(),
                         programme.segments().end(),
                         [&](const Segment &segment) {

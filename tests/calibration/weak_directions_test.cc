@@ -3,6 +3,8 @@
 // What tests cannot tell is named, with what would, and does not spoil the
 // deviations of the rest.
 
+#include <slipstep/calibration/advice.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -107,4 +109,37 @@ TEST(WeakDirections, WhatNoTestCanTellSpoilsNothingElse)
   EXPECT_NEAR(std::log1p(coefficient / found.parameters[1].value),
               -0.1 * reference,
               0.03);
+}
+
+
+
+// What is proposed beside tests along x is so beside those along any line.
+TEST(ProposedTests, AreTheSameAlongEveryLine)
+{
+  const auto proposed = [](const double angle) {
+    MeasuredTest test;
+    for (int i = 0; i <= 100; ++i)
+      {
+        test.time.push_back(0.1 * i);
+        test.displacement.push_back(0.02 * i * std::cos(angle));
+        test.displacement_y.push_back(0.02 * i * std::sin(angle));
+        test.pressure.push_back(1.);
+        test.friction.push_back(i == 0 ? 0. : 0.08 * std::cos(angle));
+        test.friction_y.push_back(i == 0 ? 0. : 0.08 * std::sin(angle));
+      }
+    const Campaign campaign(calibration_case(law),
+                            std::vector<FitParameter>(),
+                            {{test,
+                              {{std::cos(angle), std::sin(angle), 0.001}},
+                              true,
+                              Replay(test)}});
+    std::string    words;
+    for (const ProposedTest &test : propose_tests(campaign))
+      words += test.words + "\n";
+    return words;
+  };
+  const std::string along_x = proposed(0.);
+  EXPECT_NE(along_x.find("sliding at"), std::string::npos);
+  for (const double degrees : {45., 90., 180., 270.})
+    EXPECT_EQ(proposed(degrees * std::acos(-1.) / 180.), along_x) << degrees;
 }

@@ -126,6 +126,67 @@ TEST(Covariates, TellLinesOfMotionApart)
 
 
 
+// Mirrored tests are looked at as the others are: where all go one way, none
+// goes back.
+TEST(Covariates, GoForwardWhereMostMotionGoes)
+{
+  const auto seen = [](const double sign, const std::size_t n_rows) {
+    MeasuredTest test = slide_rest_return();
+    for (std::vector<double> *column :
+         {&test.time, &test.displacement, &test.pressure, &test.friction})
+      column->resize(n_rows);
+    for (std::vector<double> *column : {&test.displacement, &test.friction})
+      for (double &value : *column)
+        value *= sign;
+    Comparison comparison({{test, {{1., 0., 0.001}}, true, Replay(test)}},
+                          1000);
+    return covariates_of(test, comparison);
+  };
+  for (const std::size_t n_rows : {400, 420, 500})
+    {
+      const Covariates one = seen(1., n_rows), other = seen(-1., n_rows);
+      EXPECT_EQ(one.main_line, 0.);
+      EXPECT_EQ(one.is_reverse, other.is_reverse) << n_rows;
+      EXPECT_EQ(one.is_reverse.any(), n_rows > 400);
+      EXPECT_NEAR((one.track - other.track).norm(), 0., 1e-9);
+    }
+  // As often back as forward: along the axis.
+  MeasuredTest test = slide_rest_return();
+  for (std::size_t i = 0; i < 100; ++i)
+    test.displacement[i] = test.displacement[100];
+  for (std::vector<double> *column : {&test.displacement, &test.friction})
+    for (double &value : *column)
+      value *= -1.;
+  Comparison comparison({{test, {{1., 0., 0.001}}, true, Replay(test)}}, 1000);
+  EXPECT_EQ(covariates_of(test, comparison).main_line, 0.);
+}
+
+
+
+// What is pressed at rest is no pressure under which friction was seen.
+TEST(Covariates, RangeIsOfWhatSlides)
+{
+  MeasuredTest test = slide_rest_return();
+  test.pressure[0]  = 0.001;
+  for (std::size_t i = 150; i < 250; ++i)
+    test.pressure[i] = 20.;
+  for (std::size_t i = 400; i < test.time.size(); ++i)
+    test.pressure[i] = 8.;
+  // At rest before the first slide.
+  for (std::size_t i = 1; i < test.time.size(); ++i)
+    test.time[i] += 5.;
+  Comparison comparison({{test, {{1., 0., 0.001}}, true, Replay(test)}}, 1000);
+  const TestedRange range =
+    tested_range(comparison,
+                 {{test, {{1., 0., 0.001}}, true, Replay(test)}},
+                 covariates_of(test, comparison));
+  EXPECT_EQ(range.lowest, 5.);
+  EXPECT_EQ(range.highest, 8.);
+  EXPECT_EQ(range.largest_pressure, 20.);
+}
+
+
+
 // Few rows at one level have a bin of their own: those at 0 and at 180 deg were
 // taken for some at 45.
 TEST(CovariatePanel, DoesNotMixLevels)

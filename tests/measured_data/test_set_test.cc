@@ -80,6 +80,28 @@ TEST(TestSet, ReplicatesMustHaveBeenMadeAlike)
 
 
 
+// Replicates along any line: a slide that turns by an angle is as fast, also
+// where what idles trembles at rest.
+TEST(TestSet, SpeedIsThatOfThePath)
+{
+  for (const double degrees : {0., 20., 45., 90., 200.})
+    {
+      const double angle = degrees * std::acos(-1.) / 180.;
+      MeasuredTest test;
+      for (int i = 0; i <= 1000; ++i)
+        {
+          const double u       = 0.002 * std::clamp(i - 200, 0, 600);
+          const double tremble = i % 2 == 0 ? 0.001 : 0.;
+          test.time.push_back(0.1 * i);
+          test.displacement.push_back(u * std::cos(angle) + tremble);
+          test.displacement_y.push_back(u * std::sin(angle) - tremble);
+        }
+      EXPECT_NEAR(mean_speed(test), 0.02, 5e-4) << degrees;
+    }
+}
+
+
+
 // A slide of 60 mm, 5 strokes of 10 mm, a diagonal of 5 mm.
 TEST(TestSet, ThePathIsToldInFull)
 {

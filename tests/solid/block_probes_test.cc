@@ -309,9 +309,11 @@ TEST(BlockProbes, opening_of_the_contact_is_told)
 
   // Few cells along the motion, which is along y for a block on its side, turn
   // it early.
-  const auto warning = [&](const std::string &subdivisions) {
+  const auto warning = [&](const std::string &subdivisions,
+                           const std::string &refinement = "none") {
     const auto result = run_block_case<2>(make_parameters(
-      tall + Settings{{"Block/Faces/bottom", "free"},
+      tall + Settings{{"Block/Refinement", refinement},
+                      {"Block/Faces/bottom", "free"},
                       {"Block/Faces/top", "free"},
                       {"Block/Faces/left", "contact"},
                       {"Block/Faces/right", "pressure programme; drive"},
@@ -325,6 +327,11 @@ TEST(BlockProbes, opening_of_the_contact_is_told)
   EXPECT_NE(warning("8, 2").find("so few cells along its length"),
             std::string::npos)
     << warning("8, 2");
+  // The same cells, halved.
+  EXPECT_EQ(warning("1, 4", "uniform 1").find("so few cells along its length"),
+            std::string::npos);
+  EXPECT_NE(warning("4, 1", "uniform 1").find("so few cells along its length"),
+            std::string::npos);
 
   // A gap, as small as it is, tells of what had touched before.
   const auto gap = run_block_case<2>(

@@ -19,8 +19,9 @@ namespace SlipStep
   {
     double slowest          = 0.; ///< [mm/s]
     double fastest          = 0.;
-    double lowest           = 0.; ///< [MPa]
+    double lowest           = 0.; ///< pressure of what slides [MPa]
     double highest          = 0.;
+    double largest_pressure = 0.; ///< at any time [MPa]
     double longest_path     = 0.; ///< [mm]
     double longest_rest     = 0.; ///< [s]
     double longest_test     = 0.; ///< [s]
@@ -28,8 +29,8 @@ namespace SlipStep
     double typical_friction = 0.;
     double widest_angle     = 0.;    ///< between lines of motion, to pi/2 [rad]
     bool   has_two_axes     = false; ///< friction across the motion is measured
-    /// Along which tests move mostly, the first axis if it is one such: from
-    /// -pi/2 to pi/2, whole degrees [rad].
+    /// Along which tests move mostly, and how they do if most go one way, the
+    /// first axis if it is one such: whole degrees [rad].
     double main_line = 0.;
     /// Length of the wave along the track that the model leaves, beyond chance
     /// [mm]; 0 if there is none.

@@ -66,7 +66,7 @@ namespace SlipStep
     private:
       static TrialFormula search(const Circumstances &now)
       {
-        if (!(now.range.highest > 1.1 * now.range.lowest))
+        if (!(now.range.largest_pressure > 1.1 * now.range.lowest))
           return TrialFormula::none("the pressure hardly varies");
         TrialFormula formula;
         formula.set_proportional("Change", 1., -0.9, 3.);
