@@ -81,6 +81,10 @@ namespace SlipStep
 
 
 
+    constexpr int rows_of_slide = 100;
+
+
+
     /// A motion and the programme that says the same.
     class Motion
     {
@@ -97,7 +101,7 @@ namespace SlipStep
       slide(const double speed, const double length, const double angle = 0.)
       {
         // Dense at the beginning, where stick ends.
-        constexpr int n = 100;
+        constexpr int n = rows_of_slide;
         const double  t = test.time.back(), u = test.displacement.back();
         const double  v = test.displacement_y.back();
         const double  c = std::cos(angle * dealii::numbers::PI / 180.);
@@ -314,7 +318,9 @@ namespace SlipStep
       for (std::size_t i = 0; i < a.size(); ++i)
         sum +=
           std::pow((a[i] - b[i]) / ((ahead + back) * like.axes[0].noise), 2);
-      return sum;
+      // Of as many rows for each, or what has more of them would seem to tell
+      // more.
+      return sum * rows_of_slide / a.size();
     }
 
 

@@ -35,6 +35,7 @@ namespace
     range.fastest          = 5.;
     range.lowest           = 1.;
     range.highest          = 20.;
+    range.largest_pressure = 20.;
     range.longest_path     = 40.;
     range.longest_rest     = 1000.;
     range.longest_test     = 2000.;
@@ -93,6 +94,7 @@ TEST(Candidates, MakeCasesThatTheLawTakesOfAnyTests)
       range.fastest          = range.slowest * some(1., 1e6);
       range.lowest           = some(1e-4, 1e3);
       range.highest          = range.lowest * some(1., 1e4);
+      range.largest_pressure = range.highest * some(1., 10.);
       range.longest_path     = some(1e-5, 1e6);
       range.longest_slide    = range.longest_path / range.slowest;
       range.longest_rest     = n % 3 == 0 ? 0. : some(1e-2, 1e7);
