@@ -364,13 +364,15 @@ namespace SlipStep
       for (unsigned int i = 0; i < best.size(); ++i)
         for (const double direction : {-1., 1.})
           {
+            FittedParameter  &fitted = result.parameters[i];
             const std::string condition =
-              planned->condition_beside(best, i, direction);
+              is_on_bound(best[i]) ?
+                "" :
+                planned->condition_beside(best, i, direction);
             if (condition.empty())
               continue;
-            FittedParameter &fitted = result.parameters[i];
-            fitted.is_at_bound      = true;
-            fitted.constraint       = condition;
+            fitted.is_at_bound = true;
+            fitted.constraint  = condition;
             planned->residuals(best, residuals.data());
             planned->derivatives(best,
                                  {i},

@@ -130,8 +130,11 @@ namespace SlipStep
         if (left.norm() <= accuracy * scale)
           return response;
         const Tensor<1, 2> newton = invert(response.d_slip + spring) * left;
-        Tensor<1, 2>       tried;
-        bool               better = false;
+        // What slides freely bears no more, whatever the slip.
+        if (!(newton.norm() < 1e100))
+          break;
+        Tensor<1, 2> tried;
+        bool         better = false;
         for (double share = 1.; !better && share > 1e-12; share *= 0.5)
           {
             const Tensor<1, 2> at = slip + share * newton;

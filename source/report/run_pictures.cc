@@ -255,12 +255,17 @@ namespace SlipStep
              ":" + exact_text(range.upper) + "]\n";
     }
 
-    /// What lies on a line would have no height.
+    /// What lies on a line would have no height, and a point no size.
     std::string
     flat_side(const char axis, const Range &range, const Range &other)
     {
       constexpr double least = 0.4;
-      const double     half  = 0.5 * least * other.width();
+      const double     away =
+        std::max(std::abs(range.middle()), std::abs(other.middle()));
+      const double size = other.width() > 0. ? other.width() :
+                          away > 0.          ? away :
+                                               1.;
+      const double half = 0.5 * least * size;
       return range.width() > least * other.width() ?
                "" :
                range_command(axis,

@@ -90,7 +90,10 @@ TEST_F(Calibrate, WhatIsWrongWithTheCaseIsSaid)
   expect_refusal("set Parameters = Friction/softening/Rat from 0 to 1\n",
                  {"case.prm:4", "Friction/softening/Rate"});
   expect_refusal("set Parameters = Friction/softening/Rate from 0.5 to 1\n",
-                 {"case.prm:4", "0.045", "outside of the bounds"});
+                 {"case.prm:4",
+                  "0.045 that this parameter has by default",
+                  "outside of the bounds",
+                  "start 0.75"});
   expect_refusal(one + "set Tests = nowhere\n",
                  {"case.prm:5", "there is no", "nowhere"});
   expect_refusal(one + "set Noise = little\n",

@@ -46,6 +46,33 @@ namespace
 
 
 
+// Where both coefficients end at their upper bound they are equal, which is
+// not what stops either.
+TEST(CalibrationWarnings, ABoundIsNoConditionOfTheLaw)
+{
+  const TemporaryFolder folder;
+  plant(folder.path(),
+        calibration_case({{"Friction/Static coefficient", "0.4"},
+                          {"Friction/softening/Kinetic coefficient", "0.3"}}),
+        {1., 10.},
+        50,
+        1e-3,
+        4);
+  const Calibration found = calibrate(calibration_case(
+    {{"Calibration/Tests", folder.path().string()},
+     {"Calibration/Starts", "1"},
+     {"Calibration/Parameters",
+      "Friction/Static coefficient from 0.05 to 0.2; "
+      "Friction/softening/Kinetic coefficient from 0.05 to 0.2"}}));
+  for (const FittedParameter &fitted : found.parameters)
+    {
+      EXPECT_TRUE(fitted.is_at_bound);
+      EXPECT_EQ(fitted.constraint, "");
+    }
+}
+
+
+
 // What many tests have in common is told three times.
 TEST(CalibrationWarnings, AlikeOnesAreToldThreeTimes)
 {

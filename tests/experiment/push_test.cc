@@ -193,7 +193,8 @@ TEST(Push, beyond_friction_fails_at_that_load)
                        {"Friction/Static coefficient", "0.115"},
                        {"Loading/Programme",
                         "press 5 MPa in 1 s; push 1 MPa in 1 s"}};
-  for (const std::string effects : {"", "subloading", "subloading, softening"})
+  for (const std::string effects :
+       {"", "subloading", "subloading, elastic_core", "subloading, softening"})
     {
       settings[0].second = effects;
       std::vector<HistoryRow> rows;

@@ -312,3 +312,20 @@ TEST(Report, RoundOffIsNoChange)
   EXPECT_TRUE(contains(script("picture_1.gp"), "set yrange [0.09"));
   EXPECT_TRUE(contains(script("picture_2.dat"), "\n-0.1 0\n"));
 }
+
+
+
+// One direction is one point: gnuplot takes no empty range.
+TEST(Report, OneDirectionHasARange)
+{
+  for (const double angle : {0., dealii::numbers::PI / 2.})
+    {
+      std::vector<SlideSummary> slides = {make_slide(2, 1., 0.1, 0.1, 0.1)};
+      slides[0].angle                  = angle;
+      const std::vector<std::string> warnings =
+        write_report(test_folder(),
+                     parameters_with({{"Pictures", "kinetic over direction"}}),
+                     {make_slides("one", slides)});
+      EXPECT_TRUE(warnings.empty()) << warnings.front();
+    }
+}
