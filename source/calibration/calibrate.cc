@@ -364,15 +364,16 @@ namespace SlipStep
       for (unsigned int i = 0; i < best.size(); ++i)
         for (const double direction : {-1., 1.})
           {
-            FittedParameter  &fitted = result.parameters[i];
+            // What the case states stops it first.
+            if (is_on_bound(best[i]))
+              break;
             const std::string condition =
-              is_on_bound(best[i]) ?
-                "" :
-                planned->condition_beside(best, i, direction);
+              planned->condition_beside(best, i, direction);
             if (condition.empty())
               continue;
-            fitted.is_at_bound = true;
-            fitted.constraint  = condition;
+            FittedParameter &fitted = result.parameters[i];
+            fitted.is_at_bound      = true;
+            fitted.constraint       = condition;
             planned->residuals(best, residuals.data());
             planned->derivatives(best,
                                  {i},

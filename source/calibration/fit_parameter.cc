@@ -179,16 +179,17 @@ namespace SlipStep
                "MPa/mm\"");
       result.start = quantity(start_text, "start");
       if (result.start < result.lower || result.start > result.upper)
-        reject("the start " + start_text +
-               (!start.empty() ? "" :
-                parameters.is_set(result.path) ?
-                                 " (" + parameters.origin(result.path) + ")" :
-                                 " that this parameter has by default") +
-               " is outside of the bounds" +
-               (start.empty() ?
-                  ": give one, as in \"start " +
-                    result.text(0.5 * (result.lower + result.upper)) + "\"" :
-                  ""));
+        {
+          const std::string outside = " is outside of the bounds";
+          if (!start.empty())
+            reject("the start " + start_text + outside);
+          reject("the start " + start_text +
+                 (parameters.is_set(result.path) ?
+                    " (" + parameters.origin(result.path) + ")" :
+                    " that this parameter has by default") +
+                 outside + ": give one, as in \"start " +
+                 result.text(0.5 * (result.lower + result.upper)) + "\"");
+        }
       return result;
     }
 

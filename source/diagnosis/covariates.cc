@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -326,25 +325,7 @@ namespace SlipStep
 
 
 
-    // How most of the motion along a line goes.
-    bool goes_mostly_back(const Covariates &rows, const double line)
-    {
-      constexpr double most = 0.6;
-
-      double along = 0., back = 0.;
-      for (Eigen::Index k = 0; k < rows.speed.size(); ++k)
-        if (is_motion(rows, k) &&
-            std::abs(std::cos(rows.angle(k) - line)) > 0.5)
-          {
-            along += 1.;
-            back += std::cos(rows.angle(k) - line) < 0.;
-          }
-      return back > most * along;
-    }
-
-
-
-    // See TestedRange.
+    // See TestedRange, but for the way along it.
     double main_line(const Covariates &rows)
     {
       constexpr int       half_turn = 180, near = 3; // [deg]
@@ -359,26 +340,42 @@ namespace SlipStep
               lines[(degrees % half_turn + half_turn) % half_turn] +=
                 1. - 0.01 * i * i;
             }
-      const auto commonest      = std::max_element(lines.begin(), lines.end());
-      const auto turned_forward = [&](const double line) {
-        if (!goes_mostly_back(rows, line))
-          return line;
-        return line > 0. ? line - dealii::numbers::PI :
-                           line + dealii::numbers::PI;
-      };
+      const auto commonest = std::max_element(lines.begin(), lines.end());
       if (lines[0] > 0.5 * *commonest)
-        return turned_forward(0.);
+        return 0.;
       const int degrees = commonest - lines.begin();
-      return turned_forward(
-        (degrees > half_turn / 2 ? degrees - half_turn : degrees) *
-        dealii::numbers::PI / half_turn);
+      return (degrees > half_turn / 2 ? degrees - half_turn : degrees) *
+             dealii::numbers::PI / half_turn;
+    }
+
+
+
+    // Along a line as most of the motion goes; where much goes either way, as
+    // the line does.
+    double turned_forward(const double line, const Covariates &rows)
+    {
+      constexpr double much = 1.5;
+
+      unsigned int n_forward = 0, n_back = 0;
+      for (Eigen::Index k = 0; k < rows.speed.size(); ++k)
+        if (is_motion(rows, k))
+          {
+            const double along = std::cos(rows.angle(k) - line);
+            n_forward += along > 0.5;
+            n_back += along < -0.5;
+          }
+      if (n_back <= much * n_forward)
+        return line;
+      return line > 0. ? line - dealii::numbers::PI :
+                         line + dealii::numbers::PI;
     }
 
 
 
     void follow_main_line(Covariates &rows, const Eigen::VectorXd &across)
     {
-      const double line = rows.main_line = main_line(rows);
+      const double line = rows.main_line =
+        turned_forward(main_line(rows), rows);
       rows.track = std::cos(line) * rows.position + std::sin(line) * across;
       for (Eigen::Index k = 0; k < rows.speed.size(); ++k)
         rows.is_reverse(k) =

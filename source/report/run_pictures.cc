@@ -260,11 +260,10 @@ namespace SlipStep
     flat_side(const char axis, const Range &range, const Range &other)
     {
       constexpr double least = 0.4;
-      const double     away =
-        std::max(std::abs(range.middle()), std::abs(other.middle()));
-      const double size = other.width() > 0. ? other.width() :
-                          away > 0.          ? away :
-                                               1.;
+      const double     size =
+        other.width() > 0. ?
+              other.width() :
+              std::max(std::hypot(range.middle(), other.middle()), 1e-6);
       const double half = 0.5 * least * size;
       return range.width() > least * other.width() ?
                "" :
