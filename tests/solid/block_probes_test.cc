@@ -328,7 +328,9 @@ TEST(BlockProbes, opening_of_the_contact_is_told)
             std::string::npos)
     << warning("8, 2");
   // The same cells, halved.
-  EXPECT_EQ(warning("1, 4", "uniform 1").find("so few cells along its length"),
+  EXPECT_EQ(warning("4, 2", "uniform 1").find("so few cells along its length"),
+            std::string::npos);
+  EXPECT_NE(warning("4, 2", "uniform 1").find("lifted off the plane"),
             std::string::npos);
   EXPECT_NE(warning("4, 1", "uniform 1").find("so few cells along its length"),
             std::string::npos);
