@@ -28,8 +28,7 @@ namespace SlipStep
     // What a point in steady sliding remembers: two components of the traction,
     // mu, and the memories of the effects. (r_s stays 1, the slip path is
     // beyond all that runs in.)
-    constexpr unsigned int n_memories = ContactState::most_memories;
-    constexpr unsigned int n_states   = 3 + n_memories;
+    constexpr unsigned int n_states = 3 + ContactState::most_memories;
 
     // Time step of the differences, times the angular frequency.
     constexpr double relative_step = 1e-3;
@@ -101,49 +100,63 @@ namespace SlipStep
 
 
 
-  double SteadySliding::quickest() const
+  double SteadySliding::shortest_step() const
   {
-    return 10. * law.tangential_stiffness() * speed /
-           (law.static_coefficient() * pressure);
+    return relative_step * law.static_coefficient() * pressure /
+           (10. * law.tangential_stiffness() * speed);
   }
 
 
 
-  // Strength that falls with speed faster than the overstress rises has no
-  // short steps that go on as before: the contact stops or jumps.
-  bool SteadySliding::is_kept(const double time_step) const
+  // As small as keeps the contact slipping.
+  double SteadySliding::disturbance(const double time_step) const
   {
-    ContactState end;
-    law.update(steady, speed * time_step * direction, pressure, time_step, end);
-    return (end.traction - steady.traction).norm() <= 1e-6 * steady.strength;
+    return std::min(1e-4,
+                    1e-2 * law.tangential_stiffness() * speed * time_step /
+                      steady.strength);
   }
 
 
 
-  // A step of the law maps what it remembers and the slip increment, y_1 =
-  // A y_0 + b (u_1 - u_0). With e^{st}, y_0 = (1 - s dt) y_1.
-  Complex SteadySliding::dynamic_stiffness(const double omega) const
+  // Strength that falls with speed faster than the overstress rises, or with
+  // slip faster than the contact holds, has no short steps that go on as
+  // before: the contact stops or jumps, at once or after any disturbance.
+  bool SteadySliding::is_kept() const
   {
-    const double time_step = relative_step / omega;
+    const double time_step = shortest_step();
     const double slip      = speed * time_step;
+    const double change    = disturbance(time_step) * slip;
+    const auto   traction  = [&](const double increment) {
+      ContactState end;
+      law.update(steady, increment * direction, pressure, time_step, end);
+      return end.traction;
+    };
+    const auto end = traction(slip);
+    return (end - steady.traction).norm() <= 1e-6 * steady.strength &&
+           (traction(slip + change) + traction(slip - change) - 2. * end)
+               .norm() <= 0.1 * elastic_stiffness() * change;
+  }
+
+
+
+  dealii::FullMatrix<double>
+  SteadySliding::derivatives(const double time_step) const
+  {
+    const double slip = speed * time_step;
     const auto   step = [&](const ContactState &start, const double increment) {
       ContactState end;
       law.update(start, increment * direction, pressure, time_step, end);
       return components(end);
     };
-    // As small as keeps the contact slipping.
-    const double share =
-      std::min(1e-4,
-               1e-2 * law.tangential_stiffness() * slip / steady.strength);
+    const double share = disturbance(time_step);
 
-    const Complex                 shift(1., -omega * time_step);
-    dealii::FullMatrix<Complex>   matrix(n_states, n_states);
-    std::array<Complex, n_states> right;
+    dealii::FullMatrix<double> result(n_states, n_states + 1);
     for (unsigned int j = 0; j <= n_states; ++j)
       {
+        const bool   is_slip = j == n_states;
         ContactState plus = steady, minus = steady;
         double       change = share * slip;
-        if (j < n_states)
+        if (!is_slip)
           {
             change = share * std::max(std::abs(component(plus, j)),
                                       j < 2 ? steady.strength : 0.);
@@ -153,28 +166,61 @@ namespace SlipStep
         // What nobody remembers stays as it is.
         if (!(change > 0.))
           {
-            matrix(j, j) = 1.;
+            result(j, j) = 1.;
             continue;
           }
-        const bool is_slip = j == n_states;
-        const auto upper   = step(plus, is_slip ? slip + change : slip);
-        const auto lower   = step(minus, is_slip ? slip - change : slip);
+        const auto upper = step(plus, is_slip ? slip + change : slip);
+        const auto lower = step(minus, is_slip ? slip - change : slip);
         for (unsigned int i = 0; i < n_states; ++i)
-          {
-            const double derivative = (upper[i] - lower[i]) / (2. * change);
-            if (is_slip)
-              right[i] = derivative * (1. - shift);
-            else
-              matrix(i, j) = (i == j ? 1. : 0.) - derivative * shift;
-          }
+          result(i, j) = (upper[i] - lower[i]) / (2. * change);
       }
+    return result;
+  }
 
+
+
+  // A step of the law maps what it remembers and the slip increment, y_1 =
+  // A y_0 + b (u_1 - u_0). With e^{st}, y_0 = (1 - s dt) y_1, for backward
+  // Euler's steps at any s.
+  Complex SteadySliding::dynamic_stiffness(const double omega) const
+  {
+    const double time_step = std::max(relative_step / omega, shortest_step());
+    const dealii::FullMatrix<double> derivative = derivatives(time_step);
+    const Complex                    shift(1., -omega * time_step);
+
+    dealii::FullMatrix<Complex> matrix(n_states, n_states);
+    for (unsigned int i = 0; i < n_states; ++i)
+      for (unsigned int j = 0; j < n_states; ++j)
+        matrix(i, j) = (i == j ? 1. : 0.) - derivative(i, j) * shift;
     matrix.gauss_jordan();
     Complex result = 0.;
     for (unsigned int i = 0; i < 2; ++i)
       for (unsigned int j = 0; j < n_states; ++j)
-        result += direction[i] * matrix(i, j) * right[j];
+        result +=
+          direction[i] * matrix(i, j) * derivative(j, n_states) * (1. - shift);
     return result;
+  }
+
+
+
+  // How fast a memory fades while the contact slips on as before, whatever the
+  // traction does: coupled ones fade little faster than the fastest alone.
+  double SteadySliding::quickest() const
+  {
+    const double                     time_step  = shortest_step();
+    const dealii::FullMatrix<double> derivative = derivatives(time_step);
+    const auto                       along      = [&](const unsigned int j) {
+      return direction[0] * derivative(0, j) + direction[1] * derivative(1, j);
+    };
+    const double slip_by_motion = 1. - along(n_states) / elastic_stiffness();
+    double       fastest        = 0.;
+    for (unsigned int i = 2; i < n_states; ++i)
+      {
+        const double motion = along(i) / elastic_stiffness() / slip_by_motion;
+        const double kept = derivative(i, i) + derivative(i, n_states) * motion;
+        fastest           = std::max(fastest, (1. - kept) / time_step);
+      }
+    return std::max(relative_step / time_step, 100. * fastest);
   }
 
 
@@ -205,11 +251,12 @@ namespace SlipStep
   // length.
   bool SteadySliding::grows_at_once() const
   {
-    if (!is_kept(relative_step / quickest()))
+    if (!is_kept())
       return true;
-    const double quick = slip_stiffness(quickest()).imag();
+    const double quickest = this->quickest();
+    const double quick    = slip_stiffness(quickest).imag();
     return quick < -resolution() &&
-           quick < 2. * slip_stiffness(quickest() / 4.).imag();
+           quick < 2. * slip_stiffness(quickest / 4.).imag();
   }
 
 
@@ -219,13 +266,14 @@ namespace SlipStep
   StabilityLimit
   SteadySliding::limit_without_rate_effect(const double mass) const
   {
-    // Slow enough to be no round-off, too quick for what the law remembers.
-    const double omega = 1e-2 * quickest();
-    if (slip_stiffness(omega).real() < -elastic_stiffness())
+    const double quickest = this->quickest();
+    // Slow enough to be no round-off.
+    const double slow = 1e-2 * relative_step / shortest_step();
+    if (slip_stiffness(quickest).real() < -elastic_stiffness())
       return {std::numeric_limits<double>::infinity(), 0.};
     const double fall =
-      std::max(-dynamic_stiffness(omega).real(),
-               -dynamic_stiffness(quickest()).real() - resolution());
+      std::max(-dynamic_stiffness(slow).real(),
+               -dynamic_stiffness(quickest).real() - resolution());
     if (fall <= 1e-4 * resolution())
       return {};
     return {mass > 0. ? std::numeric_limits<double>::infinity() : fall, 0.};
@@ -235,20 +283,23 @@ namespace SlipStep
 
   // Coming from stiff springs, the first frequency at which a disturbance
   // neither grows nor fades sets the limit. A law that feeds quick disturbances
-  // the more is stable on no spring.
+  // the more is stable on no spring. The smaller a rate effect is, the quicker
+  // is what it damps.
   StabilityLimit SteadySliding::limit(const double mass) const
   {
-    const double quickest = this->quickest();
-    const double ratio    = std::pow(10., 0.04);
     if (grows_at_once())
       return {std::numeric_limits<double>::infinity(), 0.};
-    const Complex last = dynamic_stiffness(quickest);
-    if (last.imag() < resolution())
+    const double quickest = this->quickest();
+    double       first    = 1e6 * quickest;
+    while (first > quickest && dynamic_stiffness(first).imag() < resolution())
+      first /= 10.;
+    double loss = dynamic_stiffness(first).imag();
+    if (loss < resolution())
       return limit_without_rate_effect(mass);
 
     StabilityLimit result;
-    double         loss = last.imag();
-    for (double omega = quickest; omega > 1e-14 * quickest; omega /= ratio)
+    const double   ratio = std::pow(10., 0.04);
+    for (double omega = first; omega > 1e-14 * quickest; omega /= ratio)
       {
         const double next = dynamic_stiffness(omega / ratio).imag();
         if (loss * next < 0.)
@@ -258,6 +309,8 @@ namespace SlipStep
               omega / ratio,
               omega,
               30);
+            if (slip_stiffness(critical).real() < -elastic_stiffness())
+              return {std::numeric_limits<double>::infinity(), 0.};
             const double stiffness =
               mass * critical * critical - dynamic_stiffness(critical).real();
             if (stiffness > result.stiffness)

@@ -6,6 +6,8 @@
 #include <slipstep/experiment/programme.h>
 #include <slipstep/friction/law.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <complex>
 #include <string>
 #include <vector>
@@ -81,6 +83,10 @@ namespace SlipStep
   private:
     void find_steady_state();
 
+    /// Of what is remembered at the end of a step, by what was remembered at
+    /// its beginning and, last, by the slip increment.
+    dealii::FullMatrix<double> derivatives(const double time_step) const;
+
     /// Z of the slip alone, without the elastic part of the contact.
     std::complex<double> slip_stiffness(const double omega) const;
 
@@ -92,11 +98,17 @@ namespace SlipStep
 
     StabilityLimit limit_without_rate_effect(const double mass) const;
 
-    /// The largest angular frequency that matters [1/s].
+    /// So short that the contact hardly moves before it slips [s].
+    double shortest_step() const;
+
+    /// An angular frequency that is too quick for what the law remembers [1/s].
     double quickest() const;
 
-    /// Whether a step of this length [s] goes on as before.
-    bool is_kept(const double time_step) const;
+    /// Of what is remembered, relative to it.
+    double disturbance(const double time_step) const;
+
+    /// Whether the shortest step goes on as before, disturbed or not.
+    bool is_kept() const;
 
     const FrictionLaw         &law;
     const double               speed;
