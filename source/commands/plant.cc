@@ -47,7 +47,8 @@ namespace SlipStep
     double number(const CommandLine &line,
                   const std::string &option,
                   const double       if_missing,
-                  const double       most)
+                  const double       most,
+                  const bool         may_be_zero)
     {
       const std::string text = value_of(line, option);
       if (text.empty())
@@ -61,10 +62,10 @@ namespace SlipStep
       catch (const std::logic_error &)
         {}
       if (end != text.size() || !std::isfinite(value) || value < 0. ||
-          value > most)
-        throw InputError("--" + option + " " + text +
-                         ": must be a number, 0 or more, at most " +
-                         rounded_text(most, 3));
+          value > most || (value == 0. && !may_be_zero))
+        throw InputError("--" + option + " " + text + ": must be a number, " +
+                         (may_be_zero ? "0 or more" : "more than 0") +
+                         ", at most " + rounded_text(most, 3));
       return value;
     }
 
@@ -88,10 +89,8 @@ namespace SlipStep
       options.edition =
         std::min<std::uint64_t>(whole_number(line, "edition", options.edition),
                                 1000);
-      options.noise_factor = number(line, "noise-factor", 1., 30.);
-      options.amplitude    = number(line, "amplitude", 0., 0.5);
-      if (options.amplitude == 0. && !value_of(line, "amplitude").empty())
-        throw InputError("--amplitude 0 hides nothing: --class none does so");
+      options.noise_factor    = number(line, "noise-factor", 1., 30., true);
+      options.amplitude       = number(line, "amplitude", 0., 0.5, false);
       options.with_replicates = line.plant_options.count("no-replicates") == 0;
       return options;
     }

@@ -5,6 +5,7 @@
 #include <slipstep/utilities/lists.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace SlipStep
@@ -44,7 +45,7 @@ namespace SlipStep
         }
       else if (seen.is_late)
         {
-          result.why      = "Diagnosis/Most time was over";
+          result.why      = "time was over before it was looked at";
           result.standing = Standing::not_tried;
         }
       else if ((!seen.failure.empty() && seen.ways.empty()) ||
@@ -103,6 +104,20 @@ namespace SlipStep
 
 
 
+    // What is seen, but was not held against all others.
+    void leave_undecided(const SearchResult &found, CandidateResult &result)
+    {
+      const bool is_seen = result.standing == Standing::not_enough ||
+                           result.standing == Standing::not_needed;
+      if (!is_seen ||
+          (!found.model.parts.empty() && std::isfinite(result.gain)))
+        return;
+      result.standing = Standing::undecided;
+      result.why      = "time was over before it was judged";
+    }
+
+
+
     // Of the table: what was not tried comes last.
     Standing rank(const CandidateResult &result)
     {
@@ -123,6 +138,8 @@ namespace SlipStep
       const CandidateView &seen = judgement.view.candidates[c];
       results[c]                = seen_result(seen, judgement, workspace.level);
       add_found(judgement.found, parameters, workspace.level, results[c]);
+      if (workspace.was_late)
+        leave_undecided(judgement.found, results[c]);
       if (rank(results[c]) == Standing::not_testable &&
           results[c].standing != Standing::in_the_model &&
           !seen.candidate.formulas.empty())

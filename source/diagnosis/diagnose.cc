@@ -17,6 +17,8 @@
 #include <slipstep/utilities/process.h>
 #include <slipstep/utilities/text.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <numeric>
 
@@ -54,6 +56,23 @@ namespace SlipStep
 
 
 
+    // What is in the model cannot be asked for once more.
+    void ask_for_others(const std::vector<Part> &parts, Parameters &parameters)
+    {
+      const std::string        key = "Diagnosis/Candidates";
+      std::vector<std::string> left;
+      for (const std::string &asked_for : parameters.list(key))
+        if (!holds(effect_names(parts), asked_for))
+          left.push_back(asked_for);
+      if (left.size() < parameters.list(key).size())
+        parameters.set(key,
+                       left.empty() ? "all" :
+                                      boost::algorithm::join(left, ", "),
+                       "diagnosis");
+    }
+
+
+
     // With a model's effects and fitted values, as `run` and `point` take it.
     Parameters case_of(const Parameters &start, const Model &model)
     {
@@ -65,6 +84,7 @@ namespace SlipStep
       result.set("Calibration/Parameters",
                  statements(model.campaign->fitted, false),
                  "diagnosis");
+      ask_for_others(model.parts, result);
       return result;
     }
 

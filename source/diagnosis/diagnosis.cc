@@ -23,6 +23,7 @@ namespace SlipStep
                                         "rival",
                                         "not needed",
                                         "not enough",
+                                        "undecided",
                                         "rejected",
                                         "not tried",
                                         "not simulated",

@@ -575,6 +575,13 @@ namespace SlipStep
       take_off_hum();
       for (unsigned int n = 0; n < 2 && drop_outlier(); ++n)
         calibrate();
+      // A fit that was cut short tells of a gap that may be none.
+      if (result.workspace->is_late())
+        throw RunError(
+          "Diagnosis/Most time = " + start.text("Diagnosis/Most time") +
+          " was over before the starting model was fitted to the "
+          "tests, so that nothing can be told of them: it needs "
+          "more time");
       tell("noise");
       judge_chance();
       warn_of_records(result);

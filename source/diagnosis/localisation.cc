@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
+#include <iterator>
+#include <tuple>
 
 namespace SlipStep
 {
@@ -21,11 +21,13 @@ namespace SlipStep
 
     using Rows = std::vector<bool>;
 
-    // Where the correction is more than half of its largest.
+    // Where the correction is more than half of its largest, around that; and
+    // whether the tests are above or below there, if they agree with it.
     // @return the rows there, or all if it is nowhere
     Rows find_range(const Workspace       &workspace,
                     const Covariate       &covariate,
                     const Eigen::VectorXd &correction,
+                    const Eigen::VectorXd &difference,
                     Localisation          &place)
     {
       const Covariates      &covariates = workspace.covariates;
@@ -52,23 +54,28 @@ namespace SlipStep
         if (share(i) != 0. &&
             std::abs(share(i) - mean) > std::abs(share(top) - mean))
           top = i;
-      place.sign = share(top) > mean ? 1 : -1;
-      place.from = std::numeric_limits<double>::infinity();
-      place.to   = -place.from;
+      const int                sign = share(top) > mean ? 1 : -1;
+      std::map<double, double> sizes;
       for (Eigen::Index i = 0; i < x.size(); ++i)
-        if (share(i) != 0. &&
-            (share(i) - mean) * place.sign > 0.5 * std::abs(share(top) - mean))
+        if (share(i) != 0.)
           {
+            const double size  = (share(i) - mean) * sign;
             const double value = covariate.shown(x(i));
-            place.from         = std::min(place.from, value);
-            place.to           = std::max(place.to, value);
+            double      &known = sizes.emplace(value, size).first->second;
+            known              = std::max(known, size);
           }
+      std::tie(place.from, place.to) =
+        range_around(sizes, covariate.shown(x(top)));
+      double measured_above = 0.;
       for (Eigen::Index i = 0; i < x.size(); ++i)
         {
           const double value = covariate.shown(x(i));
           inside[i] =
             share(i) != 0. && value >= place.from && value <= place.to;
+          if (inside[i])
+            measured_above -= difference(i) / covariates.friction(i);
         }
+      place.sign = measured_above * sign > 0. ? sign : 0;
       return inside;
     }
 
@@ -170,9 +177,28 @@ namespace SlipStep
 
 
 
+  std::pair<double, double> range_around(const std::map<double, double> &sizes,
+                                         const double                    top)
+  {
+    const auto   begin     = sizes.find(top);
+    const double least     = 0.5 * begin->second;
+    const auto   is_inside = [least](const auto &entry) {
+      return entry.second > least;
+    };
+    const auto last = std::find_if_not(begin, sizes.end(), is_inside);
+    const auto first =
+      std::find_if_not(std::make_reverse_iterator(std::next(begin)),
+                       sizes.rend(),
+                       is_inside);
+    return {first.base()->first, std::prev(last)->first};
+  }
+
+
+
   std::vector<Localisation>
   localise(const Workspace &workspace, const Model &base, const GapTest &gap)
   {
+    const Eigen::VectorXd difference = workspace.comparison.difference(base);
     const std::vector<Direction> basis =
       smooth_basis(workspace.comparison, workspace.covariates);
     std::vector<Localisation> result;
@@ -204,7 +230,8 @@ namespace SlipStep
         Rows inside(workspace.comparison.n_rows(), true);
         // Changes are of either sign, and forgotten on several lengths.
         if (covariate.name.compare(0, 9, "change of") != 0)
-          inside = find_range(workspace, covariate, correction, place);
+          inside =
+            find_range(workspace, covariate, correction, difference, place);
         find_members(workspace, together.explained, inside, place);
         result.push_back(place);
       }

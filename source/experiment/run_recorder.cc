@@ -229,7 +229,7 @@ namespace SlipStep
   {
     // Without mass and friction that rises with speed nothing is in equilibrium
     // from the beginning of a jump to its end: the energy that most of a gap is
-    // goes in one step, however short. "" if it does not.
+    // goes in steps of jumps, however short. "" if it does not.
     std::string jump_in_words(const std::vector<HistoryRow> &history,
                               const bool                     is_block)
     {
@@ -238,27 +238,33 @@ namespace SlipStep
       const auto gap = [](const HistoryRow &row) {
         return row.external_work - row.stored_energy - row.dissipated_energy;
       };
-      double      largest = 0.;
-      std::size_t jump    = 0;
+      const auto slip_in = [&](const std::size_t i) {
+        return history[i].slip - history[i - 1].slip;
+      };
+      double      largest = 0., sum = 0.;
+      std::size_t jump = 0;
       for (std::size_t i = 1; i < history.size(); ++i)
-        if (const double lost = gap(history[i]) - gap(history[i - 1]);
-            lost > largest)
-          {
-            largest = lost;
-            jump    = i;
-          }
-      if (jump == 0 || !(gap(history.back()) > 0.) ||
-          largest < most * gap(history.back()))
-        return "";
-      const HistoryRow &before = history[jump - 1], &after = history[jump];
-      const double      length = after.slip - before.slip;
-      if (!(length > felt * history.back().slip &&
-            length >
-              far * std::hypot(after.displacement - before.displacement,
+        {
+          const HistoryRow &before = history[i - 1], &after = history[i];
+          const double      lost = gap(after) - gap(before);
+          if (!(slip_in(i) > felt * history.back().slip &&
+                slip_in(i) >
+                  far *
+                    std::hypot(after.displacement - before.displacement,
                                after.displacement_y - before.displacement_y)))
+            continue;
+          sum += lost;
+          if (lost > largest)
+            {
+              largest = lost;
+              jump    = i;
+            }
+        }
+      if (jump == 0 || !(gap(history.back()) > 0.) ||
+          sum < most * gap(history.back()))
         return "";
-      return "at t = " + rounded_text(after.time, 6) +
-             " s the contact jumps by " + rounded_text(length, 3) +
+      return "at t = " + rounded_text(history[jump].time, 6) +
+             " s the contact jumps by " + rounded_text(slip_in(jump), 3) +
              " mm in one step, however short: nothing on the way is in "
              "equilibrium, and friction just after it is rough; a " +
              (is_block ? "Block/Density" : "Loading/Machine mass") +

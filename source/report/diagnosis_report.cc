@@ -260,6 +260,8 @@ namespace SlipStep
 
     std::string what_was_missing(const Diagnosis &diagnosis)
     {
+      if (diagnosis.is_cut_short && diagnosis.effects.empty())
+        return paragraph("Not decided, since the search was cut short", "big");
       switch (diagnosis.verdict)
         {
           case Verdict::named:

@@ -179,23 +179,53 @@ namespace SlipStep
                  short_text(least, 2) + (names.size() > 1 ? " at best)" : ")");
     }
 
+    // What time was too short for, where nothing has been named.
+    std::string open_words(const Diagnosis &diagnosis)
+    {
+      const auto count = [&](const Standing standing) {
+        return count_if(diagnosis.candidates,
+                        [&](const CandidateResult &candidate) {
+                          return candidate.standing == standing;
+                        });
+      };
+      const std::size_t n_untried   = count(Standing::not_tried);
+      const std::size_t n_undecided = count(Standing::undecided);
+      const auto        effects     = [](const std::size_t n) {
+        return std::to_string(n) + (n == 1 ? " effect" : " effects");
+      };
+      return (n_undecided > 0 ?
+                "; " + effects(n_undecided) + " may be it, and " +
+                  (n_undecided == 1 ? "was" : "were") + " not judged" :
+                "") +
+             (n_untried > 0 ?
+                "; " + effects(n_untried) +
+                  (n_untried == 1 ? " was" : " were") + " not looked at" :
+                "");
+    }
+
     std::string unnamed_words(const Diagnosis &diagnosis)
     {
-      std::string text = "something is missing that " +
-                         nothing_explains(diagnosis) + ": " +
-                         gap_words(diagnosis) + gap_chance(diagnosis);
+      std::string text =
+        (diagnosis.is_cut_short ?
+           "something is missing: " :
+           "something is missing that " + nothing_explains(diagnosis) + ": ") +
+        gap_words(diagnosis) + gap_chance(diagnosis);
       if (!diagnosis.where.empty())
         text += ", most " + place_words(diagnosis.where[0]);
       if (diagnosis.correction.has_value())
         text += "; a correction by " + diagnosis.correction->covariate +
                 ", cause unknown, brings it to " +
                 percent_text(diagnosis.shrink.fitted_after);
-      return text + unsure_words(diagnosis);
+      return text + (diagnosis.is_cut_short ? open_words(diagnosis) :
+                                              unsure_words(diagnosis));
     }
 
     std::string verdict_words(const Diagnosis &diagnosis)
     {
       const std::string chance = gap_chance(diagnosis);
+      if (diagnosis.is_cut_short && !diagnosis.has_gap)
+        return "nothing is seen to be missing: " + gap_words(diagnosis) +
+               chance + open_words(diagnosis);
       switch (diagnosis.verdict)
         {
           case Verdict::named:
@@ -210,12 +240,7 @@ namespace SlipStep
           case Verdict::not_testable:
             return "these tests cannot tell whether anything is missing: " +
                    gap_words(diagnosis) + chance +
-                   (any_of(diagnosis.candidates,
-                           [](const CandidateResult &candidate) {
-                             return candidate.standing == Standing::not_tried;
-                           }) ?
-                      ", and not all effects of the catalogue were looked at" :
-                      ", and no effect of the catalogue would have been seen");
+                   ", and no effect of the catalogue would have been seen";
         }
       return "";
     }
@@ -411,7 +436,7 @@ namespace SlipStep
                  std::string(is_doubted ? "and if" : "If") +
                    " the stated noise is right") +
               " (there are no replicates), ";
-    return text + (is_doubted || is_stated ? words : capitalised(words)) +
+    return text + (text.empty() ? capitalised(words) : words) +
            completed_words(diagnosis) + lone_words(diagnosis) +
            remainder_words(diagnosis) + untried_words(diagnosis) +
            outlier_words(diagnosis.outliers) + ".";

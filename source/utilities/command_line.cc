@@ -263,8 +263,8 @@ namespace SlipStep
         ("noise-factor", po::value<std::string>()->value_name("F"),
          "so many times the usual noise")
         ("amplitude", po::value<std::string>()->value_name("A"),
-         "change of friction by what is hidden, 0.02 for 2 %; drawn unless "
-         "given")
+         "change of friction by what is hidden, 0.02 for 2 %, more than 0 (of "
+         "compliance, a spring of 0.4/A MPa/mm); drawn unless given")
         ("edition", po::value<std::string>()->value_name("N"),
          "draw also from effects that came with later editions, and from 2 on "
          "other tests; 1 unless given, so that a seed hides the same for ever")

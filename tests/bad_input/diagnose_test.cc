@@ -478,3 +478,40 @@ TEST_F(Diagnose, AParameterThatEndsAtItsBound)
                        "at its bound 0.06"))
     << json["warnings"];
 }
+
+
+
+// Half a fit shows a gap that may be none.
+TEST_F(Diagnose, TimeThatIsOverBeforeTheFirstFit)
+{
+  plant();
+  const auto result = diagnose({"Diagnosis/Most time=1e-3 s"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(contains(result.err,
+                       "Diagnosis/Most time = 1e-3 s was over before the "
+                       "starting model was fitted"))
+    << result.err;
+  EXPECT_FALSE(fs::exists(process.folder() / "found" / "improved.prm"));
+}
+
+
+
+// Only healing was asked for, is named, and the improved case lacks no more.
+TEST_F(Diagnose, AnImprovedCaseIsDiagnosedAgain)
+{
+  const auto planted = process.run({"plant",
+                                    "campaign",
+                                    "--effect",
+                                    "healing",
+                                    "--seed",
+                                    "3",
+                                    "--tests",
+                                    "10",
+                                    "--quiet"});
+  ASSERT_EQ(planted.exit_code, 0) << planted.err;
+  const auto named = verdict_of(diagnose({"Diagnosis/Candidates=healing"}));
+  EXPECT_EQ(named["verdict"]["effects"][0], "healing");
+  fs::rename(process.folder() / "found", process.folder() / "first");
+  const auto again = verdict_of(diagnose({}, {}, "first/improved.prm"));
+  EXPECT_EQ(again["verdict"]["status"], "no_gap");
+}

@@ -121,6 +121,28 @@ TEST(OddInput, AJumpIsNotBlamedOnTheSteps)
 
 
 
+// Many jumps, none of which makes most of what is lost.
+TEST(OddInput, ManyJumpsAreNotBlamedOnTheSteps)
+{
+  const SlipstepProcess process;
+  process.write(
+    "jump.prm",
+    "set Friction/Effects = subloading, softening, healing\n"
+    "set Friction/Static coefficient = 0.3\n"
+    "set Friction/softening/Kinetic coefficient = 0.2\n"
+    "set Friction/softening/Rate = 20\n"
+    "set Friction/healing/Rate = 0.5\n"
+    "set Loading/Machine stiffness = 1 MPa/mm\n"
+    "set Loading/Programme = press 5 MPa in 1 s; slide 0.1 mm/s for "
+    "5 mm\n");
+  const auto result = process.run({"point", "jump.prm", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(contains(result.err, "s the contact jumps by")) << result.err;
+  EXPECT_FALSE(contains(result.err, "may help")) << result.err;
+}
+
+
+
 TEST(OddInput, WhatIsNoEffectButCalledSoIsTold)
 {
   const SlipstepProcess process;

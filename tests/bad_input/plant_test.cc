@@ -101,7 +101,10 @@ TEST_F(Plant, AmplitudesAndEditionsAreChecked)
 {
   expect_refusal({"a", "--amplitude", "2 %"}, "must be a number");
   expect_refusal({"a", "--amplitude", "3"}, "at most 0.5");
-  expect_refusal({"a", "--amplitude", "0"}, "--class none does so");
+  for (const char *amplitude : {"0", "-0.1"})
+    expect_refusal({"a", "--amplitude", amplitude},
+                   "must be a number, more than 0");
+  expect_refusal({"a", "--noise-factor", "-1"}, "must be a number, 0 or more");
   expect_refusal(
     {"a", "--effect", "stribeck", "--seed", "3", "--amplitude", "0.3"},
     "amplitude 0.3: what this campaign hides reaches at most 0.069");

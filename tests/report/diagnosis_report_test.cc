@@ -225,23 +225,51 @@ TEST(DiagnosisHeadline, TellsWhatIsTooUnsureForAName)
 // Whatever was found until time was over.
 TEST(DiagnosisHeadline, WhatWasCutShortIsNotDecided)
 {
-  for (Diagnosis diagnosis : {SyntheticDiagnosis::named(),
-                              SyntheticDiagnosis::unnamed(),
+  Diagnosis         diagnosis = SyntheticDiagnosis::named();
+  const std::string decided   = headline(diagnosis);
+  diagnosis.is_cut_short      = true;
+  EXPECT_TRUE(contains(decided, "is missing (")) << decided;
+  EXPECT_EQ(capitalised(headline(diagnosis).substr(
+              std::string("Not decided, the search was cut short "
+                          "(Diagnosis/Most time). So far: ")
+                .size())),
+            decided);
+  EXPECT_TRUE(contains(first_screen_of(diagnosis),
+                       "not decided, the search was cut short"));
+  diagnosis.was_stopped = true;
+  EXPECT_EQ(headline(diagnosis).rfind("Not decided, the search was cut short "
+                                      "(Ctrl-C). So far: ",
+                                      0),
+            0u);
+}
+
+
+
+// That nothing explains or nothing is missing is not known of what was not
+// looked at.
+TEST(DiagnosisHeadline, WhatWasNotLookedAtExplainsPerhaps)
+{
+  for (Diagnosis diagnosis : {SyntheticDiagnosis::unnamed(),
                               SyntheticDiagnosis::no_gap(),
                               SyntheticDiagnosis::not_testable()})
     {
-      const std::string decided = headline(diagnosis);
-      diagnosis.is_cut_short    = true;
-      EXPECT_EQ(headline(diagnosis),
-                "Not decided, the search was cut short (Diagnosis/Most time). "
-                "So far: " +
-                  decided);
+      diagnosis.is_cut_short = true;
+      diagnosis.candidates.resize(3);
+      diagnosis.candidates[0].standing = Standing::undecided;
+      diagnosis.candidates[1].standing = Standing::not_tried;
+      diagnosis.candidates[2].standing = Standing::not_tried;
+      const std::string text           = headline(diagnosis);
+      for (const char *words : {"no effect of the catalogue",
+                                "none of the effects",
+                                "as far as these tests can tell",
+                                "cannot tell"})
+        EXPECT_FALSE(contains(text, words)) << text;
+      EXPECT_TRUE(contains(text,
+                           "; 1 effect may be it, and was not judged; 2 "
+                           "effects were not looked at"))
+        << text;
       EXPECT_TRUE(contains(first_screen_of(diagnosis),
-                           "not decided, the search was cut short"));
-      diagnosis.was_stopped = true;
-      EXPECT_EQ(headline(diagnosis),
-                "Not decided, the search was cut short (Ctrl-C). So far: " +
-                  decided);
+                           "Not decided, since the search was cut short"));
     }
 }
 

@@ -31,7 +31,7 @@ namespace SlipStep
     Replay replay;
     /// To which its positions were rounded, coarsely [mm]; 0 if they were not.
     double   motion_step = 0.;
-    Rounding rounding; ///< of its friction
+    Rounding rounding    = {}; ///< of its friction
     /// The hum of the mains in the friction of each axis, taken off where it
     /// can be told; empty without any.
     std::vector<Hum> hum = {};

@@ -75,7 +75,7 @@ namespace SlipStep
     double      share = 0.; ///< of the excess that it explains alone
     double      from  = 0.; ///< where the difference is felt most
     double      to    = 0.;
-    int         sign  = 0; ///< 1: measured friction is higher there
+    int         sign  = 0; ///< 1: measured friction is higher there; 0: unclear
     std::vector<std::string> phases, tests; ///< most of it, largest first
     /// Of a wave, which has no range.
     double wavelength = 0.;
@@ -88,6 +88,7 @@ namespace SlipStep
     rival,
     not_needed, ///< significant by itself, but with the names no more
     not_enough, ///< significant, but too little or too unsure for a name
+    undecided,  ///< significant, but time was over before it was judged
     rejected,
     not_tried, ///< for want of time
     not_simulated,

@@ -5,12 +5,19 @@
 #include <slipstep/diagnosis/diagnosis.h>
 #include <slipstep/diagnosis/verdict.h>
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace SlipStep
 {
+  /// From where to where sizes are more than half of the one at @p top, which
+  /// is positive, without a gap.
+  /// @param sizes by the value of a covariate, @p top among them
+  std::pair<double, double> range_around(const std::map<double, double> &sizes,
+                                         const double                    top);
+
   /// Where a model disagrees: every covariate that explains a part of the
   /// excess, most first.
   std::vector<Localisation>
