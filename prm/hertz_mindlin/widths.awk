@@ -1,7 +1,8 @@
 # Half-widths and peak of the contact from contact_face.csv. By Hertz p^2 is a
 # parabola, and by Cattaneo and Mindlin so is (mu p - q)^2 where the contact sticks;
 # their places are free, since the drag shifts the contact a little.
-#   awk -F, -v mu=0.3 [-v centre=20] -f widths.awk contact_face.csv
+#   awk -F, -v mu=0.3 [-v centre=20 -v R=100 -v E=967.7 -v nu=0.49] -f widths.awk contact_face.csv
+BEGIN { if (!R) R = 100; if (!E) E = 967.7; if (nu == "") nu = 0.49 } # of the case
 NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
 {
   x[NR] = $1 - (centre == "" ? 20 : centre); w[NR] = $column["area_mm2"]
@@ -33,8 +34,8 @@ function half_width(values,    i, j, k, y, m, s, t, f, b) {
   return sqrt(b[1]^2 - 4 * b[0] * b[2]) / (-2 * b[2])
 }
 END {
-  pi = atan2(0, -1); modulus = 967.7 / (1 - 0.49^2)
-  hertz = sqrt(4 * P * 100 / (pi * modulus)); p_0 = 2 * P / (pi * hertz)
+  pi = atan2(0, -1); modulus = E / (1 - nu^2)
+  hertz = sqrt(4 * P * R / (pi * modulus)); p_0 = 2 * P / (pi * hertz)
   a = half_width(p); place = middle
   printf "P   %.4f N/mm, Q %.4f N/mm, Q/(mu P) %.4f\n", P, Q, Q / (mu * P)
   printf "a   %.5f mm, half-space %.5f, off by %.2f %%\n", a, hertz, 100 * (a / hertz - 1)

@@ -144,6 +144,7 @@ namespace SlipStep
                                    why_not_allowed(pattern, default_value)));
     Assert(path.find_first_of("#=\n") == std::string::npos,
            dealii::ExcMessage("Not a name for a parameter: " + path));
+    stop_sharing();
     index_of_path[path] = entries.size();
     entries.push_back(
       {path,
@@ -159,28 +160,45 @@ namespace SlipStep
 
 
 
-  Parameters::Parameters(const Parameters &other)
-    : entries(other.entries)
-    , index_of_path(other.index_of_path)
-    , file_read(other.file_read)
-    , variant_list(other.variant_list)
-    , n_layers(other.n_layers)
+  // A value of this case alone is put beside what it shares.
+  void Parameters::set_value(const std::string &path, const std::string &value)
   {
+    if (values.use_count() > 1)
+      {
+        own_values[path] = value;
+        return;
+      }
+    in_section(path, [&](const std::string &key) { values->set(key, value); });
+    own_values.erase(path);
+  }
+
+
+
+  void Parameters::stop_sharing()
+  {
+    if (values.use_count() == 1 && own_values.empty())
+      return;
+    std::vector<std::string> texts;
     for (const Entry &entry : entries)
-      in_section(entry.path, [&](const std::string &key) {
+      texts.push_back(text(entry.path));
+    values = std::make_shared<dealii::ParameterHandler>();
+    own_values.clear();
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      in_section(entries[i].path, [&](const std::string &key) {
         values->declare_entry(key,
-                              entry.default_value,
-                              *entry.pattern,
-                              entry.documentation);
-        values->set(key, other.text(entry.path));
+                              entries[i].default_value,
+                              *entries[i].pattern,
+                              entries[i].documentation);
+        values->set(key, texts[i]);
       });
   }
 
 
 
-  Parameters &Parameters::operator=(const Parameters &other)
+  const dealii::ParameterHandler &Parameters::handler()
   {
-    return *this = Parameters(other);
+    stop_sharing();
+    return *values;
   }
 
 
@@ -195,13 +213,6 @@ namespace SlipStep
     action(last_name(path));
     for (std::size_t i = 0; i < sections.size(); ++i)
       values->leave_subsection();
-  }
-
-
-
-  void Parameters::set_value(const std::string &path, const std::string &value)
-  {
-    in_section(path, [&](const std::string &key) { values->set(key, value); });
   }
 
 
@@ -319,7 +330,10 @@ namespace SlipStep
   std::string Parameters::text(const std::string &path) const
   {
     entry(path);
-    return values->get(section_names(path), last_name(path));
+    const auto own = own_values.find(path);
+    return own != own_values.end() ?
+             own->second :
+             values->get(section_names(path), last_name(path));
   }
 
 
@@ -347,7 +361,7 @@ namespace SlipStep
     Assert(dynamic_cast<const dealii::Patterns::Bool *>(
              entry(path).pattern.get()),
            dealii::ExcMessage("Not declared as true or false: " + path));
-    return values->get_bool(section_names(path), last_name(path));
+    return dealii::Patterns::Tools::Convert<bool>::to_value(text(path));
   }
 
 

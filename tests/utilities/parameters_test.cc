@@ -372,18 +372,48 @@ namespace
 
 
 
+// Values are shared until one of the two is changed.
+TEST_F(ParametersTest, WhatIsSetInACopyIsOfTheCopy)
+{
+  Parameters first = read("set Title = a\n");
+  Parameters copy  = first;
+  copy.set("Title", "b", "test");
+  Parameters second = copy;
+  first.set("Title", "c", "test");
+  second.set("Title", "d", "test");
+  EXPECT_EQ(first.text("Title"), "c");
+  EXPECT_EQ(copy.text("Title"), "b");
+  EXPECT_EQ(second.text("Title"), "d");
+  EXPECT_EQ(copy.handler().get("Title"), "b");
+  EXPECT_EQ(first.handler().get("Title"), "c");
+  copy.declare("More", "e", dealii::Patterns::Anything(), "");
+  EXPECT_EQ(copy.text("More"), "e");
+  EXPECT_EQ(copy.text("Title"), "b");
+  EXPECT_TRUE(first.paths("More").empty());
+  // The last owner sets in place again.
+  {
+    Parameters third = second;
+    third.set("Title", "f", "test");
+    second = third;
+  }
+  second.set("Title", "g", "test");
+  EXPECT_EQ(second.text("Title"), "g");
+}
+
+
+
 TEST_F(ParametersTest, AParameterHandlerHoldsAndReadsTheSame)
 {
-  const Parameters p = read("set Title = a, b\n"
-                            "subsection Friction\n"
-                            "  subsection softening\n"
-                            "    set Rate = 0.06 1/mm\n"
-                            "  end\n"
-                            "end\n"
-                            "subsection Block\n"
-                            "  set Degree = 2\n"
-                            "  set Curved = true\n"
-                            "end\n");
+  Parameters p = read("set Title = a, b\n"
+                      "subsection Friction\n"
+                      "  subsection softening\n"
+                      "    set Rate = 0.06 1/mm\n"
+                      "  end\n"
+                      "end\n"
+                      "subsection Block\n"
+                      "  set Degree = 2\n"
+                      "  set Curved = true\n"
+                      "end\n");
   EXPECT_EQ(p.handler().get("Title"), "a, b");
   EXPECT_EQ(p.handler().get({"Friction", "softening"}, "Rate"), "0.06 1/mm");
   EXPECT_EQ(p.handler().get_integer({"Block"}, "Degree"), 2);

@@ -72,21 +72,8 @@ namespace SlipStep
       unsigned int layer = 0;
     };
 
-    Parameters() = default;
-
-    Parameters(const Parameters &other);
-
-    Parameters &operator=(const Parameters &other);
-
-    Parameters(Parameters &&other) = default;
-
-    Parameters &operator=(Parameters &&other) = default;
-
     /// For code that reads its parameters from a ParameterHandler.
-    const dealii::ParameterHandler &handler() const
-    {
-      return *values;
-    }
+    const dealii::ParameterHandler &handler();
 
     /// Declare a parameter. The documentation gives meaning, formula or
     /// reference, range and unit. Declared order is printed order.
@@ -249,9 +236,11 @@ namespace SlipStep
     bool has_values_of(const Parameters &other) const;
 
   private:
-    /// It cannot be copied.
-    std::unique_ptr<dealii::ParameterHandler> values =
-      std::make_unique<dealii::ParameterHandler>();
+    /// It cannot be copied: copies share it and have what is set after that
+    /// beside it, since a diagnosis copies cases by the thousand.
+    std::shared_ptr<dealii::ParameterHandler> values =
+      std::make_shared<dealii::ParameterHandler>();
+    std::map<std::string, std::string> own_values; ///< by path
     std::vector<Entry>                 entries;
     std::map<std::string, std::size_t> index_of_path;
     std::filesystem::path              file_read;
@@ -263,6 +252,8 @@ namespace SlipStep
                     const std::function<void(const std::string &)> &action);
 
     void set_value(const std::string &path, const std::string &value);
+
+    void stop_sharing();
   };
 } // namespace SlipStep
 
