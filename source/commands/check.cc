@@ -3,6 +3,7 @@
 #include <slipstep/commands/commands.h>
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/experiment/rate_and_state.h>
+#include <slipstep/experiment/stability.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/commands/case.h>
 #include <slipstep/solid/block_parameters.h>
@@ -113,6 +114,26 @@ namespace SlipStep
 
 
 
+    // As `run` and `point` begin.
+    std::vector<std::string> warnings_of_stability(const Case &the_case)
+    {
+      std::vector<std::string> warnings;
+      for (std::size_t i = 0; i < the_case.complete.size(); ++i)
+        {
+          const Parameters &parameters = the_case.complete[i];
+          for (const std::string &text :
+               instability_warnings(FrictionLaw(parameters),
+                                    parse_programme(parameters),
+                                    Machine(parameters)))
+            warnings.push_back(
+              (the_case.is_sweep() ? the_case.variants[i].label + ": " : "") +
+              text);
+        }
+      return warnings;
+    }
+
+
+
     void check_case_file(const fs::path &file, const CommandLine &line)
     {
       const Case the_case = read_case(file, line);
@@ -120,6 +141,7 @@ namespace SlipStep
       if (!line.output.empty())
         check_output(the_case, line);
       print_warnings(warnings_of_programmes(the_case));
+      print_warnings(warnings_of_stability(the_case));
       std::set<std::string> campaigns;
       for (const Parameters &parameters : the_case.complete)
         campaigns.insert(check_campaign(parameters));
