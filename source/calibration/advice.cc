@@ -27,7 +27,8 @@ namespace SlipStep
     std::string rounded(const double value, const int n_digits = 2)
     {
       const double size = std::abs(value);
-      if (!(size >= 100. && size < 1e6))
+      // What is rounded up to it has an exponent, too.
+      if (!(size >= 0.99 * std::pow(10., n_digits) && size < 1e6))
         return short_text(value, n_digits);
       const double unit =
         std::pow(10., std::floor(std::log10(size)) + 1. - n_digits);

@@ -6,7 +6,6 @@
 #include <slipstep/diagnosis/findings.h>
 #include <slipstep/diagnosis/free_factor.h>
 #include <slipstep/diagnosis/outlying_rows.h>
-#include <slipstep/diagnosis/element_tests.h>
 #include <slipstep/diagnosis/intervals.h>
 #include <slipstep/diagnosis/next_test.h>
 #include <slipstep/diagnosis/localisation.h>
@@ -26,18 +25,6 @@ namespace SlipStep
 {
   namespace
   {
-    std::vector<NamedTest> named_tests(const Ingested &ingested)
-    {
-      std::vector<NamedTest> result;
-      for (const CampaignTest &test : ingested.workspace->tests)
-        result.emplace_back(test.rows.name, test.rows.file);
-      for (const CampaignTest &test : ingested.outlier_tests)
-        result.emplace_back(test.rows.name, test.rows.file);
-      return result;
-    }
-
-
-
     // Of those that the case asks for, one at least has to be missing.
     void check_candidates(const Workspace &workspace)
     {
@@ -404,7 +391,6 @@ namespace SlipStep
       result.n_draws       = parameters.integer("Diagnosis/Draws");
       result.is_restricted = parameters.text("Diagnosis/Candidates") != "all";
       ingested             = ingest(parameters, stage);
-      check_element_tests(parameters, named_tests(ingested));
       if (result.is_restricted)
         check_candidates(*ingested.workspace);
     }

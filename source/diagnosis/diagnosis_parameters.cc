@@ -69,9 +69,9 @@ namespace SlipStep
                        "more.");
     parameters.declare(section + "Seed",
                        "1",
-                       Integer(0),
+                       Integer(0, 2147483646),
                        "Seed of these samples: the same seed gives the same "
-                       "verdict, to the last digit. 0 or more.");
+                       "verdict, to the last digit. 0 to 2147483646.");
     parameters.declare(
       section + "Element tests",
       "worst",

@@ -2,6 +2,7 @@
 #include <slipstep/diagnosis/element_tests.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>
+#include <slipstep/utilities/text.h>
 
 namespace SlipStep
 {
@@ -23,23 +24,28 @@ namespace SlipStep
 
 
 
-  void check_element_tests(const Parameters             &parameters,
-                           const std::vector<NamedTest> &tests)
+  void check_element_tests(const Parameters                &parameters,
+                           const std::vector<CampaignTest> &tests)
   {
     const std::vector<std::string> list = parameters.list(tests_key);
     if (list.empty())
       parameters.reject(tests_key, "name tests, or write 'worst' or 'none'");
     for (const std::string &name : list)
       {
-        if (list.size() == 1 && (name == "worst" || name == "none"))
-          return;
+        if (name == "worst" || name == "none")
+          {
+            if (list.size() == 1)
+              return;
+            parameters.reject(tests_key, in_quotes(name) + " stands alone");
+          }
         std::vector<std::string> known = {"worst", "none"};
         bool                     found = false;
-        for (const NamedTest &test : tests)
+        for (const CampaignTest &test : tests)
           {
-            found = found || is_called(test.first, test.second, name);
-            known.push_back(test.first);
-            known.push_back(test.second.filename().string());
+            const fs::path &file = test.rows.file;
+            found = found || is_called(test.rows.name, file, name);
+            known.push_back(test.rows.name);
+            known.push_back(file.filename().string());
           }
         if (!found)
           parameters.reject(tests_key,

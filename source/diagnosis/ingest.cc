@@ -5,6 +5,7 @@
 #include <slipstep/diagnosis/outlier.h>
 #include <slipstep/diagnosis/refits.h>
 #include <slipstep/diagnosis/diagnosis_parameters.h>
+#include <slipstep/diagnosis/element_tests.h>
 #include <slipstep/diagnosis/ingest.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/exceptions.h>
@@ -564,6 +565,7 @@ namespace SlipStep
       result.warnings                 = campaign.warnings();
       std::vector<CampaignTest> tests = campaign.tests;
       make_names_unique(tests);
+      check_element_tests(start, tests);
       remove_erase_if(tests, [&](const CampaignTest &test) {
         return holds(left_out, test.rows.name);
       });

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <sstream>
 #include <vector>
@@ -409,8 +408,11 @@ namespace SlipStep
           continue;
 
         std::ostringstream text;
-        text << std::setprecision(3) << "sliding at " << slide.velocity.norm()
-             << " mm/s under " << slide.pressure << " MPa has no stable branch";
+        const auto         number = [](const double value) {
+          return rounded_text(value, 3);
+        };
+        text << "sliding at " << number(slide.velocity.norm()) << " mm/s under "
+             << number(slide.pressure) << " MPa has no stable branch";
         const std::string effects =
           boost::algorithm::join(law.weakening_effects(sliding.state()), ", ");
         const std::string by_which =
@@ -419,15 +421,15 @@ namespace SlipStep
           {
             const auto speeds = unstable_speeds(law, slide);
             text << ": friction falls with speed" << by_which << " between "
-                 << speeds[0] << " and " << speeds[1]
+                 << number(speeds[0]) << " and " << number(speeds[1])
                  << " mm/s, more than the contact's own stiffness holds, so "
                     "that it sticks and jumps and the time steps get very "
                     "short. A memory length (effect ageing), a viscosity "
                     "(viscous, overstress) or other speeds help";
           }
         else if (std::isfinite(limit))
-          text << ": the machine's stiffness of " << machine.stiffness()
-               << " MPa/mm is below the critical " << limit
+          text << ": the machine's stiffness of " << number(machine.stiffness())
+               << " MPa/mm is below the critical " << number(limit)
                << ", so that it jumps. A stiffer machine or a machine mass "
                   "helps";
         else if (machine.mass() > 0.)

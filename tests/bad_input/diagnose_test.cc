@@ -191,6 +191,8 @@ TEST_F(Diagnose, AnElementTestThatDoesNotExist)
                   "did you mean test_09.csv?"});
   expect_refusal({"Diagnosis/Element tests=Worst"}, {"did you mean worst?"});
   expect_refusal({"Diagnosis/Element tests="}, {"'worst' or 'none'"});
+  expect_refusal({"Diagnosis/Element tests=worst, worst"},
+                 {"'worst' stands alone"});
 }
 
 

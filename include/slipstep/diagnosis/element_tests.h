@@ -2,22 +2,17 @@
 #ifndef slipstep_diagnosis_element_tests_h
 #define slipstep_diagnosis_element_tests_h
 
+#include <slipstep/calibration/campaign.h>
 #include <slipstep/diagnosis/diagnosis.h>
 
-#include <filesystem>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace SlipStep
 {
-  /// The name and the file of a test.
-  using NamedTest = std::pair<std::string, std::filesystem::path>;
-
   /// Whether "Diagnosis/Element tests" names tests that there are.
   /// @throws InputError otherwise
-  void check_element_tests(const Parameters             &parameters,
-                           const std::vector<NamedTest> &tests);
+  void check_element_tests(const Parameters                &parameters,
+                           const std::vector<CampaignTest> &tests);
 
   /// Which tests it names, as numbers of Diagnosis::tests, each once.
   std::vector<std::size_t> element_tests(const Parameters &parameters,
