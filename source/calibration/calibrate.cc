@@ -553,13 +553,7 @@ namespace SlipStep
     {
       if (!noise_is_stated())
         return "their noise, by which neighbouring rows scatter";
-      // Of few rows that were kept for their bends, these seem to be noise.
-      std::vector<double> ratios;
-      for (const CampaignTest &test : campaign.tests)
-        if (test.rows.notes.count("resampled") == 0)
-          ratios.push_back(mean_noise(friction_axes(test.rows)) /
-                           mean_noise(test.axes));
-      const double scatter = median(ratios);
+      const double scatter = scatter_over_stated(campaign.tests);
       return "the noise that is stated (Calibration/Noise, or '# noise' in a "
              "test)" +
              (scatter > some ?

@@ -387,6 +387,18 @@ namespace SlipStep
 
 
 
+  double scatter_over_stated(const std::vector<CampaignTest> &tests)
+  {
+    std::vector<double> ratios;
+    for (const CampaignTest &test : tests)
+      if (test.noise_is_stated && test.rows.notes.count("resampled") == 0)
+        ratios.push_back(mean_noise(friction_axes(test.rows)) /
+                         mean_noise(test.axes));
+    return ratios.empty() ? 1. : median(ratios);
+  }
+
+
+
   double CampaignTest::root_mean_square(const double *weighted) const
   {
     double sum = 0.;

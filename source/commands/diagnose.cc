@@ -34,7 +34,7 @@ namespace SlipStep
       write_new_case(options.output / diagnosis.improved_case,
                      diagnosed.after,
                      options.inactive_sections,
-                     diagnosed.parameters,
+                     diagnosis.parameters,
                      {headline(diagnosis)});
       write_diagnosis_json(options.output / "diagnosis.json",
                            parameters,

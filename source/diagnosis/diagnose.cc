@@ -91,9 +91,8 @@ namespace SlipStep
 
       void run();
 
-      Diagnosis                       result;
-      Parameters                      before, after; ///< cases
-      std::vector<DiagnosedParameter> found_parameters;
+      Diagnosis  result;
+      Parameters before, after; ///< cases
 
     private:
       void judge_tests();
@@ -325,12 +324,12 @@ namespace SlipStep
       stage("intervals");
       if (!workspace.was_stopped)
         workspace.comparison.deadline = deadline_of(parameters, 0.5);
-      found_parameters =
+      result.parameters =
         find_intervals(workspace, final_model, result.confidence);
       stage("what these tests can tell");
       result.candidates = candidate_results(workspace,
                                             judgement,
-                                            found_parameters,
+                                            result.parameters,
                                             ingested.base);
       stage("the next test");
       result.next_test =
@@ -441,7 +440,7 @@ namespace SlipStep
         has_wave ? warning_of_positions(ingested.workspace->tests) : "";
       if (!positions.empty())
         result.warnings.push_back(positions);
-      for (const DiagnosedParameter &parameter : found_parameters)
+      for (const DiagnosedParameter &parameter : result.parameters)
         if (!parameter.effect.empty() && parameter.profile.empty())
           {
             result.warnings.push_back(
@@ -492,9 +491,6 @@ namespace SlipStep
     Diagnostician diagnostician(with_parameters_listed(parameters), stage);
     diagnostician.begin();
     diagnostician.run();
-    return {diagnostician.result,
-            diagnostician.before,
-            diagnostician.after,
-            diagnostician.found_parameters};
+    return {diagnostician.result, diagnostician.before, diagnostician.after};
   }
 } // namespace SlipStep

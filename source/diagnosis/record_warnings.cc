@@ -37,6 +37,27 @@ namespace SlipStep
 
 
 
+    // Where too much is stated, what is missing hides in it.
+    void warn_of_stated_noise(Ingested &result)
+    {
+      constexpr double too_much = 0.2, too_little = 2.;
+
+      const double scatter = scatter_over_stated(result.workspace->tests);
+      if (scatter >= too_much && scatter <= too_little)
+        return;
+      result.warnings.push_back(
+        std::string("Neighbouring rows scatter by ") +
+        (scatter < too_much ? "only " : "") + rounded_text(scatter, 2) +
+        " times the noise that is stated (Calibration/Noise, or '# noise' in a "
+        "test): " +
+        (scatter < too_much ?
+           "unless the records were smoothed, that is too much, and what is "
+           "missing may hide in it." :
+           "that is too little, and chance may be taken for an effect."));
+    }
+
+
+
     void warn_of_hum(Ingested &result)
     {
       const HumOfTests hum =
@@ -115,6 +136,7 @@ namespace SlipStep
         "before: the stated noise lets whole tests be off, or its parameters "
         "have to start elsewhere.");
     warn_of_hum(ingested);
+    warn_of_stated_noise(ingested);
     warn_of_rows(ingested);
     warn_of_temperatures(ingested);
     if (ingested.is_kept_near)

@@ -217,7 +217,7 @@ namespace SlipStep
       {
         const double motion = along(i) / elastic_stiffness() / slip_by_motion;
         const double kept = derivative(i, i) + derivative(i, n_states) * motion;
-        fastest           = std::max(fastest, (1. - kept) / time_step);
+        fastest = std::max(fastest, std::min(1. - kept, 1.) / time_step);
       }
     return std::max(relative_step / time_step, 100. * fastest);
   }

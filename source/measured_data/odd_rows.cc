@@ -423,6 +423,8 @@ namespace SlipStep
                    std::to_string(rows.size()),
                  rows[0]);
         };
+        // An axis along which nothing moves has noise only.
+        const double usual = usual_size(sizes_of_friction(test));
         for (const auto &[name, friction, x] :
              {std::tuple{"friction", &test.friction, &test.displacement},
               std::tuple{"friction_y", &test.friction_y, &test.displacement_y}})
@@ -438,7 +440,6 @@ namespace SlipStep
                   return true;
               return false;
             };
-            const double             usual = usual_size(*friction);
             std::vector<std::size_t> rows;
             for (const std::size_t row :
                  excursions(under_load(*friction, test), 0.5 * usual))

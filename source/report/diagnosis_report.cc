@@ -44,7 +44,9 @@ namespace SlipStep
           shrink.systematic_after,
           "");
       const std::string under = reservation(diagnosis);
-      return "  verdict: " + name_of(diagnosis.verdict) +
+      return "  verdict: " +
+             (diagnosis.is_cut_short ? "not decided, so far " : std::string()) +
+             name_of(diagnosis.verdict) +
              (diagnosis.is_incomplete ? ", incomplete" : "") +
              (diagnosis.effects.empty() ? "" : " – " + names_text(diagnosis)) +
              (under.empty() ? "" : ", " + under) +
@@ -235,7 +237,8 @@ namespace SlipStep
       std::vector<const CandidateResult *> seen;
       std::size_t                          n_blind = 0;
       for (const CandidateResult &candidate : diagnosis.candidates)
-        if (std::isfinite(candidate.minimum_detectable))
+        if (candidate.is_testable &&
+            std::isfinite(candidate.minimum_detectable))
           seen.push_back(&candidate);
         else if (candidate.standing == Standing::not_testable)
           ++n_blind;

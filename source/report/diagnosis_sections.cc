@@ -328,8 +328,7 @@ namespace SlipStep
     {
       TableLines lines = {table_head("parameter | unit | before | after | " +
                                      interval_name(diagnosis.confidence))};
-      add_lines(lines, diagnosis.start_parameters);
-      add_lines(lines, named_parameters(diagnosis));
+      add_lines(lines, diagnosis.parameters);
       if (!has_after(diagnosis))
         lines[0][3] = "fitted";
       return table_section(

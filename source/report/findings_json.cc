@@ -273,6 +273,7 @@ namespace SlipStep
           rival_of.push_back(rival.instead_of);
         }
       return {{"status", name_of(diagnosis.verdict)},
+              {"decided", !diagnosis.is_cut_short},
               {"headline", headline(diagnosis)},
               {"effects", diagnosis.effects},
               {"ambiguous_with", rivals},
@@ -311,6 +312,7 @@ namespace SlipStep
                       {"share", diagnosis.correction->share}};
       return {{"prm", diagnosis.improved_case},
               {"added", diagnosis.effects},
+              {"parameters", diagnosis.parameters},
               {"correction", correction}};
     }
 

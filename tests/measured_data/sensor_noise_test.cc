@@ -221,3 +221,47 @@ TEST(SensorNoise, AStrokeThatBendsIsNone)
       EXPECT_TRUE(test.warnings.empty()) << seed;
     }
 }
+
+
+
+// Slides and rests of few rows: what stands still to the last digit does not
+// tremble.
+TEST(SensorNoise, FewRowsBetweenRestsAreNone)
+{
+  MeasuredTest test;
+  test.time         = {0.,
+                       10.,
+                       57.,
+                       87.,
+                       108.,
+                       113.,
+                       133.,
+                       154.,
+                       349.,
+                       397.,
+                       417.,
+                       482.,
+                       2220.,
+                       2933.,
+                       2950.};
+  test.displacement = {0.,
+                       1.4,
+                       8.,
+                       12.,
+                       12.,
+                       12.4,
+                       15.1,
+                       17.,
+                       17.,
+                       17.1,
+                       19.8,
+                       22.,
+                       22.,
+                       22.1,
+                       24.6};
+  test.pressure.assign(test.time.size(), 6.7);
+  const std::vector<double> as_recorded = test.displacement;
+  take_off_noise_of_motion(test, 1e-5);
+  EXPECT_EQ(test.displacement, as_recorded);
+  EXPECT_TRUE(test.warnings.empty());
+}

@@ -548,6 +548,28 @@ TEST(TestRows, ASensorAtItsLimitIsTold)
 
 
 
+// Of a slide across, friction along the first axis is noise about nothing.
+TEST(TestRows, NoiseAcrossTheMotionIsNoExcursion)
+{
+  std::mt19937                     random(3);
+  std::normal_distribution<double> noise(0., 1.3e-3);
+  for (unsigned int n = 0; n < 20; ++n)
+    {
+      const auto    file = test_folder() / "across.csv";
+      std::ofstream out(file);
+      out << "time_s,displacement_mm,pressure_MPa,friction,displacement_y_mm,"
+             "friction_y\n";
+      for (int i = 0; i < 20; ++i)
+        out << i << ",0,5," << noise(random) << ',' << 0.5 * i << ','
+            << (i == 0 ? 0. : 0.13) + noise(random) << '\n';
+      out.close();
+      for (const std::string &warning : read_measured_test(file).warnings)
+        EXPECT_FALSE(contains(warning, "there and back")) << warning;
+    }
+}
+
+
+
 // Codes of errors in what leads the contact; where it turns round or goes on at
 // another pressure, nothing is odd.
 TEST(TestRows, RowsThatComeBackAtOnceAreTold)

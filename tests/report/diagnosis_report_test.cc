@@ -324,7 +324,6 @@ TEST(DiagnosisHeadline, ItBeginsWithANumberThatIsHeldInThePlaceOfAName)
 
 
 
-// Intervals do not know what remains.
 // The bounds of what was added are the diagnosis' own, and stand in no case.
 TEST(DiagnosisReport, ItTellsTheBoundsWhereOneIsMet)
 {
@@ -337,6 +336,7 @@ TEST(DiagnosisReport, ItTellsTheBoundsWhereOneIsMet)
   EXPECT_TRUE(contains(diagnosis_table(diagnosis),
                        "* at a bound of the diagnosis: overstress/Viscosity "
                        "0.0001 … 0.0123"));
+  diagnosis.parameters.push_back(parameter);
   EXPECT_TRUE(contains(page_of(diagnosis), "(bound: 0.0001 … 0.0123)"));
   parameter.most = 1.;
   EXPECT_TRUE(contains(diagnosis_table(diagnosis),
@@ -345,6 +345,7 @@ TEST(DiagnosisReport, ItTellsTheBoundsWhereOneIsMet)
 
 
 
+// Intervals do not know what remains.
 TEST(DiagnosisReport, ItTellsThatIntervalsAreThoseOfNoise)
 {
   const std::string reservation = "The intervals are those of noise alone";
@@ -637,4 +638,30 @@ TEST(DiagnosisReport, WithoutGnuplotTheNumbersStillCome)
   EXPECT_TRUE(contains(page, "4.91" + percent + " → 1.04" + percent));
   EXPECT_TRUE(contains(page, "Tests and phases"));
   EXPECT_TRUE(contains(page, "6.20" + percent));
+}
+
+
+
+// improved.prm has the parameters of the model in the end, not of the start.
+TEST(DiagnosisReport, ParametersAreThoseOfTheImprovedCase)
+{
+  const std::string page  = page_of(SyntheticDiagnosis::named());
+  const std::size_t begin = page.find(">Parameters<");
+  ASSERT_NE(begin, std::string::npos);
+  EXPECT_TRUE(contains(page.substr(begin), "0.3377"));
+  EXPECT_FALSE(contains(page.substr(begin), "0.3612"));
+}
+
+
+
+// As the table does.
+TEST(DiagnosisReport, EffectsThatAreNotTestableWouldNotHaveBeenSeen)
+{
+  Diagnosis diagnosis                        = SyntheticDiagnosis::no_gap();
+  diagnosis.candidates                       = {CandidateResult()};
+  diagnosis.candidates[0].name               = "pressure";
+  diagnosis.candidates[0].minimum_detectable = 0.5;
+  diagnosis.candidates[0].standing           = Standing::not_testable;
+  EXPECT_TRUE(contains(first_screen_of(diagnosis),
+                       "1 of 1 effects cannot be tested here."));
 }

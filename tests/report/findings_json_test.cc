@@ -189,11 +189,12 @@ TEST(DiagnosisJson, WhatAFormulaLacksHasItsKeys)
 TEST(DiagnosisJson, TheKeysOfTheResultAreTheDocumentedOnes)
 {
   const auto object = written(SyntheticDiagnosis::named());
-  has_exactly(object["verdict"],
-              "status headline effects ambiguous_with rival_of withdrawn "
-              "look_alike incomplete worth_little remainder_where "
-              "formulas_not_quite_right explained_share remainder_p "
-              "would_overturn");
+  has_exactly(
+    object["verdict"],
+    "status decided headline effects ambiguous_with rival_of withdrawn "
+    "look_alike incomplete worth_little remainder_where "
+    "formulas_not_quite_right explained_share remainder_p "
+    "would_overturn");
   has_exactly(object["candidates"][0],
               "effect status score p gain left_out_gain "
               "minimum_detectable_percent testable at_bound parameters");
@@ -202,7 +203,7 @@ TEST(DiagnosisJson, TheKeysOfTheResultAreTheDocumentedOnes)
     has_exactly(parameter,
                 "name path value interval95 unit before at_bound profile");
   has_exactly(object["not_testable"][0], "effect why cheapest_test");
-  has_exactly(object["new_model"], "prm added correction");
+  has_exactly(object["new_model"], "prm added parameters correction");
   has_exactly(object["shrink"],
               "unit fitted left_out systematic noise_floor per_test steps");
   has_exactly(object["shrink"]["per_test"][0], "name fitted left_out noise");

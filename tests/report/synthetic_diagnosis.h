@@ -193,6 +193,7 @@ namespace SyntheticDiagnosis
        parameter("", "Tangential stiffness", "MPa/mm", 44.3, 2.1)};
     result.start_parameters[0].before = 0.35;
     result.start_parameters[1].before = 40.;
+    result.parameters                 = result.start_parameters;
     result.noise                      = {
                            {"white", 0.0083, "of friction", "replicates", 0.0081, 0.0086},
                            {"gain", 0.0045, "of friction", "replicates", 0.002, 0.0098},
@@ -309,6 +310,10 @@ namespace SyntheticDiagnosis
       parameter("overstress", "Viscosity", "s", 0.0123, 0.0006),
       parameter("overstress", "Exponent", "", 41.2, 3.)};
     result.candidates[0].parameters[1].is_upper_open = true;
+    // Others are other ones with what was missing.
+    result.parameters[0].value = 0.3377;
+    for (const DiagnosedParameter &added : result.candidates[0].parameters)
+      result.parameters.push_back(added);
     result.candidates[1] =
       candidate("stribeck", Standing::not_needed, 0.001, 1210.4, 983.1, 0.006);
     result.element_checks = {element_check(result.tests[3])};

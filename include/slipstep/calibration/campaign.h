@@ -52,6 +52,11 @@ namespace SlipStep
     double root_mean_square(const double *weighted) const;
   };
 
+  /// What neighbouring rows scatter by, over the noise that is stated: the
+  /// median of the tests of which it is; 1 without any. Rows of few that were
+  /// kept for their bends do not count.
+  double scatter_over_stated(const std::vector<CampaignTest> &tests);
+
   /// The tests of a case and the parameters to be found from them.
   class Campaign
   {

@@ -5,17 +5,14 @@
 #include <slipstep/diagnosis/diagnosis.h>
 #include <slipstep/diagnosis/ingest.h>
 
-#include <vector>
-
 namespace SlipStep
 {
   /// What was found, and the cases to go on with.
   struct DiagnosedCase
   {
-    Diagnosis                       diagnosis;
-    Parameters                      before;     ///< the calibrated case
-    Parameters                      after;      ///< with what was missing
-    std::vector<DiagnosedParameter> parameters; ///< of the latter
+    Diagnosis  diagnosis;
+    Parameters before; ///< the calibrated case
+    Parameters after;  ///< with what was missing
   };
 
   /// Find where a case and its measured tests disagree, name what is missing,

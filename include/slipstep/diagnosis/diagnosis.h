@@ -308,12 +308,13 @@ namespace SlipStep
     std::optional<Correction>     correction; ///< of what has no name
 
     // ---- the way down
-    Shrink                      shrink;
-    std::vector<GapStep>        steps;
-    std::vector<CovariatePanel> panels;
-    NextTest                    next_test;
-    std::vector<ElementCheck>   element_checks;
-    std::string                 improved_case; ///< file, "" if none is written
+    Shrink                          shrink;
+    std::vector<DiagnosedParameter> parameters; ///< of the model in the end
+    std::vector<GapStep>            steps;
+    std::vector<CovariatePanel>     panels;
+    NextTest                        next_test;
+    std::vector<ElementCheck>       element_checks;
+    std::string improved_case; ///< file, "" if none is written
 
     // ---- honesty
     unsigned int n_candidates = 0; ///< without those in the model
