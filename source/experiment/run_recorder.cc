@@ -5,6 +5,7 @@
 
 #include <slipstep/experiment/point_driver.h>
 #include <slipstep/friction/largest_coefficient.h>
+#include <slipstep/utilities/process.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/text.h>
@@ -268,7 +269,7 @@ namespace SlipStep
              " mm in one step, however short: nothing on the way is in "
              "equilibrium, and friction just after it is rough; a " +
              (is_block ? "Block/Density" : "Loading/Machine mass") +
-             ", or friction that rises with speed (effect viscous or "
+             ", or friction that rises by more with speed (effect viscous or "
              "overstress), makes a motion of it";
     }
   } // namespace
@@ -289,7 +290,8 @@ namespace SlipStep
     summary.steps       = history.size();
     summary.status      = reason.empty() ? "finished" : "failed";
     summary.reason      = reason;
-    if (!reason.empty())
+    // Who stops a run needs no other cause.
+    if (!reason.empty() && SignalGuard::caught() == 0)
       for (const std::string &text : instabilities)
         summary.reason += "; " + text;
     summarise_history(history, programme, summary);

@@ -302,6 +302,52 @@ TEST(Stability, without_rate_effect_any_mass_is_too_much)
 
 
 
+// Whatever the speed: round-off of the steps is no rate effect.
+TEST(Stability, round_off_damps_nothing)
+{
+  const Settings law = with(core,
+                            {{"Effects", "subloading, softening, healing"},
+                             {"Tangential stiffness", "1e6"}});
+  for (const double V : {0.001, 0.1, 10.})
+    {
+      EXPECT_EQ(computed(law, V, 1e-3).stiffness,
+                std::numeric_limits<double>::infinity())
+        << V;
+      const double k =
+        pressure * kappa * std::expm1(a * (steady_coefficient(V) - mu_k));
+      const StabilityLimit without = computed(law, V, 0.);
+      EXPECT_NEAR(without.stiffness, k, 2e-3 * k) << V;
+      EXPECT_EQ(without.frequency, 0.) << V;
+    }
+}
+
+
+
+// Rate and state, k_0 = f_n (b - a)/D_c of friction, on a contact that is
+// hardly stiffer.
+TEST(Stability, memories_on_a_contact_hardly_stiffer_than_their_fall)
+{
+  Settings     law = {{"Effects", "subloading, overstress, ageing"},
+                      {"Static coefficient", "0.3"},
+                      {"ageing/Growth", "0.05"},
+                      {"ageing/Renewal length", "0.02"},
+                      {"overstress/Viscosity", "1e6"},
+                      {"overstress/Exponent", "100"},
+                      {"Tangential stiffness", "1e5"}};
+  const double V   = 0.01;
+  const double k_0 = computed(law, V, 0.).stiffness;
+  ASSERT_GT(k_0, 0.);
+  for (const double times : {1.003, 1.03, 1.3, 10.})
+    {
+      const double alpha_t = times * k_0;
+      law.back().second    = exact_text(alpha_t);
+      const double k       = k_0 / (1. - k_0 / alpha_t);
+      EXPECT_NEAR(computed(law, V, 0.).stiffness, k, 0.02 * k) << times;
+    }
+}
+
+
+
 // Weakening that takes a slip or a time is held by every contact stiffer than
 // that; what has run in weakens no more.
 TEST(Stability, what_weakens_by_memory_does_not_grow_at_once)

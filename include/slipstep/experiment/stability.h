@@ -87,6 +87,10 @@ namespace SlipStep
     /// its beginning and, last, by the slip increment.
     dealii::FullMatrix<double> derivatives(const double time_step) const;
 
+    /// Z(i omega) by steps of one length.
+    std::complex<double> stiffness_by_steps(const double omega,
+                                            const double time_step) const;
+
     /// Z of the slip alone, without the elastic part of the contact.
     std::complex<double> slip_stiffness(const double omega) const;
 
@@ -123,11 +127,11 @@ namespace SlipStep
   std::vector<Loading> steady_slides(const Programme  &programme,
                                      const std::size_t most);
 
-  /// Warnings, in words, of slides of a programme that neither the contact's
-  /// own stiffness nor the machine holds, since friction falls with speed: at
-  /// which speeds sliding has no stable branch, by which effects, and what
-  /// helps. Empty if there are none. Sliding that a machine with a mass makes a
-  /// motion is none.
+  /// A warning, in words, of the slide of a programme that is held least by the
+  /// contact's own stiffness and the machine, since friction falls: at which
+  /// speeds sliding has no stable branch, by which effects, and what helps.
+  /// Empty if all are held. Sliding that a machine with a mass makes a motion
+  /// is.
   std::vector<std::string> instability_warnings(const FrictionLaw &law,
                                                 const Programme   &programme,
                                                 const Machine     &machine);
