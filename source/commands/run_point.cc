@@ -26,6 +26,15 @@ namespace SlipStep
              !differ(a.critical_stiffness, b.critical_stiffness);
     }
 
+    // -180 to 180 degrees, without the sign of a zero.
+    double direction_of(const dealii::Tensor<1, 2> &velocity)
+    {
+      return std::atan2(velocity[1] + 0., velocity[0]) * 180. /
+             dealii::numbers::PI;
+    }
+
+
+
     std::vector<StabilitySummary> stability_of(const FrictionLaw &law,
                                                const Programme   &programme,
                                                const Machine     &machine)
@@ -48,7 +57,8 @@ namespace SlipStep
                                          machine.stiffness(),
                                          limit.stiffness,
                                          limit.frequency /
-                                           (2. * dealii::numbers::PI)};
+                                           (2. * dealii::numbers::PI),
+                                         direction_of(now.velocity)};
           if (none_of(result, [&](const auto &other) {
                 return is_like(summary, other);
               }))

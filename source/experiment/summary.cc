@@ -57,6 +57,7 @@ namespace SlipStep
       members("stiffness_MPa_per_mm", stability.stiffness);
       members("critical_stiffness_MPa_per_mm", stability.critical_stiffness);
       members("critical_frequency_Hz", stability.critical_frequency);
+      members.optional("direction_deg", stability.direction);
       bool is_stable = stability.is_stable();
       members.optional("stable", is_stable);
     }

@@ -344,28 +344,48 @@ namespace SlipStep
     /// without a spring.
     TableLines stability_lines(const Runs &runs)
     {
+      // Most laws slide alike whichever way.
+      const bool with_directions = any_of(runs, [](const RunResults &run) {
+        const auto &all = run.summary.stability;
+        for (std::size_t i = 0; i < all.size(); ++i)
+          for (std::size_t j = 0; j < i; ++j)
+            if (short_text(all[i].speed) == short_text(all[j].speed) &&
+                short_text(all[i].pressure) == short_text(all[j].pressure))
+              return true;
+        return false;
+      });
       TableLines lines = {
-        table_head("run | speed [mm/min] | pressure [MPa] | k [MPa/mm] | "
-                   "critical k [MPa/mm] | at [Hz] | steady sliding")};
+        table_head("run | speed [mm/min] | " +
+                   std::string(with_directions ? "angle [deg] | " : "") +
+                   "pressure [MPa] | k [MPa/mm] | critical k [MPa/mm] | "
+                   "at [Hz] | steady sliding")};
       for (const RunResults &run : runs)
         for (const StabilitySummary &s : run.summary.stability)
-          lines.push_back(
-            {run_name(run),
-             short_text(60. * s.speed),
-             short_text(s.pressure),
-             short_text(s.stiffness),
-             std::isinf(s.critical_stiffness) ?
-               "∞" :
-               short_text(s.critical_stiffness),
-             s.critical_frequency > 0. ? short_text(s.critical_frequency) : "–",
-             !s.is_stable() ? "unstable: stick-slip" :
-                              // As a disturbance that is not small can make it.
-               any_of(run.summary.slides,
-                      [&](const SlideSummary &slide) {
-                        return slide.swings() && s.is_of(slide);
-                      }) ?
-                              "stable, but the run swings" :
-                              "stable"});
+          {
+            std::vector<std::string> line = {run_name(run),
+                                             short_text(60. * s.speed)};
+            if (with_directions)
+              line.push_back(short_text(s.direction));
+            line.insert(line.end(),
+                        {short_text(s.pressure),
+                         short_text(s.stiffness),
+                         std::isinf(s.critical_stiffness) ?
+                           "∞" :
+                           short_text(s.critical_stiffness),
+                         s.critical_frequency > 0. ?
+                           short_text(s.critical_frequency) :
+                           "–",
+                         !s.is_stable() ? "unstable: stick-slip" :
+                                          // As a disturbance that is not small
+                                          // can make it.
+                           any_of(run.summary.slides,
+                                  [&](const SlideSummary &slide) {
+                                    return slide.swings() && s.is_of(slide);
+                                  }) ?
+                                          "stable, but the run swings" :
+                                          "stable"});
+            lines.push_back(line);
+          }
       return lines;
     }
 

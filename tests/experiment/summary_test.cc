@@ -128,6 +128,7 @@ TEST(Summary, TheKeysAreTheDocumentedOnes)
                "stiffness_MPa_per_mm",
                "critical_stiffness_MPa_per_mm",
                "critical_frequency_Hz",
+               "direction_deg",
                "stable"});
 }
 

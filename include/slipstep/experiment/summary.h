@@ -64,6 +64,7 @@ namespace SlipStep
     double stiffness          = 0.; ///< of the machine, k [MPa/mm]
     double critical_stiffness = 0.; ///< k_c, 0 to infinity [MPa/mm]
     double critical_frequency = 0.; ///< of the disturbance at k_c [Hz]
+    double direction          = 0.; ///< of the motion [deg]
 
     bool is_stable() const
     {
