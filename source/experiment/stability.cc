@@ -313,11 +313,10 @@ namespace SlipStep
              resolution() * std::max(1., omega * shortest_step());
     };
     const double quickest = this->quickest();
-    double       first    = 1e6 * quickest;
-    while (first > quickest && !damps(first))
-      first /= 10.;
-    if (!damps(first))
-      return limit_without_rate_effect(mass);
+    double       first    = quickest;
+    for (; !damps(first); first *= 10.)
+      if (first > 1e6 * quickest)
+        return limit_without_rate_effect(mass);
 
     StabilityLimit result;
     double         loss  = dynamic_stiffness(first).imag();
