@@ -74,6 +74,7 @@ namespace SlipStep
       const double       level = level_of_round(workspace, n_effects);
       std::vector<Model> found;
       unsigned int       n_tried = 0;
+      double             gain    = 0.; // of the best
       for (const CandidateView &seen : view.candidates)
         {
           if (!is_evident(seen, level) || n_tried == most_tried)
@@ -81,7 +82,8 @@ namespace SlipStep
           if (workspace.is_late())
             return {};
           ++n_tried;
-          const std::optional<Model> tried = refit_with(workspace, model, seen);
+          const std::optional<Model> tried = refit_with(
+            workspace, model, seen, model.objective - promise_of_rivals(gain));
           if (!tried.has_value() && model.parts.empty())
             notes.lost.push_back(seen.candidate.name);
           // Worse than without it: the fit was lost on its way.
@@ -91,7 +93,10 @@ namespace SlipStep
             notes.gains.emplace_back(seen.candidate.name,
                                      model.objective - tried->objective);
           if (!is_at_bound(*tried))
-            found.push_back(*tried);
+            {
+              found.push_back(*tried);
+              gain = std::max(gain, model.objective - tried->objective);
+            }
           else if (!at_bound.has_value() ||
                    tried->objective < at_bound->objective)
             at_bound = tried;

@@ -401,7 +401,7 @@ namespace SlipStep
 
 
   bool Comparison::fit(Model                   &model,
-                       const double             precision,
+                       const FitEnd            &end,
                        const std::vector<bool> &left_out,
                        const std::vector<bool> &held) const
   {
@@ -415,10 +415,11 @@ namespace SlipStep
                          Eigen::MatrixXd       &derivatives) {
                        return problem.derivatives(x, residuals, derivatives);
                      },
-                     deadline},
+                     deadline,
+                     end.goal},
                     Eigen::Map<const Eigen::VectorXd>(model.scaled.data(),
                                                       model.scaled.size()),
-                    precision,
+                    end.precision,
                     held);
     model.objective =
       minimum.found ? minimum.sum : std::numeric_limits<double>::infinity();

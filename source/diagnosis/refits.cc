@@ -13,28 +13,28 @@ namespace SlipStep
 
 
 
-    std::optional<Model>
-    fitted(const Comparison &comparison, Model model, const double precision)
+    std::optional<Model> fitted(const Comparison         &comparison,
+                                Model                     model,
+                                const Comparison::FitEnd &end)
     {
-      return comparison.fit(model, precision) ?
-               std::make_optional(std::move(model)) :
-               std::nullopt;
+      return comparison.fit(model, end) ? std::make_optional(std::move(model)) :
+                                          std::nullopt;
     }
   } // namespace
 
 
 
-  std::optional<Model> fitted_model(const Workspace         &workspace,
-                                    const std::vector<Part> &parts,
-                                    const Values            &values,
-                                    const Model             &like,
-                                    const double             precision)
+  std::optional<Model> fitted_model(const Workspace          &workspace,
+                                    const std::vector<Part>  &parts,
+                                    const Values             &values,
+                                    const Model              &like,
+                                    const Comparison::FitEnd &end)
   {
     return if_possible([&]() {
       return fitted(
         workspace.comparison,
         make_model(workspace.start, parts, values, workspace.tests, like),
-        precision);
+        end);
     });
   }
 
@@ -42,16 +42,14 @@ namespace SlipStep
 
   namespace
   {
-
-
-
     // With the effect at a strength, less if that cannot be simulated.
     std::optional<Model> fit_from(const Workspace &workspace,
                                   const Model     &model,
                                   const Candidate &candidate,
                                   const Direction &direction,
                                   const Values    &values,
-                                  const double     strength)
+                                  const double     strength,
+                                  const double     goal)
     {
       const TrialFormula::Shape &shape =
         candidate.formulas[direction.formula].shapes[direction.shape];
@@ -61,7 +59,7 @@ namespace SlipStep
                            with_part(model.parts, candidate, direction.formula),
                            merged(values, shape(share * strength)),
                            model,
-                           precision))
+                           {precision, goal}))
           return result;
       return {};
     }
@@ -72,34 +70,50 @@ namespace SlipStep
     std::optional<Model> refit_by(const Workspace          &workspace,
                                   const Model              &model,
                                   const Candidate          &candidate,
-                                  const CandidateView::Way &way)
+                                  const CandidateView::Way &way,
+                                  double                    goal)
     {
       // Above, in units of the noise, a model is so far off that its
-      // parameters have been pulled anywhere: those of the start are as good.
-      constexpr double far = 2.;
+      // parameters have been pulled anywhere: those of the start are as good,
+      // unless what was added leads to the tests from there.
+      const double far = 2. * workspace.comparison.n_rows();
 
       // To first order; less where that is far.
       double strength = std::clamp(way.score.strength, -50., 100.);
       if (way.direction.is_one_sided)
         strength = std::max(strength, 0.1);
-      std::optional<Model> best = fit_from(
-        workspace, model, candidate, way.direction, model.values(), strength);
-      if (model.objective < far * workspace.comparison.n_rows())
+      std::optional<Model> best = fit_from(workspace,
+                                           model,
+                                           candidate,
+                                           way.direction,
+                                           model.values(),
+                                           strength,
+                                           goal);
+      if (model.objective < far || (best.has_value() && best->objective < far))
         return best;
       Values start = model.values();
       for (const FitParameter &parameter : model.campaign->fitted)
         start[parameter.path] = parameter.start;
       for (const double share : {1., 0.2})
         {
+          if (best.has_value())
+            goal = std::min(goal, best->objective);
           const std::optional<Model> other = fit_from(workspace,
                                                       model,
                                                       candidate,
                                                       way.direction,
                                                       start,
-                                                      share * strength);
-          if (other.has_value() &&
-              (!best.has_value() || other->objective < best->objective))
+                                                      share * strength,
+                                                      goal);
+          if (!other.has_value())
+            continue;
+          // Where all that did not lead elsewhere, less of it will not.
+          const bool is_elsewhere =
+            !best.has_value() || other->objective < best->objective - sure_gain;
+          if (!best.has_value() || other->objective < best->objective)
             best = other;
+          if (!is_elsewhere)
+            break;
         }
       return best;
     }
@@ -132,7 +146,8 @@ namespace SlipStep
 
   std::optional<Model> refit_with(Workspace           &workspace,
                                   const Model         &model,
-                                  const CandidateView &view)
+                                  const CandidateView &view,
+                                  const double         goal)
   {
     // Below this share of the best score another formula is not tried.
     constexpr double as_promising = 0.7;
@@ -147,7 +162,13 @@ namespace SlipStep
           break;
         ++workspace.n_refits;
         const std::optional<Model> tried =
-          refit_by(workspace, model, view.candidate, way);
+          refit_by(workspace,
+                   model,
+                   view.candidate,
+                   way,
+                   best.has_value() && !is_at_bound(*best) ?
+                     std::min(goal, penalised(*best)) :
+                     goal);
         if (tried.has_value() &&
             (!best.has_value() || rank(*tried) < rank(*best)))
           best = tried;
@@ -211,7 +232,7 @@ namespace SlipStep
                          merged(model.values(),
                                 part.formula.shapes[shape](strength)),
                          model,
-                         precision);
+                         {precision, best.objective});
           if (tried.has_value() && !is_at_bound(*tried) &&
               tried->objective < best.objective - sure_gain)
             best = *tried;

@@ -118,13 +118,6 @@ namespace SlipStep
 
 
 
-    double promise_of_rivals(const double gain)
-    {
-      return promising_share * gain - promising_slack;
-    }
-
-
-
     bool holds_names(const Model &model, const Model &others)
     {
       return none_of(others.parts,
@@ -284,7 +277,8 @@ namespace SlipStep
           if (workspace.is_late())
             return false;
           ++n_tried;
-          std::optional<Model> tried = refit_with(workspace, less, seen);
+          std::optional<Model> tried = refit_with(
+            workspace, less, seen, penalised(result.model) + rival_distance);
           if (!tried.has_value() || is_at_bound(*tried) ||
               fits_any_friction(workspace, *tried) ||
               is_same_formula(tried->parts.back().formula, part.formula))

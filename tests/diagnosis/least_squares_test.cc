@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <vector>
 
 using namespace SlipStep;
 
@@ -95,4 +97,109 @@ TEST(LeastSquares, AvoidsWhatCannotBeSimulated)
   ASSERT_TRUE(found.found);
   EXPECT_NEAR(found.x(0), 0.8, 1e-5);
   EXPECT_FALSE(least_squares(problem, point(0.1, 0.9), 1e-14).found);
+}
+
+
+
+namespace
+{
+  // Decays a exp(-b t) of other a and b, with errors.
+  struct Decays
+  {
+    explicit Decays(const unsigned int seed)
+    {
+      std::mt19937                           random(seed);
+      std::uniform_real_distribution<double> between(0.2, 0.8);
+      std::normal_distribution<double>       error(0., 0.02);
+      const double                           a = between(random);
+      const double                           b = between(random);
+      for (unsigned int i = 0; i < 40; ++i)
+        {
+          t.push_back(0.1 * i);
+          y.push_back(a * std::exp(-b * t.back()) + error(random));
+        }
+    }
+
+    Eigen::VectorXd residuals(const Eigen::VectorXd &x) const
+    {
+      Eigen::VectorXd result(t.size());
+      for (std::size_t i = 0; i < t.size(); ++i)
+        result(i) = x(0) * std::exp(-x(1) * t[i]) - y[i];
+      return result;
+    }
+
+    Eigen::MatrixXd derivatives(const Eigen::VectorXd &x) const
+    {
+      Eigen::MatrixXd result(t.size(), 2);
+      for (std::size_t i = 0; i < t.size(); ++i)
+        result.row(i) << std::exp(-x(1) * t[i]),
+          -t[i] * x(0) * std::exp(-x(1) * t[i]);
+      return result;
+    }
+
+    SquaresProblem problem()
+    {
+      return {[this](const Eigen::VectorXd &x, Eigen::VectorXd &found) {
+                ++n_residuals;
+                found = residuals(x);
+                return true;
+              },
+              [this](const Eigen::VectorXd &x,
+                     const Eigen::VectorXd &,
+                     Eigen::MatrixXd &found) {
+                ++n_derivatives;
+                found = derivatives(x);
+                return true;
+              }};
+    }
+
+    std::vector<double> t, y;
+    unsigned int        n_residuals = 0, n_derivatives = 0;
+  };
+} // namespace
+
+
+
+// Derivatives are carried on from step to step where that does; those of the
+// end are its own, and the slope is nothing there.
+TEST(LeastSquares, CarriesDerivativesOn)
+{
+  unsigned int n_residuals = 0, n_derivatives = 0;
+  for (unsigned int seed = 1; seed <= 20; ++seed)
+    {
+      Decays               decays(seed);
+      const SquaresMinimum found =
+        least_squares(decays.problem(), point(0.5, 0.5), 1e-12);
+      ASSERT_TRUE(found.found);
+      EXPECT_EQ(found.derivatives, decays.derivatives(found.x)) << seed;
+      EXPECT_EQ(found.residuals, decays.residuals(found.x)) << seed;
+      EXPECT_LT((found.derivatives.transpose() * found.residuals).norm(), 1e-5)
+        << seed;
+      n_residuals += decays.n_residuals;
+      n_derivatives += decays.n_derivatives;
+    }
+  EXPECT_LT(2 * n_derivatives, n_residuals);
+}
+
+
+
+// What will not come below the goal is not followed to its end; what does is.
+TEST(LeastSquares, GivesUpWhatIsOutOfReach)
+{
+  for (unsigned int seed = 1; seed <= 20; ++seed)
+    {
+      Decays               whole(seed), hopeless(seed), hopeful(seed);
+      const auto           start = point(1., 0.);
+      const SquaresMinimum found = least_squares(whole.problem(), start, 1e-12);
+      SquaresProblem       problem = hopeless.problem();
+      problem.goal                 = 0.5 * found.sum;
+      least_squares(problem, start, 1e-12);
+      EXPECT_LE(hopeless.n_residuals, whole.n_residuals) << seed;
+      problem      = hopeful.problem();
+      problem.goal = 1.01 * found.sum;
+      EXPECT_NEAR(least_squares(problem, start, 1e-12).sum,
+                  found.sum,
+                  1e-6 * found.sum)
+        << seed;
+    }
 }

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -149,13 +150,24 @@ namespace SlipStep
     /// Whiten columns of friction of all tests.
     void whiten(RowMatrix &columns) const;
 
+    /// How far a fit goes, as in least_squares().
+    struct FitEnd
+    {
+      FitEnd(const double precision,
+             const double goal = std::numeric_limits<double>::infinity())
+        : precision(precision)
+        , goal(goal)
+      {}
+
+      double precision, goal; ///< of the objective
+    };
+
     /// Fit all parameters of a model, starting from those that it has.
-    /// @param precision of the objective, as in least_squares()
     /// @param left_out tests that do not count
     /// @param held parameters that stay
     /// @return whether there is anything that can be simulated
     bool fit(Model                   &model,
-             const double             precision,
+             const FitEnd            &end,
              const std::vector<bool> &left_out = {},
              const std::vector<bool> &held     = {}) const;
 

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace SlipStep
@@ -25,6 +26,9 @@ namespace SlipStep
     /// The best that is known then has to do.
     std::chrono::steady_clock::time_point deadline =
       std::chrono::steady_clock::time_point::max();
+    /// Sums above are of no use: a search whose pace will not bring it below
+    /// ends.
+    double goal = std::numeric_limits<double>::infinity();
   };
 
   struct SquaresMinimum
@@ -38,7 +42,10 @@ namespace SlipStep
 
   /// The least sum of squares by the method of Levenberg and Marquardt with
   /// active bounds, until a step gains less than @p precision
-  /// times the larger of one and the mean of the squares.
+  /// times the larger of one and the mean of the squares. While steps gain what
+  /// they promise, the derivatives are carried on by Broyden's rule: each costs
+  /// as many simulations as there are parameters. Those returned are asked for
+  /// at the end.
   ///
   /// Beside fit(), which asks Ceres: a diagnosis makes hundreds of short fits
   /// from good starts, for which the trial steps that Ceres spends on bounds

@@ -4,6 +4,7 @@
 
 #include <slipstep/diagnosis/candidate_scores.h>
 
+#include <limits>
 #include <optional>
 
 namespace SlipStep
@@ -11,17 +12,21 @@ namespace SlipStep
   /// The starting model with effects added, fitted; none if it cannot be
   /// simulated.
   /// @param like, values as of make_model()
-  std::optional<Model> fitted_model(const Workspace         &workspace,
-                                    const std::vector<Part> &parts,
-                                    const Values            &values,
-                                    const Model             &like,
-                                    const double             precision);
+  std::optional<Model> fitted_model(const Workspace          &workspace,
+                                    const std::vector<Part>  &parts,
+                                    const Values             &values,
+                                    const Model              &like,
+                                    const Comparison::FitEnd &end);
 
   /// A model with one more effect, fitted, by the formula that does best; none
   /// if it cannot be simulated.
-  std::optional<Model> refit_with(Workspace           &workspace,
-                                  const Model         &model,
-                                  const CandidateView &view);
+  /// @param goal of the objective: fits that will not come below it are not
+  ///   followed to their end
+  std::optional<Model>
+  refit_with(Workspace           &workspace,
+             const Model         &model,
+             const CandidateView &view,
+             const double goal = std::numeric_limits<double>::infinity());
 
   /// A model with both effects of a pair, fitted.
   std::optional<Model> refit_with_pair(Workspace             &workspace,

@@ -21,6 +21,11 @@ namespace SlipStep
   /// Fitted as rivals are those that promise this share of what the name gains,
   /// to first order, give or take the slack.
   constexpr double promising_share = 0.6, promising_slack = 10.;
+  /// What a rival of a gain has to promise.
+  constexpr double promise_of_rivals(const double gain)
+  {
+    return promising_share * gain - promising_slack;
+  }
   /// Of the explainable excess, if the remainder is still significant.
   constexpr double sufficient_share = 0.8;
   /// In any case, as far as an excess is known ...
