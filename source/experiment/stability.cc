@@ -263,6 +263,15 @@ namespace SlipStep
 
 
 
+  // Round-off of one step's derivatives counts the more, the longer the step is
+  // for the frequency.
+  double SteadySliding::resolution_at(const double omega) const
+  {
+    return resolution() * std::max(1., omega * shortest_step());
+  }
+
+
+
   // What feeds a disturbance does so in proportion to its speed where friction
   // falls with speed at once, and less and less where that takes a time or a
   // length.
@@ -272,7 +281,7 @@ namespace SlipStep
       return true;
     const double quickest = this->quickest();
     const double quick    = slip_stiffness(quickest).imag();
-    return quick < -resolution() &&
+    return quick < -resolution_at(quickest) &&
            quick < 2. * slip_stiffness(quickest / 4.).imag();
   }
 
@@ -306,11 +315,8 @@ namespace SlipStep
   {
     if (grows_at_once())
       return {std::numeric_limits<double>::infinity(), 0.};
-    // Round-off of one step's derivatives counts the more, the longer the step
-    // is for the frequency.
     const auto damps = [&](const double omega) {
-      return dynamic_stiffness(omega).imag() >=
-             resolution() * std::max(1., omega * shortest_step());
+      return dynamic_stiffness(omega).imag() >= resolution_at(omega);
     };
     const double quickest = this->quickest();
     double       first    = quickest;

@@ -323,6 +323,26 @@ TEST(Stability, round_off_damps_nothing)
 
 
 
+// What does not depend on speed does not fall with it, whatever the numbers.
+TEST(Stability, round_off_feeds_nothing)
+{
+  for (const char *effects : {"subloading", "elastic_core, subloading"})
+    for (unsigned int percent = 3; percent < 51; ++percent)
+      for (const double p : {1., 5.8, 7.})
+        {
+          const std::string mu = std::to_string(0.01 * percent);
+          const auto        law =
+            make_law({{"Effects", effects}, {"Static coefficient", mu}});
+          const SteadySliding sliding(*law, Tensor<1, 2>({0.1, 0.}), p);
+          EXPECT_FALSE(sliding.grows_at_once())
+            << effects << " " << mu << " " << p;
+          EXPECT_EQ(sliding.limit(0.).stiffness, 0.)
+            << effects << " " << mu << " " << p;
+        }
+}
+
+
+
 // Rate and state, k_0 = f_n (b - a)/D_c of friction, on a contact that is
 // hardly stiffer.
 TEST(Stability, memories_on_a_contact_hardly_stiffer_than_their_fall)

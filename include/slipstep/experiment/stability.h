@@ -99,6 +99,7 @@ namespace SlipStep
 
     /// What is less in Z at the highest frequencies is round-off [MPa/mm].
     double resolution() const;
+    double resolution_at(const double omega) const;
 
     StabilityLimit limit_without_rate_effect(const double mass) const;
 
