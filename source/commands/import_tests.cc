@@ -16,6 +16,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace SlipStep
@@ -95,13 +96,20 @@ namespace SlipStep
           {
             throw InputError(job.map.origin("Raw file/Name") + ": " +
                              error.what() +
-                             "; name the folder of the raw files behind the "
-                             "map");
+                             (line.files.size() > 1 ?
+                                "; this name is looked for in the folder that "
+                                "is named behind the map" :
+                                "; name the folder of the raw files behind the "
+                                "map"));
           }
       if (!fs::is_regular_file(pattern))
         throw InputError(job.map.origin("Raw file/Name") +
                          ": there is no file " + pattern.string() +
-                         "; name the folder of the raw files behind the map");
+                         (line.files.size() > 1 ?
+                            "; this name is looked for in the folder that is "
+                            "named behind the map" :
+                            "; name the folder of the raw files behind the "
+                            "map"));
       return {{pattern, {}}};
     }
 
@@ -125,6 +133,41 @@ namespace SlipStep
                              ": give them other names (Test/File)");
           tests.push_back(test);
         }
+    }
+
+
+
+    // Rows of a record that was cut another way, or named otherwise, would
+    // count twice.
+    void warn_of_others(const fs::path                  &folder,
+                        const std::vector<MeasuredTest> &tests)
+    {
+      const std::string     mark = "converted from";
+      std::set<std::string> origins, files, others;
+      for (const MeasuredTest &test : tests)
+        {
+          origins.insert(test.notes.at(mark));
+          files.insert(test.file.filename().string());
+        }
+      std::error_code error;
+      for (const auto &entry : fs::directory_iterator(folder, error))
+        {
+          const std::string name = entry.path().filename().string();
+          std::ifstream     stream(entry.path());
+          std::string       line;
+          while (entry.path().extension() == ".csv" && files.count(name) == 0 &&
+                 std::getline(stream, line) && line.rfind("#", 0) == 0)
+            if (line.rfind("# " + mark + ": ", 0) == 0 &&
+                origins.count(line.substr(mark.size() + 4)) > 0)
+              others.insert(name);
+        }
+      if (!others.empty())
+        print_warnings(
+          {folder.string() + " has " + counted(others.size(), "other test") +
+           " of the same records, of an earlier import (" + *others.begin() +
+           (others.size() > 1 ? ", ..." : "") +
+           "): whatever reads the folder counts those rows twice; remove them "
+           "if they are not meant"});
     }
 
 
@@ -277,6 +320,7 @@ namespace SlipStep
       }
     check_conditions(tests);
     warn_of_oddities(tests);
+    warn_of_others(folder, tests);
 
     create_folder(folder);
     constexpr unsigned int n_digits = 7;

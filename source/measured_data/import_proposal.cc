@@ -670,7 +670,7 @@ namespace SlipStep
                         "" :
                         " " + seen->unit);
             }
-        return "dry, 5 N";
+        return "dry";
       }
 
       ImportProposal           proposal;

@@ -7,6 +7,7 @@
 #include <slipstep/measured_data/sensor_zero.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/measured_data/tidy_rows.h>
+#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/text.h>
 
 #include <boost/algorithm/string/predicate.hpp>
@@ -17,48 +18,10 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <sstream>
 
 namespace SlipStep
 {
-  CsvFormat raw_format(const Parameters &map)
-  {
-    const std::string delimiter = map.text("Raw file/Delimiter");
-    const std::string mark      = map.text("Raw file/Decimal mark");
-    const std::string thousands = map.text("Raw file/Thousands mark");
-    CsvFormat         format;
-    format.delimiter      = delimiter == "tab"       ? '\t' :
-                            delimiter == "comma"     ? ',' :
-                            delimiter == "semicolon" ? ';' :
-                            delimiter == "blanks"    ? ' ' :
-                                                       '\0';
-    format.decimal_mark   = mark == "point" ? '.' : mark == "comma" ? ',' : 0;
-    format.thousands_mark = thousands == "point"      ? '.' :
-                            thousands == "comma"      ? ',' :
-                            thousands == "blank"      ? ' ' :
-                            thousands == "apostrophe" ? '\'' :
-                                                        '\0';
-    if (thousands == "point" || thousands == "comma")
-      {
-        const char other = thousands == "point" ? ',' : '.';
-        if (format.decimal_mark != 0 && format.decimal_mark != other)
-          map.reject("Raw file/Thousands mark",
-                     "decimals have this mark (Raw file/Decimal mark)");
-        format.decimal_mark = other;
-      }
-    format.header_line = map.integer("Raw file/Header line");
-    format.units_line  = map.integer("Raw file/Units line");
-    format.has_header  = map.boolean("Raw file/Has header");
-    if (format.units_line > 0 && format.units_line == format.header_line &&
-        format.has_header)
-      map.reject("Raw file/Units line", "this is the header line");
-    for (const std::string &comment : map.list("Raw file/Comment marks"))
-      format.comment_marks.push_back(comment);
-    format.may_have_gaps = true;
-    return format;
-  }
-
-
-
   namespace
   {
     // Nothing that a shell or a URL would need quoted.
@@ -116,27 +79,29 @@ namespace SlipStep
         if (!columns.has("Time"))
           map.reject("Columns/Time", "this column is needed");
         columns.read();
+        doubt_header();
         select_rows();
 
         MeasuredTest record;
         record.file         = raw_file.file;
         record.time         = values("Time");
-        record.displacement = displacement(record.time);
+        record.displacement = turned(displacement(record.time));
         record.pressure     = pressure();
         doubt_zero_of_coefficient(record.pressure);
         record.friction = friction("", record.time, record.displacement);
+        for (const std::string key : {"Friction y", "Tangential load y"})
+          if (columns.has(key) && !columns.has("Displacement y"))
+            map.reject("Columns/" + key,
+                       "a second axis needs Columns/Displacement y, too");
         if (columns.has("Displacement y"))
           {
-            record.displacement_y = values("Displacement y");
+            record.displacement_y = turned(values("Displacement y"));
             record.friction_y =
               friction(" y", record.time, record.displacement_y);
           }
         if (columns.has("Temperature"))
           record.temperature = values("Temperature");
-        if (map.text("Convention/Displacement sign") == "reversed")
-          for (auto *series : {&record.displacement, &record.displacement_y})
-            for (double &value : *series)
-              value = -value;
+        note_signs();
         tidy(record);
         for (const std::string &words : doubts)
           record.warnings.push_back(raw_file.file.string() + ": " + words);
@@ -146,12 +111,60 @@ namespace SlipStep
             std::string &note = notes["units"];
             note += (note.empty() ? "" : "; ") + words;
           }
+        notes.insert(record.notes.begin(), record.notes.end());
         record.notes                   = notes;
         record.notes["converted from"] = raw_file.file.filename().string();
         return parts_of(record);
       }
 
     private:
+      // A record without names begins with numbers, of which the first would
+      // be lost as names.
+      void doubt_header()
+      {
+        if (!raw_format(map).has_header)
+          return;
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < table.header().size(); ++i)
+          {
+            std::string name = table.header()[i];
+            std::replace(name.begin(), name.end(), ',', '.');
+            std::istringstream text(name);
+            double             value = 0.;
+            if (text >> value && text.eof() && value != i + 1.)
+              ++n;
+            else if (!name.empty())
+              return;
+          }
+        if (n > 0)
+          doubts.push_back(
+            "the names of its columns are numbers (" + table.header_words() +
+            "): if they are a row of the record, set Raw file/Has header = "
+            "false");
+      }
+
+      // A displacement by its sign.
+      std::vector<double> turned(std::vector<double> values) const
+      {
+        if (map.text("Convention/Displacement sign") == "reversed")
+          for (double &value : values)
+            value = -value;
+        return values;
+      }
+
+      void note_signs()
+      {
+        const std::string motion   = map.text("Convention/Displacement sign"),
+                          friction = map.text("Convention/Friction sign");
+        std::string &note          = notes["signs"];
+        if (motion == "reversed")
+          note = "displacement reversed";
+        if (friction == "reversed" || friction == "of the motion")
+          note += (note.empty() ? "friction " : ", friction ") + friction;
+        if (note.empty())
+          notes.erase("signs");
+      }
+
       // With what is known in place of {1}, {part} and so on.
       std::string filled_text(const std::string                  &path,
                               std::map<std::string, std::string> &values) const
@@ -179,10 +192,20 @@ namespace SlipStep
               assumed += (assumed.empty() ? "" : ", ") + word;
           }
         return map.attempt(path, [&] {
-          const double value = parse_quantity(text, dimension, true);
-          if (is_positive && value <= 0.)
-            throw InputError("must be positive");
-          return value;
+          try
+            {
+              const double value = parse_quantity(text, dimension, true);
+              if (is_positive && value <= 0.)
+                throw InputError("must be positive");
+              return value;
+            }
+          catch (const InputError &error)
+            {
+              throw InputError(error.what() +
+                               (raw_file.found.empty() ?
+                                  std::string() :
+                                  " (of " + raw_file.file.string() + ")"));
+            }
         });
       }
 
@@ -200,11 +223,19 @@ namespace SlipStep
           if (!(time[i] < begin - columns.clock()) &&
               !(time[i] > end - columns.clock()))
             selected.push_back(i);
+        if (time.size() < 2)
+          throw InputError(table.name() + ": it has " +
+                           counted(time.size(), "row") +
+                           ", and a test needs two");
         if (selected.size() < 2)
           throw InputError(table.name() + ": " +
                            std::to_string(selected.size()) + " of " +
                            std::to_string(time.size()) +
                            " rows are between Selection/Begin and End");
+        if (selected.size() < time.size())
+          notes["selection"] = std::to_string(selected.size()) + " of " +
+                               std::to_string(time.size()) +
+                               " rows, by their times";
       }
 
       std::vector<double> values(const std::string &key) const
@@ -320,6 +351,7 @@ namespace SlipStep
         if (key == tangential)
           {
             std::vector<double> load = normal_load();
+            doubt_constant_load(load);
             // Where the normal load varies, the quotient does not repeat
             // itself.
             if (const auto found = repeated_value(result);
@@ -350,6 +382,25 @@ namespace SlipStep
           map.attempt("Convention/Friction sign",
                       [&] { give_sign_of_motion(time, motion, result); });
         return result;
+      }
+
+      // A load that stays while the pressure does not.
+      void doubt_constant_load(const std::vector<double> &load)
+      {
+        constexpr double much = 0.2;
+
+        if (load.empty() || range_of(load) > 0. || !columns.has("Pressure"))
+          return;
+        const std::vector<double> pressure = values("Pressure");
+        const double              varies   = range_of(pressure);
+        const std::string         words =
+          "friction is the tangential load over a normal load of " +
+          rounded_text(load.front(), 4) +
+          " N throughout, but the pressure varies by " +
+          rounded_text(varies, 3) +
+          " MPa: give Constants/Area instead of the load, or a column of it";
+        if (varies > much * median(pressure) && !holds(doubts, words))
+          doubts.push_back(words);
       }
 
       // Before the first touch there is no load, and no friction but what the
@@ -578,11 +629,13 @@ namespace SlipStep
         if (noise > 0.)
           test.notes.emplace("noise", rounded_text(noise, 3));
         const auto resampled = resample(test, options);
-        test                 = resampled.test;
+        // Fewer rows than the turns that are kept no tolerance gets.
+        const double tolerance =
+          std::min(resampled.friction_tolerance, range_of(test.friction));
+        test = resampled.test;
         test.notes["resampled"] =
           std::to_string(test.time.size()) + " of " + std::to_string(n) +
-          " rows; friction within " +
-          rounded_text(resampled.friction_tolerance, 3) +
+          " rows; friction within " + rounded_text(tolerance, 3) +
           " of every row left out";
       }
 

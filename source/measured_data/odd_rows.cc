@@ -250,6 +250,25 @@ namespace SlipStep
 
 
 
+    // Without what noise adds between two turns.
+    double path_of_strokes(const std::vector<double> &position)
+    {
+      if (position.empty())
+        return 0.;
+      std::vector<std::size_t> rows =
+        turning_rows(position,
+                     std::max(4. * noise_level(position),
+                              0.005 * range_of(position)));
+      rows.insert(rows.begin(), 0);
+      rows.push_back(position.size() - 1);
+      double path = 0.;
+      for (std::size_t i = 1; i < rows.size(); ++i)
+        path += std::abs(position[rows[i]] - position[rows[i - 1]]);
+      return path;
+    }
+
+
+
     struct OddRows
     {
       const MeasuredTest                                                &test;
@@ -260,8 +279,9 @@ namespace SlipStep
       void warn_of_scales() const
       {
         constexpr double largest_pressure =
-          3e3;                           // MPa, as the hardest metals bear
-        constexpr double fastest = 2e5;  // mm/s
+          3e3; // MPa, as the hardest metals bear
+        constexpr double smallest_pressure = 1e-5; // MPa, as of a sheet of foil
+        constexpr double fastest           = 2e5;  // mm/s
         constexpr double slowest = 1e-8; // mm/s, a third of a mm a year
         constexpr double coldest = -100., hottest = 1500.; // degC
 
@@ -277,12 +297,14 @@ namespace SlipStep
           warn_of_strays("friction",
                          friction,
                          std::max(largest_friction, 5. * usual));
-        if (median(test.pressure) > largest_pressure)
-          warn("the pressure is " + rounded_text(median(test.pressure), 3) +
-                 " MPa: is its unit right?",
+        const double pressure = median(test.pressure);
+        if (pressure > largest_pressure ||
+            (pressure > 0. && pressure < smallest_pressure))
+          warn("the pressure is " + rounded_text(pressure, 3) +
+                 " MPa: is its unit right, and that of the area?",
                0);
-        const double speed = std::hypot(range_of(test.displacement),
-                                        range_of(test.displacement_y)) /
+        const double speed = std::hypot(path_of_strokes(test.displacement),
+                                        path_of_strokes(test.displacement_y)) /
                              (test.time.back() - test.time.front());
         if (speed > fastest || (speed > 0. && speed < slowest))
           warn("it moves at " + rounded_text(speed, 3) +

@@ -144,4 +144,43 @@ namespace SlipStep
       }
     return result;
   }
+
+
+
+  CsvFormat raw_format(const Parameters &map)
+  {
+    const std::string delimiter = map.text("Raw file/Delimiter");
+    const std::string mark      = map.text("Raw file/Decimal mark");
+    const std::string thousands = map.text("Raw file/Thousands mark");
+    CsvFormat         format;
+    format.delimiter      = delimiter == "tab"       ? '\t' :
+                            delimiter == "comma"     ? ',' :
+                            delimiter == "semicolon" ? ';' :
+                            delimiter == "blanks"    ? ' ' :
+                                                       '\0';
+    format.decimal_mark   = mark == "point" ? '.' : mark == "comma" ? ',' : 0;
+    format.thousands_mark = thousands == "point"      ? '.' :
+                            thousands == "comma"      ? ',' :
+                            thousands == "blank"      ? ' ' :
+                            thousands == "apostrophe" ? '\'' :
+                                                        '\0';
+    if (thousands == "point" || thousands == "comma")
+      {
+        const char other = thousands == "point" ? ',' : '.';
+        if (format.decimal_mark != 0 && format.decimal_mark != other)
+          map.reject("Raw file/Thousands mark",
+                     "decimals have this mark (Raw file/Decimal mark)");
+        format.decimal_mark = other;
+      }
+    format.header_line = map.integer("Raw file/Header line");
+    format.units_line  = map.integer("Raw file/Units line");
+    format.has_header  = map.boolean("Raw file/Has header");
+    if (format.units_line > 0 && format.units_line == format.header_line &&
+        format.has_header)
+      map.reject("Raw file/Units line", "this is the header line");
+    for (const std::string &comment : map.list("Raw file/Comment marks"))
+      format.comment_marks.push_back(comment);
+    format.may_have_gaps = true;
+    return format;
+  }
 } // namespace SlipStep

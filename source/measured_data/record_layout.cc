@@ -217,10 +217,14 @@ namespace SlipStep
       return has_brackets ? unit.substr(1, unit.size() - 2) : unit;
     }
 
+    // Also one that this program does not know.
     bool is_unit(const std::string_view cell)
     {
-      return without_brackets(cell) != cell || cell == "%" || cell == "V" ||
-             cell == "mV" || dimension_of_unit(std::string(cell)).has_value();
+      static const std::set<std::string> others = {
+        "%", "V", "mV", "rpm", "Hz", "deg", "kg", "lb", "lbs", "cN", "daN"};
+      const std::string text(cell);
+      return without_brackets(cell) != cell || others.count(text) > 0 ||
+             dimension_of_unit(text).has_value();
     }
 
     // Mostly units and gaps.

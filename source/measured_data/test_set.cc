@@ -105,6 +105,15 @@ namespace SlipStep
                          });
           if (same == others.end())
             others.push_back(&test);
+          else if ((*same)->pressure != test.pressure &&
+                   noise_level(test.friction) == 0.)
+            continue; // computed, and friction has no say of pressure
+          else if ((*same)->pressure != test.pressure)
+            test.warnings.push_back(
+              name_in_messages(test) +
+              ": its friction and its motion are to the last digit those of " +
+              name_in_messages(**same) +
+              ", under another pressure: is it a copy?");
           else
             test.warnings.push_back(
               name_in_messages(test) + ": its rows are those of " +

@@ -138,7 +138,8 @@ namespace SlipStep
                               std::to_string(n) + " of " +
                               std::to_string(has_gap.size()) +
                               " rows; a test needs two that are complete");
-        warn("rows without a value, left out: " + std::to_string(n), first);
+        tell_change("rows without a value, left out: " + std::to_string(n),
+                    first);
         keep(rows);
       }
 
@@ -151,7 +152,8 @@ namespace SlipStep
         std::iota(rows.begin(), rows.end(), 0);
         if (std::is_sorted(time.rbegin(), time.rend()))
           {
-            warn("rows that stand newest first, turned round: all", kept[0]);
+            tell_change("rows that stand newest first, turned round: all",
+                        kept[0]);
             std::reverse(rows.begin(), rows.end());
             keep(rows);
             return;
@@ -172,8 +174,9 @@ namespace SlipStep
                               "one file?)");
             latest = std::max(latest, time[i]);
           }
-        warn("rows out of the order of time, sorted: " + std::to_string(n),
-             kept[first]);
+        tell_change("rows out of the order of time, sorted: " +
+                      std::to_string(n),
+                    kept[first]);
         stable_sort(rows, [&](auto a, auto b) { return time[a] < time[b]; });
         keep(rows);
       }
@@ -208,10 +211,10 @@ namespace SlipStep
           }
         if (n == 0)
           return;
-        warn("rows with the time of the row before, averaged: " +
-               std::to_string(n) + "; their friction differs by up to " +
-               rounded_text(largest_spread, 3),
-             kept[first]);
+        tell_change("rows with the time of the row before, averaged: " +
+                      std::to_string(n) + "; their friction differs by up to " +
+                      rounded_text(largest_spread, 3),
+                    kept[first]);
         keep(rows);
       }
 
@@ -338,6 +341,14 @@ namespace SlipStep
       }
 
     private:
+      // What was done to the rows stands in the comments, too.
+      void tell_change(const std::string &text, const std::size_t first)
+      {
+        warn(text, first);
+        std::string &note = test.notes["rows"];
+        note += (note.empty() ? "" : "; ") + text;
+      }
+
       /// Keep some rows, in that order.
       void keep(const std::vector<std::size_t> &rows)
       {

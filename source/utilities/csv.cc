@@ -450,6 +450,9 @@ namespace SlipStep
         return std::string("; if '") + mark +
                "' parts thousands, a map of slipstep import says so: Raw "
                "file/Thousands mark";
+    if (format.decimal_mark == '\0' && read_number_with_comma(cell, value))
+      return "; if it has a decimal comma, a map of slipstep import says so: "
+             "Raw file/Decimal mark = comma";
     if (cell.find_first_of("0123456789") < cell.find(':') &&
         cell.find(':') != std::string_view::npos)
       return "; if these are times of a clock, a map of slipstep import says "

@@ -48,7 +48,9 @@ namespace SlipStep
         const bool is_begun = wanted.size() > 2 && known.find(wanted) == 0;
         const std::size_t distance =
           is_begun ? 1 : edit_distance(wanted, known);
-        if (distance <= limit && distance < best_distance)
+        // Of one letter for another nothing is left.
+        if (distance <= limit && distance < best_distance &&
+            distance < std::max(wanted.size(), known.size()))
           {
             best          = candidate;
             best_distance = distance;

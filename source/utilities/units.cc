@@ -205,25 +205,47 @@ namespace SlipStep
            at             = unit.find(written))
         unit.replace(at, written.size(), plain);
     const std::vector<std::pair<std::string, std::string>> words = {
-      {"sec", "s"},         {"secs", "s"},
-      {"second", "s"},      {"seconds", "s"},
-      {"msec", "ms"},       {"minutes", "min"},
-      {"hours", "h"},       {"micron", "um"},
-      {"microns", "um"},    {"micrometer", "um"},
-      {"in", "inch"},       {"inches", "inch"},
-      {"in2", "in^2"},      {"newton", "N"},
-      {"N/mm2", "N/mm^2"},  {"mm2", "mm^2"},
-      {"celsius", "degC"},  {"deg c", "degC"},
-      {"deg. c", "degC"},   {"hr", "h"},
-      {"hrs", "h"},         {"hour", "h"},
-      {"day", "d"},         {"days", "d"},
-      {"\"", "inch"},       {"kips", "kip"},
-      {"kp", "kgf"},        {"KN", "kN"},
-      {"MM", "mm"},         {"UM", "um"},
-      {"MPA", "MPa"},       {"KPA", "kPa"},
-      {"GPA", "GPa"},       {"BAR", "bar"},
-      {"PSI", "psi"},       {"MM/S", "mm/s"},
-      {"MM/MIN", "mm/min"}, {"kgf/cm2", "kgf/cm^2"},
+      {"sec", "s"},
+      {"secs", "s"},
+      {"second", "s"},
+      {"seconds", "s"},
+      {"msec", "ms"},
+      {"minutes", "min"},
+      {"hours", "h"},
+      {"micron", "um"},
+      {"microns", "um"},
+      {"micrometer", "um"},
+      {"in", "inch"},
+      {"inches", "inch"},
+      {"in2", "in^2"},
+      {"newton", "N"},
+      {"N/mm2", "N/mm^2"},
+      {"mm2", "mm^2"},
+      {"celsius", "degC"},
+      {"deg c", "degC"},
+      {"deg. c", "degC"},
+      {"hr", "h"},
+      {"hrs", "h"},
+      {"hour", "h"},
+      {"day", "d"},
+      {"days", "d"},
+      {"\"", "inch"},
+      {"kips", "kip"},
+      {"kp", "kgf"},
+      {"kp", "kgf"},
+      {"KN", "kN"},
+      {"cm2", "cm^2"},
+      {"m2", "m^2"},
+      {"MM", "mm"},
+      {"UM", "um"},
+      {"MPA", "MPa"},
+      {"KPA", "kPa"},
+      {"GPA", "GPa"},
+      {"BAR", "bar"},
+      {"PSI", "psi"},
+      {"MM/S", "mm/s"},
+      {"MM/MIN", "mm/min"},
+      {"kgf/cm2", "kgf/cm^2"},
       {"deg f", "degF"}};
     for (const auto &[written, plain] : words)
       if (unit == written || lower_case(unit) == written)
@@ -298,7 +320,10 @@ namespace SlipStep
                  "the unit is missing (known: " + joined_unit_names(dimension) +
                    ")" :
                  "";
-      const Unit *const known = find_unit(unit, dimension);
+      const Unit *known = find_unit(unit, dimension);
+      // "mm2", "µm", but not the "in" of "5 mm in 1 s".
+      if (known == nullptr && unit != "in")
+        known = find_unit(plain_unit(unit), dimension);
       if (known == nullptr)
         return why_no_unit(unit, dimension);
       value = value * known->numerator / known->denominator + known->offset;

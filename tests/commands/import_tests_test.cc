@@ -53,3 +53,36 @@ TEST(ImportTests, VariantsConvertAFolderAndNothingIsWrittenIfOneFails)
   EXPECT_EQ(tests[0].file.filename(), "first.csv");
   EXPECT_EQ(tests[1].condition, "dry, faster");
 }
+
+
+
+// Tests of an earlier import of the same record would count twice.
+TEST(ImportTests, TestsOfAnEarlierImportAreTold)
+{
+  std::string text = "t,x,mu\n";
+  for (int i = 0; i <= 80; ++i)
+    text += std::to_string(i) + ',' +
+            std::to_string(i % 40 < 20 ? i % 20 : 20 - i % 20) + ',' +
+            (i % 40 < 20 ? "0.1\n" : "-0.1\n");
+  write("strokes.csv", text);
+  const auto import_cut = [](const std::string &cut) {
+    CommandLine line;
+    line.quiet = true;
+    line.files = {write("strokes.prm",
+                        "set Raw file/Name = strokes.csv\n"
+                        "set Columns/Time = t in s\n"
+                        "set Columns/Displacement = x in mm\n"
+                        "set Columns/Friction = mu\n"
+                        "set Constants/Pressure = 5 MPa\n"
+                        "set Selection/Cut = " +
+                          cut + "\n")};
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(import_tests(line), 0);
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string words = "other test";
+  EXPECT_EQ(import_cut("at reversals").find(words), std::string::npos);
+  EXPECT_EQ(import_cut("at reversals").find(words), std::string::npos);
+  EXPECT_NE(import_cut("none").find("has 4 other tests of the same records"),
+            std::string::npos);
+}

@@ -16,10 +16,6 @@ namespace SlipStep
   /// its signs mean. Variants or wildcards convert several files by one map.
   void declare_import_parameters(Parameters &parameters);
 
-  /// How a map says that its raw file is written.
-  /// @throws InputError naming the place in the map
-  CsvFormat raw_format(const Parameters &map);
-
   /// Convert one file by a map: read it, convert to base units, take zero and
   /// drift of the sensor off, put the rows in order (see tidy_rows()), cut it
   /// into parts (see cut_record()), count time and displacement from the first

@@ -2,6 +2,7 @@
 #ifndef slipstep_measured_data_raw_files_h
 #define slipstep_measured_data_raw_files_h
 
+#include <slipstep/utilities/csv.h>
 #include <slipstep/utilities/parameters.h>
 
 #include <filesystem>
@@ -43,6 +44,10 @@ namespace SlipStep
   /// @throws InputError for a name that is not there, listing those that are
   std::string filled_in(const std::string                        &text,
                         const std::map<std::string, std::string> &values);
+
+  /// How a map says that its raw file is written.
+  /// @throws InputError naming the place in the map
+  CsvFormat raw_format(const Parameters &map);
 } // namespace SlipStep
 
 #endif
