@@ -40,6 +40,7 @@ END {
   printf "P   %.4f N/mm, Q %.4f N/mm, Q/(mu P) %.4f\n", P, Q, Q / (mu * P)
   printf "a   %.5f mm, half-space %.5f, off by %.2f %%\n", a, hertz, 100 * (a / hertz - 1)
   printf "p_0 %.4f MPa, half-space %.4f, off by %.2f %%\n", peak, p_0, 100 * (peak / p_0 - 1)
+  if (Q < 0) { Q = -Q; for (i in q) q[i] = -q[i] } # dragged the other way
   if (Q > 0.01 * mu * P) {
     for (i in p) rest[i] = mu * p[i] - q[i]
     c = half_width(rest); mindlin = hertz * sqrt(1 - Q / (mu * P))

@@ -225,10 +225,11 @@ namespace SlipStep
     Case result;
     result.parameters = as_written;
     apply_settings(line, result.parameters);
-    result.variants          = result.parameters.variants();
-    const std::string chosen = !line.member.empty() ? line.member :
-                               is_swept_member      ? "" :
-                                                      line.variant;
+    result.variants           = result.parameters.variants();
+    result.n_variants_written = as_written.variants().size();
+    const std::string chosen  = !line.member.empty() ? line.member :
+                                is_swept_member      ? "" :
+                                                       line.variant;
     if (!chosen.empty())
       {
         // Named as the case has it, or as what --set leaves of it.
@@ -316,6 +317,87 @@ namespace SlipStep
         warn_of_idle_speed(parameters, programme, warnings);
       }
     warn_of_idle_effects(the_case, warnings);
+    return {warnings.begin(), warnings.end()};
+  }
+
+
+
+  std::vector<std::string> warnings_of_equal_variants(const Case &the_case)
+  {
+    const std::size_t n = the_case.variants.size();
+    if (!the_case.selected.label.empty() || n >= the_case.n_variants_written)
+      return {};
+    const std::string begin = "--set gives what the " +
+                              std::to_string(the_case.n_variants_written) +
+                              " variants of the case differ in: ";
+    if (n == 0)
+      return {begin + "it is one run, without a folder of a variant"};
+    std::vector<std::string> labels;
+    for (const Variant &variant : the_case.variants)
+      labels.push_back("'" + variant.label + "'");
+    return {begin +
+            "of those that are equal then one is left, whose name may "
+            "say otherwise (" +
+            boost::algorithm::join(labels, ", ") + ")"};
+  }
+
+
+
+  std::vector<std::string>
+  warnings_of_areas(const Parameters                &parameters,
+                    const std::vector<MeasuredTest> &tests)
+  {
+    constexpr double largest_difference = 0.01;
+    // Of the default block nobody thinks.
+    if (!parameters.is_set("Block/Size"))
+      return {};
+    const BlockParameters block(parameters, parse_programme(parameters));
+    if (block.dimension != 3)
+      return {}; // a load per thickness
+    const double             face = block.nominal_contact_area();
+    std::vector<std::string> warnings;
+    std::set<double>         told;
+    for (const MeasuredTest &test : tests)
+      {
+        const auto note = test.notes.find("area");
+        if (note == test.notes.end())
+          continue;
+        try
+          {
+            const double area =
+              parse_quantity(note->second, Dimension::area, true);
+            if (std::abs(area - face) > largest_difference * face &&
+                told.insert(area).second)
+              warnings.push_back(
+                test.file.string() + ": its pressure is its load over " +
+                rounded_text(area, 4) +
+                " mm^2, but the block of the case has a face of " +
+                rounded_text(face, 4) +
+                " mm^2 (Block/Size): pressures agree, loads do not");
+          }
+        catch (const InputError &error)
+          {
+            warnings.push_back(test.file.string() +
+                               ": comment 'area': " + error.what());
+          }
+      }
+    return warnings;
+  }
+
+
+
+  std::vector<std::string> warnings_of_followed_areas(const Case &the_case)
+  {
+    std::set<std::string> warnings;
+    for (const Parameters &parameters : the_case.complete)
+      {
+        const Programme           programme = parse_programme(parameters);
+        std::vector<MeasuredTest> tests;
+        for (const FollowedTest &followed : programme.followed())
+          tests.push_back(followed.test);
+        for (const std::string &words : warnings_of_areas(parameters, tests))
+          warnings.insert(words);
+      }
     return {warnings.begin(), warnings.end()};
   }
 

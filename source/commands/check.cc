@@ -6,11 +6,8 @@
 #include <slipstep/experiment/stability.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/commands/case.h>
-#include <slipstep/solid/block_parameters.h>
 #include <slipstep/utilities/text.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <set>
 
@@ -48,51 +45,6 @@ namespace SlipStep
 
 
 
-    // The pressure of a test is its load over an area: the load of a block is
-    // another one if its face is. Of the default block nobody thinks.
-    void warn_of_areas(const Parameters                &parameters,
-                       const std::vector<MeasuredTest> &tests)
-    {
-      constexpr double  largest_difference = 0.01;
-      const std::string key                = "Block/Size";
-      if (parameters.text(key) == parameters.entry(key).default_value)
-        return;
-      const BlockParameters block(parameters, parse_programme(parameters));
-      if (block.dimension != 3)
-        return; // a load per thickness
-      const double             face = block.nominal_contact_area();
-      std::vector<std::string> warnings;
-      std::set<double>         told;
-      for (const MeasuredTest &test : tests)
-        {
-          const auto note = test.notes.find("area");
-          if (note == test.notes.end())
-            continue;
-          try
-            {
-              const double area =
-                parse_quantity(note->second, Dimension::area, true);
-              if (std::abs(area - face) > largest_difference * face &&
-                  told.insert(area).second)
-                warnings.push_back(
-                  test.file.string() + ": its pressure is its load over " +
-                  rounded_text(area, 4) +
-                  " mm^2, but the block of the case "
-                  "has a face of " +
-                  rounded_text(face, 4) +
-                  " mm^2 (Block/Size): pressures agree, loads do not");
-            }
-          catch (const InputError &error)
-            {
-              warnings.push_back(test.file.string() +
-                                 ": comment 'area': " + error.what());
-            }
-        }
-      print_warnings(warnings);
-    }
-
-
-
     // What calibrate and diagnose would read.
     // @return a line about the tests, "" if the case names none
     std::string check_campaign(const Parameters &parameters)
@@ -108,7 +60,7 @@ namespace SlipStep
       std::vector<MeasuredTest> rows;
       for (const CampaignTest &test : tests)
         rows.push_back(test.rows);
-      warn_of_areas(parameters, rows);
+      print_warnings(warnings_of_areas(parameters, rows));
       return describe(rows);
     }
 
@@ -140,7 +92,9 @@ namespace SlipStep
       check_all(the_case);
       if (!line.output.empty())
         check_output(the_case, line);
+      print_warnings(warnings_of_equal_variants(the_case));
       print_warnings(warnings_of_programmes(the_case));
+      print_warnings(warnings_of_followed_areas(the_case));
       print_warnings(warnings_of_stability(the_case));
       std::set<std::string> campaigns;
       for (const Parameters &parameters : the_case.complete)

@@ -3,6 +3,7 @@
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/exceptions.h>
+#include <slipstep/utilities/lists.h>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -104,6 +105,28 @@ namespace SlipStep
                              "refinement.json"})
       fs::remove(folder / name, error);
     CheckpointStore(folder).remove();
+  }
+
+
+
+  std::vector<std::string>
+  other_runs_in(const fs::path                 &folder,
+                const std::string              &command,
+                const std::vector<std::string> &members)
+  {
+    std::vector<std::string> result;
+    std::error_code          error;
+    for (const auto &entry : fs::directory_iterator(folder, error))
+      {
+        std::string   owner;
+        std::ifstream text(entry.path() / marker);
+        const auto    name = entry.path().filename().string();
+        if (text >> owner && owner == command && !holds(members, name) &&
+            fs::exists(entry.path() / "summary.json"))
+          result.push_back(name);
+      }
+    sort(result);
+    return result;
   }
 
 

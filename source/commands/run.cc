@@ -104,7 +104,13 @@ namespace SlipStep
         if (!line.is_child)
           check_output(the_case, line);
         if (is_first_rank && !line.is_child)
-          print_warnings(warnings_of_programmes(the_case));
+          {
+            print_warnings(warnings_of_equal_variants(the_case));
+            print_warning_of_other_runs();
+            print_warnings(warnings_of_programmes(the_case));
+          }
+        if (is_first_rank && !line.is_child && line.command == "run")
+          print_warnings(warnings_of_followed_areas(the_case));
         if (is_first_rank && !line.is_child && line.command == "point")
           {
             print_warnings_of_point(the_case);
@@ -131,6 +137,20 @@ namespace SlipStep
       }
 
     private:
+      void print_warning_of_other_runs() const
+      {
+        std::vector<std::string> members;
+        for (const Variant &variant : the_case.variants)
+          members.push_back(variant.folder);
+        const auto others = other_runs_in(output, line.command, members);
+        if (!others.empty())
+          print_warnings({output.string() + " has " +
+                          counted(others.size(), "run") +
+                          " of another sweep, which this one leaves there (" +
+                          others.front() + (others.size() > 1 ? ", ..." : "") +
+                          "); --output keeps them apart"});
+      }
+
       // One rank does it for all.
       std::unique_ptr<ResultsFolder> claim(const fs::path &folder) const
       {

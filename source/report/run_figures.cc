@@ -50,6 +50,14 @@ namespace SlipStep
       return curve_along(run, sign * std::cos(angle), sign * std::sin(angle));
     }
 
+    Rows friction_over_time(const RunResults &run)
+    {
+      Rows points;
+      for (const HistoryRow &row : run.history)
+        points.push_back({row.time, row.friction});
+      return points;
+    }
+
     /// Whether a slide is neither along the first one nor back.
     bool changes_direction(const RunResults &run)
     {
@@ -206,19 +214,26 @@ namespace SlipStep
 
     void add_friction_picture(RunFigures &figures)
     {
-      const auto &runs         = figures.runs;
-      const auto &reference    = figures.reference;
-      const auto  legend_place = place_names(figures, 430);
-      Figure      figure       = figures.figure("friction",
-                                     "Friction against displacement",
-                                     430 + legend_place.more_height);
-      Range       x, y;
+      const auto       &runs      = figures.runs;
+      const auto       &reference = figures.reference;
+      const bool        is_moved  = any_of(runs, is_driven);
+      const std::string title =
+        is_moved ? "Friction against displacement" : "Friction over time";
+      const auto legend_place = place_names(figures, 430);
+      Figure     figure =
+        figures.figure("friction", title, 430 + legend_place.more_height);
+      Range x, y;
       for (const std::size_t i : from_top_to_bottom(runs))
         {
-          const Rows points = curve(runs[i]);
+          const Rows points =
+            is_moved ? curve(runs[i]) : friction_over_time(runs[i]);
           x.add(points, 0);
           y.add(points, 1);
-          plot_run(figure, runs[i], i, {"displacement_mm", "friction"}, points);
+          plot_run(figure,
+                   runs[i],
+                   i,
+                   {is_moved ? "displacement_mm" : "time_s", "friction"},
+                   points);
         }
       if (!(x.width() > 0.))
         x = {0., 1.};
@@ -227,8 +242,10 @@ namespace SlipStep
                      x.upper + 0.015 * x.width(),
                      x.upper + 0.06 * x.width());
       figure.script() << axes_style << legend_place.commands
-                      << "set xlabel 'Displacement of the drive  [mm]'\n"
-                         "set ylabel 'Friction  (tangential / normal load)'\n"
+                      << (is_moved ?
+                            "set xlabel 'Displacement of the drive  [mm]'\n" :
+                            "set xlabel 'Time  [s]'\n")
+                      << "set ylabel 'Friction  (tangential / normal load)'\n"
                       // The first rise shall not hide on the axis.
                       << "set xrange [" << x.lower - 0.01 * x.width() << ":"
                       << x.upper + 0.06 * x.width() << "]\n";
@@ -246,7 +263,7 @@ namespace SlipStep
                    reference.name +
                    ", in the colour of the run at that speed, grey where there "
                    "is none or several.";
-      figures.add(figure, "Friction against displacement", caption);
+      figures.add(figure, title, caption);
     }
 
 

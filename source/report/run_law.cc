@@ -24,7 +24,7 @@ namespace SlipStep
     {
       std::vector<LawPanel> panels = {
         {"friction",
-         "Friction",
+         "Friction, its size",
          [](const HistoryRow &row) {
            return std::hypot(row.friction, row.friction_y);
          }},

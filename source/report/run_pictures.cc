@@ -370,7 +370,11 @@ namespace SlipStep
         {
           figures.page.warnings.push_back(
             "no picture '" + requested.text +
-            "': no slide or step has both of them");
+            "': no slide or step has both of them" +
+            (requested.text.find("stiffness") != std::string::npos ?
+               " (stiffness and critical stiffness are those of slipstep "
+               "point)" :
+               ""));
           return;
         }
       // Symbols stay as they are.

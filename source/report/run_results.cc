@@ -602,6 +602,15 @@ namespace SlipStep
 
 
 
+  bool is_driven(const RunResults &run)
+  {
+    return any_of(run.history, [](const HistoryRow &row) {
+      return row.displacement != 0. || row.displacement_y != 0.;
+    });
+  }
+
+
+
   std::string headline_of_pushes(const Runs &runs)
   {
     std::vector<const RunResults *> moved;
@@ -627,11 +636,14 @@ namespace SlipStep
       return "No slide has been reached.";
     const bool is_pushed =
       all_of(runs, [](const RunResults &run) { return run.summary.is_pushed; });
+    const bool        is_moved = any_of(runs, is_driven);
     const std::string text =
       is_pushed ? "The contact is pushed by a load, not slid; in the end it "
                   "has slipped " :
-                  "The programme has no straight slide; in the end the contact "
-                  "has slipped ";
+      is_moved  ? "The programme has no straight slide; in the end the contact "
+                  "has slipped " :
+                  "No drive moves it, only what acts on its faces; in the end "
+                  "the contact has slipped ";
     if (slip(least) == slip(most))
       return text + slip(most) + ".";
     return text + slip(least) + " (" + least.label + ") to " + slip(most) +

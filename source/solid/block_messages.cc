@@ -262,6 +262,20 @@ namespace SlipStep
 
 
 
+    // So long that friction, which is less than the load, cannot turn it.
+    bool is_flat(const BlockParameters &parameters)
+    {
+      constexpr double long_for_height = 4.;
+      const double     height = parameters.size[parameters.normal_axis()];
+      for (unsigned int i = 0; i + 1 < parameters.dimension; ++i)
+        if (parameters.size[parameters.tangential_axis(i)] <
+            long_for_height * height)
+          return false;
+      return true;
+    }
+
+
+
     // Of few cells along the motion, that is, about whose edge it turns.
     bool turns_early(const BlockParameters &parameters,
                      const Programme       &programme)
@@ -300,8 +314,13 @@ namespace SlipStep
                           "a block of so few cells along its length turns "
                           "early, take more Block/Subdivisions; else " :
                           "") +
-            "friction turns a block that is high for its length, or what holds "
-            "and pulls its faces lifts it";
+            (is_flat(parameters) ?
+               "" :
+               "friction turns a block that is high for its length, or ") +
+            "what holds and pulls its faces lifts it" +
+            (contact.friction_law().wear_rate() > 0. ?
+               ", or what bore the load has worn away" :
+               "");
     return "part of the contact face lifted off the plane: at worst " +
            short_text(100. * opening.share, 3) + " % of it " +
            (is_curved ? "had touched and " : "") +

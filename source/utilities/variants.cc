@@ -229,9 +229,10 @@ namespace SlipStep
         if (!is_told)
           result.push_back(variant);
       }
-    const bool says_nothing = result.size() == 1 &&
-                              result.front().overrides.empty() &&
-                              !variants.front().overrides.empty();
+    const bool says_nothing =
+      result.size() == 1 && result.front().overrides.empty() &&
+      any_of(variants,
+             [](const Variant &variant) { return !variant.overrides.empty(); });
     return says_nothing ? std::vector<Variant>() : result;
   }
 

@@ -154,9 +154,11 @@ TEST(Repeat, MembersThatAreTheSameCaseAreTold)
   process.write("case.prm",
                 "set Loading/Programme = press 5 MPa in 1 s; slide 1 mm/s for "
                 "0.01 mm\n");
-  const auto warning = [&](const std::string &sweep) {
-    const auto result = process.run(
-      {"point", "case.prm", "--sweep", sweep, "--quiet", "--output", "out"});
+  unsigned int n_runs  = 0;
+  const auto   warning = [&](const std::string &sweep) {
+    const std::string folder = "out_" + std::to_string(n_runs++);
+    const auto        result = process.run(
+      {"point", "case.prm", "--sweep", sweep, "--quiet", "--output", folder});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return result.err;
   };

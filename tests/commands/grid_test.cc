@@ -407,9 +407,10 @@ TEST_F(Grid, TakesThePlaceOfEarlierRunsInItsFolder)
     std::vector<std::string> arguments = {
       "point", "one.prm", "--output", "here", "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    run(arguments);
+    return run(arguments).err;
   };
-  const auto compared = [&]() {
+  const std::string others   = "of another sweep, which this one leaves there";
+  const auto        compared = [&]() {
     return run({"compare", "here", "--output", "page"});
   };
   const auto shows = [](const std::string &table, const std::string &speed) {
@@ -417,14 +418,47 @@ TEST_F(Grid, TakesThePlaceOfEarlierRunsInItsFolder)
   };
   point({});
   EXPECT_TRUE(shows(compared().out, "1"));
-  point({"--sweep", "Loading/Speed=2 mm/min|3 mm/min"});
+  EXPECT_FALSE(
+    contains(point({"--sweep", "Loading/Speed=2 mm/min|3 mm/min"}), others));
   const std::string first = compared().out;
   EXPECT_FALSE(shows(first, "1")) << first;
   EXPECT_TRUE(shows(first, "2") && shows(first, "3")) << first;
   EXPECT_FALSE(fs::exists(process.folder() / "here" / "history.csv"));
-  point({"--sweep", "Loading/Speed=3 mm/min|4 mm/min"});
+  EXPECT_TRUE(contains(point({"--sweep", "Loading/Speed=3 mm/min|4 mm/min"}),
+                       "here has 1 run " + others + " (2_mm-min)"));
   const auto last = compared();
   EXPECT_FALSE(shows(last.out, "2")) << last.out;
   EXPECT_TRUE(shows(last.out, "3") && shows(last.out, "4")) << last.out;
   EXPECT_TRUE(contains(last.err, "is not of the last sweep"));
+}
+
+
+
+// What --set gives is no difference between variants any more: their names
+// would say otherwise, and a folder of results has none of a variant.
+TEST_F(Grid, OfVariantsThatAreEqualIsTold)
+{
+  process.write("variants.prm",
+                "include one.prm\nsubsection Variants\n"
+                "  subsection slow\n    set Loading/Speed = 1 mm/min\n  end\n"
+                "  subsection fast\n    set Loading/Speed = 9 mm/min\n  end\n"
+                "  subsection stiff\n    set Loading/Speed = 1 mm/min\n"
+                "    set Friction/Tangential stiffness = 500 MPa/mm\n"
+                "  end\nend\n");
+  const auto point = [&](const std::vector<std::string> &more) {
+    std::vector<std::string> arguments = {
+      "point", "variants.prm", "--output", "here", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments).err;
+  };
+  const std::string begin = "--set gives what the 3 variants of the case";
+  const std::string speed = "Loading/Speed=2 mm/min";
+  EXPECT_FALSE(contains(point({}), begin));
+  EXPECT_FALSE(
+    contains(point({"--set", "Friction/Static coefficient=0.3"}), begin));
+  EXPECT_TRUE(contains(point({"--set", speed}), "('slow', 'stiff')"));
+  const std::string one = point(
+    {"--set", speed, "--set", "Friction/Tangential stiffness=400 MPa/mm"});
+  EXPECT_TRUE(contains(one, "it is one run, without a folder of a variant"));
+  EXPECT_TRUE(contains(one, "here has 3 runs of another sweep"));
 }

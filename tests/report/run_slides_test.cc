@@ -177,21 +177,35 @@ TEST(Report, StickSlipHasAPeakAndNoKineticFriction)
 
 TEST(Report, WhatIsPushedIsNotSlid)
 {
-  const ReportedRun run = make_slides("pushed", {});
-  std::ofstream(run.folder / "history.csv").close();
-  {
+  const ReportedRun run     = make_slides("pushed", {});
+  const auto        move_by = [&](const double displacement) {
+    std::ofstream(run.folder / "history.csv").close();
     HistoryWriter writer(run.folder / "history.csv");
     for (int i = 0; i < 5; ++i)
       {
         HistoryRow row;
-        row.time = i;
-        row.slip = 0.001 * i;
+        row.time         = i;
+        row.slip         = 0.001 * i;
+        row.displacement = displacement * i;
         writer.write(row);
       }
-  }
-  EXPECT_TRUE(contains(told_of({run}),
+  };
+  move_by(0.);
+  const std::string at_rest = told_of({run});
+  EXPECT_TRUE(contains(at_rest,
+                       "No drive moves it, only what acts on its faces; in the "
+                       "end the contact has slipped 0.004 mm."));
+  const auto shows = [](const std::string &picture) {
+    return content(test_folder() / "report.html")
+             .find("aria-label=\"" + picture + "\"") != std::string::npos;
+  };
+  EXPECT_TRUE(shows("Friction over time"));
+  move_by(0.001);
+  const std::string moved = told_of({run});
+  EXPECT_TRUE(contains(moved,
                        "The programme has no straight slide; in the end the "
                        "contact has slipped 0.004 mm."));
+  EXPECT_TRUE(shows("Friction against displacement"));
   Summary summary   = read_summary(run.folder / "summary.json");
   summary.is_pushed = true;
   write_summary(run.folder / "summary.json", summary);

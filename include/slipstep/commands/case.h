@@ -3,6 +3,7 @@
 #define slipstep_commands_case_h
 
 #include <slipstep/experiment/run_options.h>
+#include <slipstep/measured_data/measured_test.h>
 #include <slipstep/utilities/command_line.h>
 #include <slipstep/utilities/parameters.h>
 
@@ -32,6 +33,8 @@ namespace SlipStep
     std::vector<Parameters> complete;
     /// With --variant: the one to run, which is then no sweep.
     Variant selected;
+    /// As the file and --sweep have them, before --set.
+    std::size_t n_variants_written = 0;
 
     bool is_sweep() const
     {
@@ -54,6 +57,18 @@ namespace SlipStep
 
   /// What was done to the rows of tests that programmes follow, each once.
   std::vector<std::string> warnings_of_programmes(const Case &the_case);
+
+  /// That --set has the last word on what variants differ in, of which some are
+  /// equal then, or all.
+  std::vector<std::string> warnings_of_equal_variants(const Case &the_case);
+
+  /// Tests whose pressure is a load over another area than that of the block.
+  std::vector<std::string>
+  warnings_of_areas(const Parameters                &parameters,
+                    const std::vector<MeasuredTest> &tests);
+
+  /// The same of tests that programmes follow.
+  std::vector<std::string> warnings_of_followed_areas(const Case &the_case);
 
   /// That maps of the block's face do not act on contact points, which point,
   /// calibrate and diagnose compute, and are no part of the law.

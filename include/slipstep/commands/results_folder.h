@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace SlipStep
 {
@@ -19,6 +20,14 @@ namespace SlipStep
   /// Remove the history, summary, report and checkpoints of an earlier run, so
   /// that a run that fails early does not seem to have written them.
   void remove_earlier_results(const std::filesystem::path &folder);
+
+  /// Folders within one of results that have finished runs of the same command
+  /// but are none of these: a pattern like results/*/history.csv would take
+  /// them for results of the present run.
+  std::vector<std::string>
+  other_runs_in(const std::filesystem::path    &folder,
+                const std::string              &command,
+                const std::vector<std::string> &members);
 
   /// A folder in which one command of one process writes results, for as long
   /// as this object lives. It holds a file `.slipstep`, locked meanwhile, which

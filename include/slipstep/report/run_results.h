@@ -43,6 +43,9 @@ namespace SlipStep
 
   using Runs = std::vector<RunResults>;
 
+  /// Whether the drive moves, ever.
+  bool is_driven(const RunResults &run);
+
   /// Load the runs; what cannot be read is left out with a warning.
   Runs load_runs(const std::vector<ReportedRun> &runs,
                  std::vector<std::string>       &warnings);
