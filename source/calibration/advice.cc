@@ -377,9 +377,10 @@ namespace SlipStep
           const Conditions now           = conditions_of(simulator.campaign);
           const bool       has_one_speed = now.fastest < 1.2 * now.slowest;
           return has_one_speed && touches_bound(optimum, direction) ?
-                   "; all tests have about the same speed: others may tell" :
+                   "; all tests have about the same speed: tests at other "
+                   "speeds may help" :
                    "; no other speed, pressure, path, rest or direction would "
-                   "tell";
+                   "help";
         }
       if (best > 0.5 * before)
         return "";

@@ -204,7 +204,7 @@ namespace SlipStep
       best = found[first].scaled;
       if (!found[first].converged)
         result.warnings.push_back(
-          "The search did not come to its end: " + found[first].message + ".");
+          "The search did not converge: " + found[first].message + ".");
       stable_sort(result.starts,
                   [](const StartResult &a, const StartResult &b) {
                     return a.misfit < b.misfit;
@@ -239,7 +239,7 @@ namespace SlipStep
         "The error of the time steps moves parameters by more than a tenth of "
         "their standard deviations: " +
         (std::chrono::steady_clock::now() > deadline ?
-           no_time + " before it was taken out." :
+           no_time + " before it was corrected." :
            "take a smaller Time stepping/Tolerance.");
       if (!holds(result.warnings, warning))
         result.warnings.push_back(warning);
@@ -410,7 +410,8 @@ namespace SlipStep
           result.warnings.push_back(
             fitted.parameter.path + " is at its bound " +
             fitted.parameter.text(fitted.value, 6) +
-            ": the tests want it beyond, or do not need it.");
+            ": the tests favour a value beyond it, or do not need this "
+            "parameter.");
       unsigned int n_elsewhere = 0;
       for (const StartComparison &start : compare_starts(result))
         n_elsewhere += start.has_end && !start.is_equal;
@@ -451,7 +452,8 @@ namespace SlipStep
         result.warnings.push_back(
           over + "the " + (names.size() > 1 ? "intervals" : "interval") +
           " of " + list_text(names) +
-          " could be followed: from the curvature at the optimum alone.");
+          " could be followed: the curvature at the optimum alone is used "
+          "instead.");
     }
 
 
@@ -483,15 +485,15 @@ namespace SlipStep
       result.warnings.push_back(
         counted(campaign.tests.size(), "test") + " for " +
         counted(best.size(), "parameter") +
-        " cannot show whether tests differ from one another: intervals are so "
-        "many times as wide" +
-        (by_gains.empty() ? "" : ", if gains do by 1 %: " + by_gains) +
+        " cannot show whether tests differ from one another: intervals would "
+        "be wider by these factors" +
+        (by_gains.empty() ? "" : ", if gains differ by 1 %: " + by_gains) +
         (by_drifts.empty() ?
            "" :
            (by_gains.empty() ? "" : ";") +
-             std::string(" if friction drifts by 1 % within each: ") +
+             std::string(" if friction drifts by 1 % within each test: ") +
              by_drifts) +
-        ". Replicates tell.");
+        ". Replicates would show it.");
     }
 
 
@@ -510,9 +512,9 @@ namespace SlipStep
       if (!wider.empty())
         result.warnings.push_back(
           "The tests differ from one another by more than their rows scatter, "
-          "as where a gain or a zero changes from test to test: judged by that, "
-          "and by leaving out one test at a time, intervals are so many times "
-          "as wide as by rows alone: " +
+          "as if a gain or a zero changed from test to test: judged by these "
+          "differences, and by leaving out one test at a time, intervals are "
+          "wider than by rows alone by these factors: " +
           list_text(wider) + ".");
       else
         warn_of_few_tests();
@@ -525,7 +527,7 @@ namespace SlipStep
           rounded_text(ratio, 2) + " times " + noise_words(some) +
           (ratio > far ?
              ": slipstep diagnose looks for what is missing" :
-             ": noise that lasts for many rows does so, or something is "
+             ": the noise is correlated over many rows, or something is "
              "missing, which slipstep diagnose looks for") +
           "; a unit, a scale or a zero of the records may be wrong, too.");
       // Whatever the law, it is not closer to rows than these to one another.
@@ -533,8 +535,9 @@ namespace SlipStep
         result.warnings.push_back(
           "these tests differ from the fitted law by only " +
           rounded_text(ratio, 2) +
-          " times the noise that is stated (Calibration/Noise, or '# noise' in "
-          "a test): that is too much, and the intervals are too wide.");
+          " times the noise that is stated (Calibration/Noise, or '# noise' "
+          "in a test): the stated noise is too large, and the intervals are "
+          "too wide.");
     }
 
 
@@ -552,12 +555,12 @@ namespace SlipStep
     std::string Calibrator::noise_words(const double some) const
     {
       if (!noise_is_stated())
-        return "their noise, by which neighbouring rows scatter";
+        return "their noise, the scatter of neighbouring rows";
       const double scatter = scatter_over_stated(campaign.tests);
       return "the noise that is stated (Calibration/Noise, or '# noise' in a "
              "test)" +
              (scatter > some ?
-                ", which is too little, since neighbouring rows scatter by " +
+                ", which is too small, since neighbouring rows scatter by " +
                   rounded_text(scatter, 2) + " times as much" :
                 "");
     }
@@ -600,8 +603,8 @@ namespace SlipStep
               correct_steps();
             }
           result.warnings.push_back(
-            "Following the intervals still leads to better values: take them "
-            "with care.");
+            "Following the intervals still leads to better values: treat "
+            "values and intervals with caution.");
         }
       catch (const RunError &)
         {

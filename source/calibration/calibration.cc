@@ -66,9 +66,10 @@ namespace SlipStep
       sentences.push_back(
         names + " stopped at a condition of the law: " + constraint +
         (wanted.count(constraint) > 0 ?
-           ". The tests want the other side of it: choose effects that allow "
-           "it ('slipstep effects' lists them)." :
-           ". The tests want the other side of it, or do not need the effect."));
+           ". The tests favour the other side of it: choose effects that "
+           "allow it ('slipstep effects' lists them)." :
+           ". The tests favour the other side of it, or do not need the "
+           "effect."));
     return sentences;
   }
 

@@ -40,33 +40,34 @@ namespace SlipStep
       "measured",
       Anything(),
       "Measured tests that 'slipstep calibrate' fits: a folder of .csv files, "
-      "or files separated by commas (measured/wet_*.csv are all of such names), "
-      "relative to the folder of the case. 'slipstep check' reads them.");
+      "or files separated by commas (measured/wet_*.csv stands for all files "
+      "with such names), relative to the folder of the case. 'slipstep check' "
+      "reads them.");
     parameters.declare(
       "Calibration/Parameters",
       "",
       AnythingWithWords({"from", "to", "start", "log", "linear"}),
-      "What is to be found, separated by ';': '<path of a key> from <least "
-      "value> to <largest value> [start <value>] [log|linear]'. The start is "
-      "the case's own value unless stated. The scale is logarithmic if the "
-      "bounds are positive and a factor of ten or more apart. All other keys "
-      "stay as the case has them.");
+      "Parameters to be fitted, separated by ';': '<path of a key> from "
+      "<least value> to <largest value> [start <value>] [log|linear]'. The "
+      "start is the case's own value unless stated. The scale is logarithmic "
+      "if the bounds are positive and a factor of ten or more apart. All "
+      "other keys keep the values of the case.");
     parameters.declare(
       "Calibration/Derived",
       "",
       Anything(),
-      "Quantities of the parameters, separated by ';': '<name> = <formula>', "
-      "where {path of a key} stands for its value in mm, s, N, MPa, degC, rad. "
-      "A name that is itself the path of a key ties this key to the others: it "
-      "follows them in the fit.");
+      "Quantities derived from the parameters, separated by ';': '<name> = "
+      "<formula>', where {path of a key} stands for its value in mm, s, N, "
+      "MPa, degC, rad. A name that is itself the path of a key ties this key "
+      "to the others: it follows them in the fit.");
     parameters.declare(
       noise_key,
       "estimated",
       AnythingWithWords({"estimated"}),
       "Standard deviation of the measured friction coefficient, by which "
       "differences are weighted: 'estimated' from the second differences of "
-      "each record, or a number greater than 0. A comment '# noise: 0.002' in a "
-      "test goes before.");
+      "each record, or a number greater than 0. A comment '# noise: 0.002' in "
+      "a test takes precedence.");
     parameters.declare(
       skip_key,
       "0 s",
@@ -95,11 +96,11 @@ namespace SlipStep
       "Calibration/Most time",
       "1 h",
       Quantity(Dimension::time, 0., 1e9, true, true),
-      "Of the search, and of the intervals. Starts that have not begun after "
-      "half of it are left out. Behind its end the best that is known has to "
-      "do, and intervals that have not been followed to their ends are "
-      "symmetric ones, from the curvature at the optimum, with a warning that "
-      "says so. More than 0, with its unit.");
+      "Longest time of the search and of the intervals. Starts that have not "
+      "begun after half of it are left out. When it is over, the best values "
+      "so far are the result, and intervals that have not been followed to "
+      "their ends are symmetric, from the curvature at the optimum, with a "
+      "warning that says so. More than 0, with its unit.");
   }
 
 
@@ -206,12 +207,12 @@ namespace SlipStep
               test->rows.warnings.push_back(
                 test->rows.file.string() +
                 (test->rows.time.size() < fewest_rows ?
-                   ": its rows are too few to see noise in; " :
+                   ": it has too few rows to estimate its noise; " :
                  axis == 1 ?
                    ": hardly any noise is visible along its second axis; " :
                    ": hardly any noise is visible; ") +
                 short_text(least, 2) +
-                " is taken, unless a line '# noise: ...' says more.");
+                " is used, unless a line '# noise: ...' states more.");
             }
         }
     }
@@ -349,7 +350,7 @@ namespace SlipStep
         parameters.reject(
           skip_key,
           std::string(rows.empty() ? "nothing" : "a single row") +
-            " is left of " + test.file.string() + ", which takes " +
+            " is left of " + test.file.string() + ", which lasts " +
             short_text(test.time.back() - test.time.front()) + " s");
       // Nearly the least, but for a few stamps that are next to each other.
       std::vector<double> distances;

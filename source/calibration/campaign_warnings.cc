@@ -69,13 +69,13 @@ namespace SlipStep
       if (n_unknown > 0)
         words = std::to_string(n_unknown) +
                 " of the tests do not say in which order they were made "
-                "('# order: 7'), and are taken for " +
+                "('# order: 7'), and are given " +
                 end(effect->test_number);
       if (n_beyond > 0)
         words += (words.empty() ? "" : "; ") + std::to_string(n_beyond) +
                  " of the tests were made before " + end(effect->first_test) +
                  " or after " + end(effect->last_test) +
-                 ", beyond which effect " + effect->name + " stays";
+                 ", beyond which effect " + effect->name + " no longer changes";
       return words;
     }
 
@@ -114,10 +114,10 @@ namespace SlipStep
       return early.front()->rows.file.string() + ": Calibration/Lead-in = " +
              parameters.text("Calibration/Lead-in") +
              " ends before sliding has begun: contact and machine of the case "
-             "give by " +
+             "deflect by " +
              rounded_text(give(*early.front()), 2) +
-             " mm under the friction of the first row; a lead-in of twice that "
-             "would do" +
+             " mm under the friction of the first row; a lead-in of twice "
+             "that length would suffice" +
              and_so_in(early.size() - 1);
     }
 
@@ -144,12 +144,12 @@ namespace SlipStep
           if (!words.empty())
             ++n_others;
           else
-            words = test.rows.file.string() + ": friction falls at once " +
+            words = test.rows.file.string() + ": friction drops suddenly " +
                     std::to_string(found->n_falls) +
-                    " times, and rises between as on a spring of " +
+                    " times, and rises in between as on a spring of " +
                     rounded_text(found->stiffness, 2) +
-                    " MPa/mm: stick-slip of a machine that the case does not "
-                    "have, where contact and machine together have " +
+                    " MPa/mm: stick-slip of a machine other than the one in "
+                    "the case, whose contact and machine together have " +
                     rounded_text(of_case, 2) +
                     " MPa/mm (Loading/Machine stiffness)";
         }
@@ -171,9 +171,9 @@ namespace SlipStep
                "" :
                "The friction of " + std::to_string(n) +
                  " test(s) is rounded to steps of " + short_text(step, 2) +
-                 ", coarser than its scatter: means of rows are off by "
-                 "up to half of that, and what it may have made is no "
-                 "evidence. Export more digits";
+                 ", coarser than its scatter: means of rows are off by up to "
+                 "half a step, and differences that rounding may have made "
+                 "are no evidence. Export more digits";
     }
 
 
@@ -188,9 +188,9 @@ namespace SlipStep
             files.emplace(test.rows.name, test.rows.file.string());
           if (!is_new)
             return known->second + " and " + test.rows.file.string() +
-                   " have one name, '" + test.rows.name +
-                   "': results cannot be told apart ('# name: ...' or the name "
-                   "of the file)";
+                   " have the same name, '" + test.rows.name +
+                   "': their results cannot be told apart (change "
+                   "'# name: ...' or the name of the file)";
         }
       return "";
     }
@@ -265,8 +265,8 @@ namespace SlipStep
       return "";
     return "Tests begin at different positions, from " +
            rounded_text(least, 4) + " to " + rounded_text(most, 4) +
-           " mm; effects that depend on the position count from where each test "
-           "begins, so that a wave along one track has not the same phase in "
-           "all of them: let every test begin at the same place";
+           " mm; effects that depend on the position count from where each "
+           "test begins, so that a wave along one track does not have the "
+           "same phase in all of them: let every test begin at the same place";
   }
 } // namespace SlipStep

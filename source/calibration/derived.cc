@@ -118,8 +118,8 @@ namespace SlipStep
             result[i].formula.find(result[j].name + "}") != std::string::npos)
           reject(result[i],
                  parameters,
-                 i == j ? "it cannot follow itself" :
-                          result[j].name + " is tied only later");
+                 i == j ? "a key cannot be tied to itself" :
+                          result[j].name + " is tied only later in the list");
     return result;
   }
 

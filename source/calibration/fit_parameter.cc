@@ -104,7 +104,7 @@ namespace SlipStep
       const auto *quantity = dynamic_cast<const Quantity *>(
         parameters.entry(result.path).pattern.get());
       if (quantity == nullptr)
-        reject("it is not a number, which a fit could change");
+        reject("it is not a number, and a fit can change numbers only");
       result.dimension = quantity->dimension;
       unit_required    = quantity->unit_required;
     }

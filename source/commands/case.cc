@@ -205,8 +205,8 @@ namespace SlipStep
         warnings.insert(
           the_case.complete.front().origin(
             "Friction/Speed of the coefficients") +
-          " is not used: only overstress and perzyna have a ratio at that speed "
-          "to divide coefficients by");
+          " is not used: coefficients are divided by the loading ratio at that "
+          "speed, which differs from 1 only with overstress or perzyna");
     }
   } // namespace
 
@@ -327,17 +327,17 @@ namespace SlipStep
     const std::size_t n = the_case.variants.size();
     if (!the_case.selected.label.empty() || n >= the_case.n_variants_written)
       return {};
-    const std::string begin = "--set gives what the " +
+    const std::string begin = "--set overrides the keys in which the " +
                               std::to_string(the_case.n_variants_written) +
-                              " variants of the case differ in: ";
+                              " variants of the case differ: ";
     if (n == 0)
-      return {begin + "it is one run, without a folder of a variant"};
+      return {begin + "the case is now one run, without a variant folder"};
     std::vector<std::string> labels;
     for (const Variant &variant : the_case.variants)
       labels.push_back("'" + variant.label + "'");
     return {begin +
-            "of those that are equal then one is left, whose name may "
-            "say otherwise (" +
+            "of variants that are now equal only one is left, and its name may "
+            "no longer fit (" +
             boost::algorithm::join(labels, ", ") + ")"};
   }
 
@@ -369,11 +369,12 @@ namespace SlipStep
             if (std::abs(area - face) > largest_difference * face &&
                 told.insert(area).second)
               warnings.push_back(
-                test.file.string() + ": its pressure is its load over " +
+                test.file.string() +
+                ": its pressure is the normal load divided by " +
                 rounded_text(area, 4) +
                 " mm^2, but the block of the case has a face of " +
                 rounded_text(face, 4) +
-                " mm^2 (Block/Size): pressures agree, loads do not");
+                " mm^2 (Block/Size): the pressures agree, the loads do not");
           }
         catch (const InputError &error)
           {
@@ -410,9 +411,9 @@ namespace SlipStep
       for (const char *key : {"Contact/Gap", "Contact/Strength"})
         if (parameters.text(key) != parameters.entry(key).default_value)
           warnings.insert(parameters.origin(key) +
-                          " acts on the face of a block only: a contact point, "
-                          "what is fitted by points, and the law as it is "
-                          "written are without it");
+                          " acts only on the face of a block: a contact point, "
+                          "a fit by contact points and an exported law do not "
+                          "take it into account");
     return {warnings.begin(), warnings.end()};
   }
 

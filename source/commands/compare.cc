@@ -82,8 +82,8 @@ namespace SlipStep
         return others;
       for (const fs::path &other : others)
         print_warnings({other.string() +
-                        " is not of the last sweep in this folder, and left "
-                        "out; name it to compare it"});
+                        " does not belong to the last sweep in this folder and "
+                        "is left out; name it to compare it"});
       return folders;
     }
 
@@ -288,7 +288,8 @@ namespace SlipStep
         return title + html_table(table, "unbroken");
       return title + paragraph(unknown.empty() ?
                                  "Nothing: the cases say the same." :
-                                 "Nothing between the cases that are known.");
+                                 "Nothing among the cases whose parameters "
+                                 "are known.");
     }
   } // namespace
 

@@ -257,10 +257,10 @@ namespace SlipStep
         return {without_block(
           diagnosis.tests[tests.front()].name,
           has_machine ?
-            "the case has a machine in series; the block is elastic itself and "
-            "takes none" :
+            "the case has a machine in series, but the block, elastic itself, "
+            "is simulated without one" :
             "the records begin in the middle of a slide (Calibration/Lead-in), "
-            "which the block is not led to")};
+            "and the simulation of the block has no lead-in")};
       std::error_code error;
       fs::create_directories(folder, error);
       std::map<std::size_t, Jobs> jobs; ///< by test

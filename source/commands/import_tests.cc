@@ -84,7 +84,7 @@ namespace SlipStep
                                file.found))
             job.map.reject("Raw file/Name",
                            file.file.filename().string() +
-                             " is no name of this pattern");
+                             " does not match this pattern");
           return {file};
         }
       if (has_wildcards(name))
@@ -166,8 +166,8 @@ namespace SlipStep
           {folder.string() + " has " + counted(others.size(), "other test") +
            " of the same records, of an earlier import (" + *others.begin() +
            (others.size() > 1 ? ", ..." : "") +
-           "): whatever reads the folder counts those rows twice; remove them "
-           "if they are not meant"});
+           "): whatever reads the folder counts the same rows twice; remove "
+           "those tests if they are not wanted"});
     }
 
 
@@ -211,7 +211,8 @@ namespace SlipStep
       if (line.files.size() > 1 || !line.settings.empty() ||
           !line.variant.empty())
         throw InputError("slipstep import: " + file.string() +
-                         " is no map (.prm), so it is looked at alone");
+                         " is not a map (.prm); a record is named alone, "
+                         "without --set and --variant");
       const fs::path map =
         file.parent_path() / (file.stem().string() + "_map.prm");
       if (fs::exists(map))

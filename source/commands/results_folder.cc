@@ -200,7 +200,7 @@ namespace SlipStep
         fs::exists(earlier, error) && !is_alone(folder))
       print_warnings(
         {folder.string() + " holds results of " + earlier +
-         ", which those of this case replace; --output keeps both"});
+         ", which the results of this case replace; --output keeps both"});
     std::ofstream(file) << command << ' ' << getpid() << ' '
                         << case_file.string() << '\n';
   }

@@ -55,7 +55,7 @@ namespace SlipStep
           print_warnings({"the faces of the block take " +
                           rounded_text(multiple, 6) +
                           " x the pressure of the programme; the contact point "
-                          "takes the programme's"});
+                          "takes that pressure itself"});
           return;
         }
     }

@@ -82,9 +82,9 @@ namespace SlipStep
         if (recorder.summary.stability.empty() &&
             !steady_slides(programme, 1).empty())
           recorder.announce(
-            "Whether sliding is stable is not told: the law has no steady "
+            "The stability of sliding is not assessed: the law has no steady "
             "state at these speeds, as with friction that depends on the "
-            "position, or there are too many of them.");
+            "position, or there are too many speeds.");
       }
     if (options.resume)
       recorder.announce(

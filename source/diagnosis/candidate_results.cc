@@ -15,7 +15,7 @@ namespace SlipStep
     std::string why_not_testable(const CandidateView &seen)
     {
       if (seen.ways.empty())
-        return "nothing changes in these tests";
+        return "it would change nothing in these tests";
       if (seen.score.free_length <= 0.)
         return "its effect cannot be told from that of the fitted parameters";
       return "only a change of friction by more than a quarter would be seen";

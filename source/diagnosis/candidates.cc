@@ -133,7 +133,7 @@ namespace SlipStep
                                 const std::vector<FitParameter> &fitted,
                                 Candidate                       &candidate)
     {
-      candidate.why_not = "no effect of the model has contacts that remember";
+      candidate.why_not = "no effect of the model gives the contacts a memory";
       for (const auto &[name, info] : effect_registry())
         {
           if (!info.search.first_state || !acts(info, now, fitted))

@@ -138,11 +138,11 @@ namespace SlipStep
       covariate_in_expression(
         confounded.front().model.parts.front().formula.along)
         .name;
-    return "These tests hardly tell pressure from speed: " +
-           list_text(names, "or") + ", which goes with " + other +
-           ", explains nearly as much alone as " + name +
-           " does, and only the formulas tell them apart. Both may be missing; "
-           "tests at one speed under several pressures, and at several speeds "
-           "under one pressure, would tell.";
+    return "These tests hardly separate pressure from speed: " +
+           list_text(names, "or") + ", which depends on " + other +
+           ", alone explains nearly as much as " + name +
+           " does, and only the shapes of the formulas distinguish them. Both "
+           "may be missing; tests at one speed under several pressures, and "
+           "at several speeds under one pressure, would separate them.";
   }
 } // namespace SlipStep

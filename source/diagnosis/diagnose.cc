@@ -167,12 +167,12 @@ namespace SlipStep
         result.outliers.push_back(outlier);
       if (judgement.verdict == Verdict::no_gap && !judgement.outlying.empty())
         result.warnings.push_back(
-          "While the numbers that nothing explains counted in full there was a "
+          "With full weight on the numbers that nothing explains there was a "
           "gap, " +
           (judgement.named_by_outliers.empty() ?
-             "without a name" :
-             "by the name of " + list_text(judgement.named_by_outliers)) +
-          ": should their records be right, this verdict is not.");
+             "attributed to no effect" :
+             "attributed to " + list_text(judgement.named_by_outliers)) +
+          ": if these numbers were recorded correctly, this verdict is wrong.");
       for (const Rival &rival : judgement.found.rivals)
         result.rivals.push_back({rival.name, rival.instead_of});
       if (!judgement.confounded.empty())
@@ -235,7 +235,7 @@ namespace SlipStep
         *worst / std::accumulate(squares.begin(), squares.end(), 0.);
       if (!(share > most) || of_condition.size() < least_conditions)
         return;
-      stage("without the condition that makes most of it");
+      stage("without the condition that contributes most to the gap");
       std::vector<std::string> left_out;
       for (std::size_t t = 0; t < squares.size(); ++t)
         if (comparison.tests[t].condition ==
@@ -260,11 +260,11 @@ namespace SlipStep
       for (const std::string &test : left_out)
         result.outliers.push_back(
           {test,
-           "its condition alone makes " + percent_text(share) +
-             " of what noise does not explain; without it " +
+           "its condition alone contributes " + percent_text(share) +
+             " of the difference that noise does not explain; without it " +
              (names.empty() ? "nothing is found to be missing" :
                               list_text(names) + " would be named") +
-             ". It counts in everything that is shown here"});
+             ". All results shown here include it"});
     }
 
 
@@ -272,7 +272,7 @@ namespace SlipStep
     // What has no name may still be described along one covariate.
     void Diagnostician::correct()
     {
-      stage("describing what has no name");
+      stage("describing the gap that has no name");
       ingested.workspace->range.track_wave =
         clear_track_wave(*ingested.workspace, ingested.base).wavelength;
       const std::optional<CorrectedModel> correction = find_correction(
@@ -447,8 +447,8 @@ namespace SlipStep
               (result.was_stopped ? "Ctrl-C came" :
                                     "Half of Diagnosis/Most time was over") +
               std::string(" before the interval of ") + parameter.name +
-              " was followed, and of those that have no profile: they are as "
-              "the curvature has them");
+              " was followed: this one, and all others without a profile, are "
+              "estimated from the curvature at the optimum");
             break;
           }
       if (result.is_cut_short)
@@ -457,8 +457,9 @@ namespace SlipStep
              std::string("Ctrl-C came") :
              "Diagnosis/Most time = " + parameters.text("Diagnosis/Most time") +
                " was over") +
-          " before all was tried: this is the best answer so far, which was not "
-          "held against all others; with more time it may be another one");
+          " before all effects were tried: this is the best answer so far, "
+          "not yet compared with all others; with more time the answer may "
+          "change");
     }
 
 

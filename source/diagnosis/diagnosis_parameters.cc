@@ -23,9 +23,10 @@ namespace SlipStep
                          value,
                          Quantity(Dimension::number, 0., 1., true),
                          "Standard deviation of " + what +
-                           ", as a share of friction, as thought of before any "
-                           "replicates are seen; without replicates it is what "
-                           "the verdict rests on. Between 0 and 1, no unit.");
+                           ", as a share of friction, as assumed before any "
+                           "replicates are seen; without replicates the "
+                           "verdict rests on this value. Between 0 and 1, no "
+                           "unit.");
     }
   } // namespace
 
@@ -40,7 +41,7 @@ namespace SlipStep
       section + "Candidates",
       "all",
       List(AnythingWithWords(candidates)),
-      "Effects of which 'slipstep diagnose' thinks when something is missing, "
+      "Effects that 'slipstep diagnose' considers when something is missing, "
       "separated by commas, or 'all' of the catalogue.");
     parameters.declare(section + "Level",
                        "0.04",
@@ -55,18 +56,19 @@ namespace SlipStep
     parameters.declare(section + "Most time",
                        "1 h",
                        Quantity(Dimension::time, 0., 1e9, true),
-                       "Of the search. Then effects are no longer tried, fits "
-                       "end with the best that they have, and what is proven "
-                       "so far is the answer, with a warning that says so; "
-                       "Ctrl-C does the same once a name is proven. The "
-                       "intervals of what was found may take half as long; "
-                       "those that are not found then are symmetric ones. More "
-                       "than 0, with its unit.");
+                       "Longest time of the search. When it is over, no more "
+                       "effects are tried, fits end with their best values so "
+                       "far, and the answer is what has been proven by then, "
+                       "with a warning that says so; Ctrl-C does the same "
+                       "once an effect is proven. The intervals of the "
+                       "parameters found may take another half of that time; "
+                       "those not followed by then are symmetric. More than "
+                       "0, with its unit.");
     parameters.declare(section + "Draws",
                        "999",
                        Integer(99, 100000),
-                       "Samples of noise by which chance is judged. 99 or "
-                       "more.");
+                       "Number of samples of noise from which chances are "
+                       "estimated. 99 or more.");
     parameters.declare(section + "Seed",
                        "1",
                        Integer(0, 2147483646),
@@ -76,9 +78,9 @@ namespace SlipStep
       section + "Element tests",
       "worst",
       Anything(),
-      "Tests that are simulated with finite elements before and after: "
-      "'worst', the one that is met worst before, 'none', or names of tests or "
-      "of their files, separated by commas.");
+      "Tests that are simulated with finite elements before and after the "
+      "search: 'worst', the test with the largest misfit before it, 'none', "
+      "or names of tests or of their files, separated by commas.");
     declare_noise(parameters, "Gain", "0.005", "a test's gain");
     declare_noise(parameters, "Offset", "0.003", "a test's offset");
     declare_noise(parameters, "Slope", "0.002", "a straight drift of a test");
@@ -86,9 +88,9 @@ namespace SlipStep
     parameters.declare(section + "Drift time",
                        "0.1",
                        Quantity(Dimension::number, 0.001, 10.),
-                       "Over which the random drift forgets, as a share of a "
-                       "test's duration, as thought of before any replicates "
-                       "are seen. Between 0.001 and 10, no unit.");
+                       "Correlation time of the random drift, as a share of a "
+                       "test's duration, as assumed before any replicates are "
+                       "seen. Between 0.001 and 10, no unit.");
   }
 
 

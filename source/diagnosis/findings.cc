@@ -140,8 +140,8 @@ namespace SlipStep
           diagnosis.warnings.push_back(
             parameter.path + " of the starting model is at its bound " +
             parameter.text(parameter.from_scaled(scaled), 6) +
-            ": if Calibration/Parameters has that as a guess, a wider range may "
-            "be all that it takes.");
+            ": if this bound in Calibration/Parameters is only a guess, a "
+            "wider range may be all that is needed.");
       }
   }
 
@@ -156,10 +156,12 @@ namespace SlipStep
       {"gain", "of friction"},
       {"offset", "of friction"},
       {"slope", "of friction"},
-      {"row memory", "of what the scatter of rows says"},
-      {"drift by seconds", "0: goes with the duration, 1: the same seconds"},
+      {"row memory", "of the memory estimated from the scatter of rows"},
+      {"drift by seconds",
+       "0: proportional to the duration, 1: the same in seconds"},
       {"drift by sensor",
-       "0: the same of both sensors, 1: as much less as their rows scatter"}};
+       "0: the same for both sensors, 1: in proportion to the scatter of "
+       "their rows"}};
     const Noise::Logarithms logarithms = workspace.noise.noise.logarithms();
     for (std::size_t i = 0; i < names.size(); ++i)
       {
@@ -365,10 +367,12 @@ namespace SlipStep
         diagnosis.warnings.push_back(
           "The tests have " + std::to_string(along.n_levels) + " levels of " +
           along.covariate + ", and " + list_text(along.names) +
-          " with the coefficient have " + std::to_string(along.n_numbers) +
-          " numbers: they would fit any friction at these. Another formula of " +
-          along.covariate + " does as well, and a test at another " +
-          along.covariate + " would tell.");
+          " together with the coefficient have " +
+          std::to_string(along.n_numbers) +
+          " parameters: these would fit any friction at these levels. Another "
+          "formula of " +
+          along.covariate + " would fit as well; a test at another " +
+          along.covariate + " would tell them apart.");
   }
 
 
@@ -416,8 +420,8 @@ namespace SlipStep
               rounded_text(length, 2) +
               " mm is less than the path between rows, " +
               rounded_text(between, 2) +
-              " mm: that it is so short is all that these tests tell of it. "
-              "With any slip the contact forgets, at rest it does not.");
+              " mm: these tests show only that it is as short as this. The "
+              "contact loses its memory with any slip, but keeps it at rest.");
         }
   }
 
@@ -485,9 +489,11 @@ namespace SlipStep
       diagnosis.warnings.push_back(
         list_text(standing) + " may stand for " + list_text(untried, "or") +
         ": friction falls with speed by " + rounded_text(100. * fall, 2) +
-        " % in these tests, and what follows speed at once could not be tried, "
-        "since nothing in the model keeps such sliding stable; with " +
-        holder + " in Friction/Effects and its parameters fitted it may be.");
+        " % in these tests, and effects that follow speed instantaneously "
+        "could not be tried, since nothing in the model keeps such sliding "
+        "stable; with " +
+        holder +
+        " in Friction/Effects and its parameters fitted they can be tried.");
   }
 
 
@@ -500,24 +506,24 @@ namespace SlipStep
     };
     if (diagnosis.n_replicate_pairs == 0)
       doubts.push_back(
-        "There are no replicates: the noise is what section Diagnosis states. "
-        "Were tests repeated and found farther apart than " +
+        "There are no replicates: the noise is the one stated in section "
+        "Diagnosis. If repeated tests differed by more than " +
         percent(std::hypot(workspace.noise.noise.gain,
                            workspace.noise.noise.offset)) +
-        " of friction, the verdict could fall.");
+        " of friction, the verdict could be overturned.");
     if (diagnosis.n_replicate_pairs == 0 &&
         diagnosis.shrink.fitted_after < 0.95 * diagnosis.shrink.noise_floor)
-      doubts.push_back("What is left (" +
+      doubts.push_back("The remaining difference (" +
                        percent(diagnosis.shrink.fitted_after) +
-                       ") is less than the noise stated (" +
+                       ") is less than the stated noise (" +
                        percent(diagnosis.shrink.noise_floor) +
-                       "), which seems too large: by less noise, smaller gaps "
-                       "would be seen.");
+                       "), which seems too large: with less noise, smaller "
+                       "gaps would be detected.");
     else if (diagnosis.n_replicate_pairs > 0 && diagnosis.n_replicate_pairs < 4)
       doubts.push_back("The noise between tests is known from " +
                        std::to_string(diagnosis.n_replicate_pairs) +
-                       " repetition(s) only; one that is farther off would "
-                       "make the gap less certain.");
+                       " repetition(s) only; a further one that differs more "
+                       "would make the gap less certain.");
     switch (diagnosis.verdict)
       {
         case Verdict::named:
@@ -548,19 +554,20 @@ namespace SlipStep
                              ") may speak for a rival.");
           break;
         case Verdict::unnamed:
-          doubts.push_back("A larger catalogue could have a name for it; so "
-                           "could tests that vary one condition at a time.");
+          doubts.push_back("A larger catalogue could contain the missing "
+                           "effect; tests that vary one condition at a time "
+                           "could also lead to a name.");
           break;
         case Verdict::no_gap:
         case Verdict::not_testable:
           doubts.push_back(
-            "Effects that change friction by less than the smallest change "
-            "that would be seen (see the catalogue) may be there; tests under "
-            "other conditions, or more of them, could show them.");
+            "Effects that change friction by less than the smallest "
+            "detectable change (see the catalogue) may be present; tests "
+            "under other conditions, or more tests, could show them.");
           break;
       }
     if (diagnosis.n_conditions == 1)
-      doubts.push_back("All tests are of one condition: nothing can be left "
-                       "out and predicted.");
+      doubts.push_back("All tests have one and the same condition: none can "
+                       "be left out and predicted.");
   }
 } // namespace SlipStep

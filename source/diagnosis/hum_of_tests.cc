@@ -105,11 +105,11 @@ namespace SlipStep
     if (hums.empty() && at_one_speed > 0.)
       doubt = "Replicates differ by a wave of " +
               rounded_text(at_one_speed, 2) +
-              " Hz, at one speed only: the hum of a recorder, or of the mains "
-              "on rows nearly in step with them, or a track that begins "
-              "elsewhere in each of them. It is not taken off: what is said of "
-              "waves along the track may be of that, and tests at another "
-              "speed would tell.";
+              " Hz, at one speed only: hum of a recorder, or mains hum "
+              "sampled nearly in step with it, or a wave along a track that "
+              "each of them begins at another place. It is not removed: the "
+              "waves along the track that are reported may be this one, and "
+              "tests at another speed would tell.";
     if (hums.empty())
       return {};
     std::vector<CampaignTest> result = tests;

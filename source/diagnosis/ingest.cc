@@ -490,7 +490,7 @@ namespace SlipStep
         result.outliers.push_back(
           {workspace.tests[outlier].rows.name,
            "it and its replicate " + workspace.tests[twin].rows.name +
-             " contradict each other (chance by the noise of the others: " +
+             " contradict each other (chance under the noise of other tests: " +
              short_text(found->chance, 2) + ")" +
              (is_told ? ", and it is farther from the model: it is" :
                           ", and the model does not tell which is wrong: both "
@@ -581,16 +581,15 @@ namespace SlipStep
       if (result.workspace->is_late())
         throw RunError(
           "Diagnosis/Most time = " + start.text("Diagnosis/Most time") +
-          " was over before the starting model was fitted to the "
-          "tests, so that nothing can be told of them: it needs "
-          "more time");
+          " was over before the starting model was fitted to the tests, so "
+          "that nothing can be concluded from them: allow more time");
       tell("noise");
       judge_chance();
       warn_of_records(result);
       if (!has_own_steps)
         result.warnings.push_back(
           "No time steps could be found for the calibrated parameters, as "
-          "where the contact sticks and slips: those of earlier ones are taken, "
+          "happens with stick-slip: those of earlier parameters are used, "
           "with an error that is not known.");
       return std::move(result);
     }

@@ -138,10 +138,9 @@ namespace SlipStep
             times.push_back(std::to_string(n - 4) + " more");
           }
         result.push_back({workspace.tests[t].rows.name,
-                          counted(n, "number") +
-                            " of it that nothing explains, at " +
+                          counted(n, "number") + " that nothing explains, at " +
                             list_text(times) +
-                            " s, counted for less: see whether the record is "
+                            " s, had less weight: check whether the record is "
                             "right there",
                           true});
       }

@@ -30,9 +30,10 @@ namespace SlipStep
         return;
       result.warnings.push_back(
         "The rows of " + std::to_string(n) +
-        " test(s) hang together (correlation of neighbours up to " +
+        " test(s) are not independent (correlation of neighbours up to " +
         short_text(decay, 2) +
-        "): they tell as much as fewer rows would, and are weighed so.");
+        "): they carry as much information as fewer rows would, and are "
+        "weighted accordingly.");
     }
 
 
@@ -51,9 +52,10 @@ namespace SlipStep
         " times the noise that is stated (Calibration/Noise, or '# noise' in a "
         "test): " +
         (scatter < too_much ?
-           "unless the records were smoothed, that is too much, and what is "
-           "missing may hide in it." :
-           "that is too little, and chance may be taken for an effect."));
+           "unless the records were smoothed, the stated noise is too large "
+           "and may hide a missing effect." :
+           "the stated noise is too small, and chance may be taken for an "
+           "effect."));
     }
 
 
@@ -65,20 +67,19 @@ namespace SlipStep
       if (hum.n_told == 0)
         return;
       result.warnings.push_back(
-        (hum.is_mains ? "The mains hum" : "A wave in time hums") +
+        (hum.is_mains ? "Mains hum is present" : "A wave in time is present") +
         std::string(" in the friction of ") + std::to_string(hum.n_told) +
         " test(s): " + rounded_text(hum.frequency, 3) + " Hz, " +
         rounded_text(100. * hum.share, 2) +
-        " % of friction. It is taken off, and what looks like it counts as "
+        " % of friction. It is removed, and whatever looks like it counts as "
         "noise. " +
         (hum.is_mains ?
            "Rows that are further apart than " +
              rounded_text(500. / hum.frequency, 2) +
-             " ms see it as a slower wave: a low-pass filter before the "
-             "recorder helps." :
-           "Replicates differ by it, at several speeds: the mains look so "
-           "where rows are nearly in step with them, or it is the "
-           "recorder's."));
+             " ms record it as a slower wave (aliasing): a low-pass filter "
+             "before the recorder helps." :
+           "Replicates differ by it, at several speeds: it is mains hum "
+           "sampled nearly in step with it, or hum of the recorder."));
     }
 
 
@@ -117,10 +118,10 @@ namespace SlipStep
       if (!(highest - lowest > noticed))
         return;
       result.warnings.push_back(
-        "The measured temperature goes from " + short_text(lowest, 3) + " to " +
-        short_text(highest, 3) +
-        " degC: no effect reads it, so that what it does to friction has no "
-        "name here.");
+        "The measured temperature ranges from " + short_text(lowest, 3) +
+        " to " + short_text(highest, 3) +
+        " degC: no effect uses it, so that its influence on friction cannot "
+        "be named here.");
     }
   } // namespace
 
@@ -132,9 +133,9 @@ namespace SlipStep
     const double     rms = relative_rms(workspace.comparison, ingested.base);
     if (rms > 1.02 * ingested.start_rms)
       ingested.warnings.push_back(
-        "Calibrated, the starting model is farther from the tests than "
-        "before: the stated noise lets whole tests be off, or its parameters "
-        "have to start elsewhere.");
+        "After calibration the starting model is farther from the tests than "
+        "before: the stated noise allows whole tests to be off, or the fit of "
+        "its parameters needs other start values.");
     warn_of_hum(ingested);
     warn_of_stated_noise(ingested);
     warn_of_rows(ingested);
@@ -142,12 +143,13 @@ namespace SlipStep
     if (ingested.is_kept_near)
       ingested.warnings.push_back(
         "The law is so far from these tests that the most plausible "
-        "parameters would miss whole tests for the sake of few rows: those "
-        "of the least differences are taken.");
+        "parameters would miss whole tests for the sake of a few rows: those "
+        "with the least differences are used instead.");
     // Without a gap they are about the same.
     if (difference_of_replicates(ingested) > 1.5 * rms)
       ingested.warnings.push_back(
-        "Replicates differ by more than the model does from the tests: they "
-        "may not be repetitions, and little can be told.");
+        "Replicates differ from one another by more than the model does from "
+        "the tests: they may not be true repetitions, and little can be "
+        "concluded.");
   }
 } // namespace SlipStep

@@ -395,9 +395,9 @@ namespace SlipStep
         }
       catch (const InputError &error)
         {
-          throw InputError(std::string(error.what()) + ": whether " + owner +
-                           " is of this case cannot be told" +
-                           anew_or_elsewhere);
+          throw InputError(std::string(error.what()) +
+                           ": it cannot be determined whether " + owner +
+                           " belongs to this case" + anew_or_elsewhere);
         }
       // Left out is what the run had no use for.
       for (const std::string &path : used.paths())

@@ -21,17 +21,20 @@ namespace SlipStep
     if (std::abs(test.pressure[0] / pressure - 1.) > 0.01 &&
         way > noticed_way * std::hypot(range_of(test.displacement),
                                        range_of(test.displacement_y)))
-      result.push_back(file + ": the pressure of the first row comes on over " +
-                       rounded_text(way, 3) +
-                       " mm; 'press' to it before 'follow'");
+      result.push_back(
+        file + ": the pressure of the first row is only reached after " +
+        rounded_text(way, 3) +
+        " mm of motion; 'press' to this pressure before "
+        "'follow'");
     const std::vector<double> friction = sizes_of_friction(test);
     // The second row as well, so that no stray value counts.
     const double first = std::min(friction[0], friction[1]);
     if (is_at_rest && first > noticed_friction * median(friction))
-      result.push_back(file + ": the record begins under a friction of " +
+      result.push_back(file + ": the record begins at a friction of " +
                        rounded_text(first, 3) +
-                       ", as in mid-slide, and the contact here at rest: "
-                       "'slide' up to it before 'follow'");
+                       ", as in the middle of a slide, but the simulated "
+                       "contact begins at rest: 'slide' up to this friction "
+                       "before 'follow'");
     return result;
   }
 } // namespace SlipStep

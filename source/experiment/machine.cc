@@ -54,8 +54,8 @@ namespace SlipStep
       {
         if (areal_mass > 0.)
           parameters.reject(mass_key,
-                            "a rigid machine moves any mass as the programme "
-                            "says; give " +
+                            "on a rigid machine the mass moves as the "
+                            "programme prescribes and has no effect; give " +
                               std::string(stiffness_key) + ", too");
         return;
       }

@@ -335,7 +335,7 @@ namespace SlipStep
         if (is_quantity(speed_text, Dimension::length) ||
             is_quantity(speed_text, Dimension::time))
           fail(speed_text.column,
-               "how far or how long follows 'for': slide for " +
+               "a length or a time follows the word 'for': slide for " +
                  speed_text.text);
         const double speed =
           is_stated ? quantity(speed_text, Dimension::speed) : default_speed;
@@ -389,7 +389,8 @@ namespace SlipStep
         const std::string example = push_example;
         if (statement.parts.count("in") > 0)
           fail(statement.parts.at("in").column,
-               "cycles last so long 'each'; " + example);
+               "the time of a cycle comes before 'each', not after 'in'; " +
+                 example);
         const Piece             &all  = statement.parts.at("");
         const std::vector<Piece> word = words(all);
         const auto find = [&](const std::vector<std::string> &names) {
@@ -595,7 +596,7 @@ namespace SlipStep
         if (duration < 1e-10 * time)
           fail(statement_column,
                "this lasts " + exact_text(duration) +
-                 " s, too short to be told from the " + exact_text(time) +
+                 " s, too short to be resolved after the " + exact_text(time) +
                  " s before it");
 
         Segment segment;

@@ -85,10 +85,9 @@ namespace SlipStep
           if (!item.empty())
             read_item(squeezed(item));
         if (probes_among(quantities).size() > most_probes)
-          fail(
-            "there can be " + std::to_string(most_probes) +
-            " of what a run finds step by step at most (all but friction force, "
-            "peak and dissipated energy)");
+          fail("there can be at most " + std::to_string(most_probes) +
+               " quantities that are evaluated step by step (all but friction "
+               "force, peak and dissipated energy)");
         return quantities;
       }
 
@@ -245,8 +244,8 @@ namespace SlipStep
         if (!(displacement > 0.))
           fail(where + "the displacement must be above 0 mm");
         if (pushes && whole_path > 0.)
-          fail(where + "how far a push moves the drive is known after the run "
-                       "only, so that no path of it can be named");
+          fail(where + "how far a push moves the drive is known only after the "
+                       "run, so a displacement of the drive cannot be named");
         if (displacement > whole_path * (1. + 1e-9))
           fail(where + (whole_path > 0. ?
                           "the drive moves by " + short_text(whole_path, 6) +
@@ -324,16 +323,16 @@ namespace SlipStep
       "the block; one length in 2-D), 'largest pressure' and 'smallest "
       "pressure' (among the contact points, 0 where the face is open), "
       "'displacement x|y|z at (<length>, <length>[, <length>])' (in space, of "
-      "a point of the block), 'force x|y|z on <face>' (on the block through "
-      "a face, left, right, front, back, bottom or top: reaction of supports "
-      "and of the drive, loads, contact), 'moment x|y|z on <face>' (of these, "
-      "about the centre of the face; z only in 2-D), 'slip front [at r = <number>]' (where "
-      "the loading ratio crosses 0.99 or the number, on the centre line of the "
-      "face along the sliding axis, first seen from the rear), 'dissipated "
-      "energy'. All but the first three are taken at the end or "
-      "'after <length>'. Displacements are paths of the drive since the "
-      "beginning of the programme; between steps a monotone cubic in time "
-      "interpolates. Empty: none.");
+      "a point of the block), 'force x|y|z on <face>' (on the block through a "
+      "face, left, right, front, back, bottom or top: reaction of supports and "
+      "of the drive, loads, contact), 'moment x|y|z on <face>' (of these "
+      "forces, about the centre of the face; only z in 2-D), 'slip front [at r "
+      "= <number>]' (where the loading ratio crosses 0.99 or the number, on "
+      "the centre line of the face along the sliding axis, first seen from the "
+      "rear), 'dissipated energy'. All but the first three are taken at the "
+      "end or 'after <length>'. Displacements are paths of the drive since the "
+      "beginning of the programme; between steps they are interpolated by a "
+      "monotone cubic in time. Empty: none.");
   }
 
 

@@ -273,21 +273,21 @@ namespace SlipStep
     parameters.declare(section + "Adaptive levels",
                        "6",
                        Integer(1, 10),
-                       "How often these may halve the cells of section Block, "
-                       "see Block/Refinement. 1 to 10.");
+                       "How often the adaptive meshes may halve the cells of "
+                       "section Block, see Block/Refinement. 1 to 10.");
     parameters.declare(section + "Adaptive goal",
                        "energy",
                        Anything(),
-                       "What they are to be good for, as "
+                       "Goal of the adaptive meshes, as "
                        "Block/Adaptivity/Goal.");
     parameters.declare(
       section + "Mesh reference",
       "Richardson",
       AnythingWithWords({"Richardson", "uniform", "adaptive"}),
       "What the meshes are compared with: 'Richardson' extrapolates the last "
-      "three uniform ones with the order they show (a fourth one tells how far "
-      "that may be off); 'uniform <number>' or "
-      "'adaptive <tolerance>' is a finer run of its own.");
+      "three uniform meshes with the order that they show (a fourth mesh tells "
+      "how far the extrapolation may be off); 'uniform <number>' or 'adaptive "
+      "<tolerance>' is a separate, finer run.");
     parameters.declare(
       section + "Time steps",
       "",
@@ -299,8 +299,8 @@ namespace SlipStep
       section + "Time reference",
       "Richardson",
       AnythingWithWords({"Richardson", "equal", "steps", "tolerance"}),
-      "The same for time steps: 'Richardson', or a finer run, e.g. 'equal "
-      "steps 800'.");
+      "What the time steps are compared with: 'Richardson', or a finer run, "
+      "e.g. 'equal steps 800'.");
   }
 
 

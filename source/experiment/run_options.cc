@@ -14,19 +14,19 @@ namespace SlipStep
       "Output/Directory",
       "output/{case}",
       dealii::Patterns::Anything(),
-      "Folder of the results, relative to the working directory; {case} is "
-      "the name of the .prm file. The variants of a sweep have a folder each "
-      "in it, and so have other commands than 'slipstep run', such as "
+      "Folder of the results, relative to the working directory; {case} is the "
+      "name of the .prm file. In it each variant of a sweep has a folder of "
+      "its own, and so has each command other than 'slipstep run', such as "
       "output/case/point. It is created; an existing one must be empty or hold "
       "earlier results of the same command, which are overwritten. The option "
-      "--output goes before it and names the folder itself.");
+      "--output takes precedence over this key and names the folder itself.");
     parameters.declare(
       "Output/New cases",
       "changes",
       dealii::Patterns::Selection("changes|complete"),
       "What 'slipstep calibrate' and 'slipstep diagnose' write into fitted.prm "
-      "and improved.prm: 'changes', an include of this case and the values that "
-      "are others, or 'complete', all values, with which the file can go "
+      "and improved.prm: 'changes', an include of this case and the values "
+      "that differ, or 'complete', all values, so that the file can be moved "
       "anywhere.");
   }
 

@@ -266,11 +266,11 @@ namespace SlipStep
         return "";
       return "at t = " + rounded_text(history[jump].time, 6) +
              " s the contact jumps by " + rounded_text(slip_in(jump), 3) +
-             " mm in one step, however short: nothing on the way is in "
-             "equilibrium, and friction just after it is rough; a " +
+             " mm in one step, however short: no state on the way is in "
+             "equilibrium, and friction just after the jump is inaccurate; a " +
              (is_block ? "Block/Density" : "Loading/Machine mass") +
-             ", or friction that rises by more with speed (effect viscous or "
-             "overstress), makes a motion of it";
+             ", or friction that rises more with speed (effect viscous or "
+             "overstress), turns the jump into a motion";
     }
   } // namespace
 
@@ -308,8 +308,8 @@ namespace SlipStep
     if (has_equal_steps && summary.rejected_steps > 0)
       summary.warnings.push_back(
         "the steps are not equal: " + std::to_string(summary.rejected_steps) +
-        " of them had no solution and were cut; more Time stepping/Equal steps "
-        "per statement may have one each");
+        " of them had no solution and were cut; with more Time stepping/Equal "
+        "steps per statement each step may have a solution");
     summary.quantities =
       evaluate_quantities(quantities, programme, history, summary.dimension);
     const bool is_point = summary.dimension == 0;
@@ -319,9 +319,10 @@ namespace SlipStep
            quantities[i].kind == QuantityOfInterest::Kind::slip_front))
         summary.warnings.push_back(
           "'" + quantities[i].name + "' has no value" +
-          (is_point ? " of a contact point" :
-                      ": at that moment no place on the face divides points "
-                      "above its loading ratio from points below"));
+          (is_point ? " on a contact point" :
+                      ": at that moment no place on the face separates points "
+                      "above the loading ratio that defines it from points "
+                      "below"));
     if (!is_writer)
       return;
     if (reason.empty())

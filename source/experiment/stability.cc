@@ -410,8 +410,8 @@ namespace SlipStep
         if (sliding.exists() && sliding.grows_at_once())
           return "sliding at " + rounded_text(speed, 3) +
                  " mm/s has no stable branch: friction falls with speed, and "
-                 "nothing in the model lets it rise at once by as much, as "
-                 "effect overstress can";
+                 "the model has no effect, such as overstress, that raises "
+                 "friction at once by as much";
       }
     return "";
   }
@@ -442,24 +442,25 @@ namespace SlipStep
                  number(speeds[1]) + " mm/s at least friction falls" +
                  by_which +
                  ", with speed or with slip, by more than the contact's own "
-                 "stiffness holds, so that it sticks and jumps and the time "
-                 "steps get very short. A memory length (effect ageing), a "
-                 "viscosity (viscous, overstress), a stiffer contact or other "
-                 "speeds may help";
+                 "stiffness can balance, so that the contact sticks and jumps "
+                 "and the time steps get very short. A memory length (effect "
+                 "ageing), a viscosity (viscous, overstress), a stiffer "
+                 "contact or other speeds may help";
         }
       if (std::isfinite(limit))
         return begin + ": the machine's stiffness of " +
                number(machine.stiffness()) + " MPa/mm is below the critical " +
                number(limit) +
-               ", so that it sticks and slips. It is steady on a stiffer "
-               "machine";
+               ", so that the contact sticks and slips. Sliding is steady on a "
+               "stiffer machine";
       if (machine.mass() > 0.)
         return begin + " on a machine with a mass: friction falls" + by_which +
-               " and nothing damps, so that every swing grows. A viscosity "
-               "(viscous, overstress) or no machine mass helps";
+               " and nothing damps the motion, so that every oscillation "
+               "grows. A viscosity (viscous, overstress) or a machine without "
+               "mass helps";
       return begin + ": friction falls" + by_which +
-             " faster than the contact's own tangential stiffness holds. A "
-             "larger tangential stiffness or a softer fall helps";
+             " faster than the contact's own tangential stiffness can balance. "
+             "A larger tangential stiffness or a gentler fall helps";
     }
   } // namespace
 

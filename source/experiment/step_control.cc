@@ -33,13 +33,14 @@ namespace SlipStep
       "Time stepping/Tolerance",
       "5e-4",
       Quantity(Dimension::number, 1e-14, 1.),
-      "Largest difference, in one step, between the friction force by the "
-      "method of second order that makes the step and by one of first order; "
-      "also of strength, coefficient of friction and normal ratio. Relative to "
-      "the present strength. A straight line from row to row may be off by four "
-      "times as much. The error of the result is less, and proportional to it. "
-      "Between 1e-14 and 1, no unit; at 1 practically every step is accepted, "
-      "which leaves their number to the other keys.");
+      "Largest difference, in one step, between the friction force of the "
+      "second-order method that makes the step and that of a first-order "
+      "method; the same holds for strength, coefficient of friction and normal "
+      "ratio. Relative to the present strength. A straight line from row to "
+      "row may be off by four times as much. The error of the result is "
+      "smaller, and proportional to the tolerance. Between 1e-14 and 1, no "
+      "unit; at 1 practically every step is accepted, so that the other keys "
+      "determine the number of steps.");
     parameters.declare(
       "Time stepping/Least steps per statement",
       "10",
@@ -95,10 +96,10 @@ namespace SlipStep
                   [](const EffectInfo &info) { return info.is_sudden; });
     return effect == nullptr ?
              "" :
-             "; where the effect " + effect->name +
-               " lets friction fall within less slip than the contact's "
-               "elastic one, friction over stiffness, it jumps: let it fall "
-               "over more";
+             "; where effect " + effect->name +
+               " lets friction fall within less slip than the elastic slip of "
+               "the contact (friction over stiffness), the contact jumps: let "
+               "friction fall over more slip";
   }
 
 
@@ -129,7 +130,7 @@ namespace SlipStep
       parameters.reject(most_steps_key,
                         std::string(equal_steps_key) + " = " +
                           std::to_string(equal_steps) +
-                          " needs no fewer than that");
+                          " needs at least as many");
     start_segment();
   }
 
@@ -233,13 +234,13 @@ namespace SlipStep
       " of the programme takes more than " + std::to_string(limit) +
       " time steps (" + most_steps_key +
       (rows_of_statement > 1 ? " and one for each row" : "") +
-      "), tried ones among them: at t = " + short_text(end, 6) +
+      "), rejected ones included: at t = " + short_text(end, 6) +
       " s they are " + short_text(step_size(), 2) + " s long; " +
       (rows_of_statement > 1 ?
-         "a test that turns round or trembles wants many: allow more, follow "
-         "fewer rows, or a larger Time stepping/Tolerance" :
-         "stick-slip, and a mass that rings on its spring, want many: allow "
-         "more, slide for less, or damp it (effect viscous)") +
+         "a test that reverses or trembles needs many: allow more steps, "
+         "follow fewer rows, or set a larger Time stepping/Tolerance" :
+         "stick-slip, and a mass that rings on its spring, need many: allow "
+         "more steps, slide less far, or damp the motion (effect viscous)") +
       sudden);
   }
 
@@ -288,8 +289,9 @@ namespace SlipStep
         shrink(
           step * std::max(0.2, std::min(ideal, 0.7)),
           std::string(
-            "the error allowed (Time stepping/Tolerance) asks for less than ") +
-            least_step_key + " or the clock's resolution" + sudden + remedy);
+            "to keep the allowed error (Time stepping/Tolerance), a step would "
+            "have to be shorter than ") +
+            least_step_key + " or the resolution of time" + sudden + remedy);
         return false;
       }
 
@@ -332,7 +334,7 @@ namespace SlipStep
               equal_steps_key + (" = " + std::to_string(equal_steps)) :
               "Time stepping/Tolerance = " + rounded_text(tolerance, 3)) +
            "): friction is off by an estimated " + percent_text(largest_error) +
-           " of itself in the step that ends at t = " +
+           " of its value in the step that ends at t = " +
            rounded_text(time_of_largest, 6) +
            " s, and may be wrong from there on";
   }
@@ -355,12 +357,12 @@ namespace SlipStep
 
     if (!(lost_swing > much))
       return "";
-    return "the machine's mass begins to swing at t = " +
+    return "the machine's mass begins to oscillate at t = " +
            rounded_text(time_of_swing, 6) + " s, by " +
            percent_text(lost_swing) +
-           " of the friction; the steps are too long to follow that, so it is "
-           "over at once, and contacts that it would have shaken are not: a "
-           "smaller Time stepping/Tolerance follows it";
+           " of the friction; the steps are too long to resolve the "
+           "oscillation, so it dies out at once, and its effect on the contact "
+           "is missing: a smaller Time stepping/Tolerance resolves it";
   }
 
 

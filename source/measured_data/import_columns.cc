@@ -23,24 +23,26 @@ namespace SlipStep
     static const std::vector<ColumnKey> all = {
       {"Time",
        D::time,
-       "Time. 'NAME in clock' is that of a clock, 23:59:59.5 or 2026-11-27 "
-       "23:59:59.5, counted from midnight; without a date it goes on at the "
-       "next one. 'NAME in clock d/m' and 'm/d' say which number of 3/4/2026 "
-       "is the month."},
+       "Time. 'NAME in clock' is the time of a clock, 23:59:59.5 or 2026-11-27 "
+       "23:59:59.5, counted from midnight; without a date it runs on past the "
+       "next midnight. 'NAME in clock d/m' and 'm/d' say which number of "
+       "3/4/2026 is the month."},
       {"Displacement", D::length, "Displacement, or distance slid."},
       {"Speed",
        D::speed,
-       "Speed of sliding, instead of the displacement: its integral over "
-       "time, by trapezia."},
+       "Speed of sliding, instead of the displacement, which is then its "
+       "integral over time by the trapezoidal rule."},
       {"Pressure", D::stress, "Nominal pressure."},
       {"Normal load", D::force, "Normal load, instead of the pressure."},
       {"Friction", D::number, "Coefficient of friction."},
       {"Tangential load",
        D::force,
        "Tangential load, instead of the coefficient."},
-      {"Displacement y", D::length, "The same along the second axis."},
-      {"Friction y", D::number, "The same along the second axis."},
-      {"Tangential load y", D::force, "The same along the second axis."},
+      {"Displacement y", D::length, "Displacement along the second axis."},
+      {"Friction y",
+       D::number,
+       "Coefficient of friction along the second axis."},
+      {"Tangential load y", D::force, "Tangential load along the second axis."},
       {"Temperature", D::temperature, "Temperature, optional."}};
     return all;
   }
@@ -247,11 +249,12 @@ namespace SlipStep
       const bool is_told = !unit.empty();
       if (!is_told)
         unit = unit_in_file(source.position);
-      const std::string remedy =
-        dimension.has_value() ?
-          "'" + name + " in " + base_unit(*dimension) + "', or whatever it is" :
-          "{" + name + " in N}, or whatever it is; {" + name +
-            " as recorded} is the bare number";
+      const std::string remedy = dimension.has_value() ?
+                                   "'" + name + " in " + base_unit(*dimension) +
+                                     "', or whatever its unit is" :
+                                   "{" + name +
+                                     " in N}, or whatever its unit is; {" +
+                                     name + " as recorded} is the bare number";
       if (unit.empty())
         reject("the unit is missing: write " + remedy);
       const std::optional<Dimension> wanted =
@@ -279,7 +282,7 @@ namespace SlipStep
       if (!is_none(told) && told != "%")
         reject("a coefficient of friction has no unit \"" + told +
                "\": write '" + name + "', or '" + name +
-               " in %'; a force is a tangential load");
+               " in %'; a force belongs in Columns/Tangential load");
       if (told.empty() ? dimension_of_unit(in_file).has_value() :
                          in_file == "%" && told != "%")
         add_contradiction(source.position, "as a plain number", in_file);
@@ -321,8 +324,9 @@ namespace SlipStep
         return;
       add_contradiction(position,
                         "in " + unit,
-                        in_file +
-                          (known.has_value() ? "" : ", no unit known here"));
+                        in_file + (known.has_value() ?
+                                     "" :
+                                     ", which is not a known unit"));
     }
 
     // A formula without a number of its own, and with all columns in units, can
@@ -357,8 +361,8 @@ namespace SlipStep
             *source.dimension == Dimension::temperature)
           return;
       if (recipe.conversion(1.) != 1.)
-        reject("columns with units count in mm, s, N, MPa already, whatever "
-               "theirs are: leave out '" +
+        reject("columns with units are converted to mm, s, N, MPa already, "
+               "whatever their own units are: leave out '" +
                text.substr(text.rfind(" in ") + 1) +
                "', or take the columns as recorded");
       bool is_inside = false;
@@ -375,8 +379,8 @@ namespace SlipStep
         reject("the units do not make " +
                (key.dimension == Dimension::number ? "a plain number" :
                                                      base_unit(key.dimension)) +
-               ": a factor that has a unit stands as a number, as 12*{p in "
-               "MPa} for an area of 12 mm^2");
+               ": write a factor that has a unit as a plain number, such as "
+               "12*{p in MPa} for an area of 12 mm^2");
     }
 
     const Parameters         &map;

@@ -14,20 +14,20 @@ namespace SlipStep
                   Anything(),
                   "The file to convert, relative to the folder of this map or "
                   "the one on the command line. With wildcards, as in "
-                  "runs/*_*N_?.txt, all files of such a name: * stands for any "
-                  "letters, as few as will do, ? for one. What they stood for "
-                  "goes where section Test or Constants has {1}, {2} and so "
-                  "on.");
+                  "runs/*_*N_?.txt, all files whose names match: * stands for "
+                  "any letters, as few as possible, ? for one. The letters "
+                  "that they stand for replace {1}, {2} and so on in sections "
+                  "Test and Constants.");
       map.declare("Raw file/Delimiter",
                   "auto",
                   Selection("auto|tab|comma|semicolon|blanks"),
-                  "Between columns. auto: tab, semicolon, comma or blanks, the "
-                  "first of them that the header has.");
+                  "Mark between columns. auto: tab, semicolon, comma or "
+                  "blanks, the first of them that the header has.");
       map.declare("Raw file/Decimal mark",
                   "auto",
                   Selection("auto|point|comma"),
-                  "Of the numbers. auto: whichever they have; both in one file "
-                  "is an error.");
+                  "Decimal mark of the numbers. auto: whichever they have; "
+                  "both in one file are an error.");
       map.declare("Raw file/Header line",
                   "0",
                   Integer(0),
@@ -47,7 +47,7 @@ namespace SlipStep
       map.declare("Raw file/Thousands mark",
                   "none",
                   Selection("none|point|comma|blank|apostrophe"),
-                  "What parts thousands, as in 1.234,5.");
+                  "Mark that separates thousands, as in 1.234,5.");
       // A value in a .prm file cannot contain the mark itself.
       map.declare("Raw file/Comment marks",
                   "",
@@ -87,9 +87,9 @@ namespace SlipStep
                   "as recorded",
                   Selection("as recorded|reversed|of the motion"),
                   convention +
-                    "; of the motion: the record has no sign, and gets that of "
-                    "the last motion. A record with friction that drives the "
-                    "motion is refused.");
+                    "; of the motion: friction in the record has no sign, and "
+                    "takes that of the latest motion. A record with friction "
+                    "that drives the motion is refused.");
       map.declare("Convention/Displacement sign",
                   "as recorded",
                   Selection("as recorded|reversed"),
@@ -107,17 +107,17 @@ namespace SlipStep
         "Correction/Zero",
         "none",
         Anything(),
-        "What is taken off tangential load or coefficient as the zero "
-        "of the sensor: 'mean of strokes', half the sum of the means "
-        "over the path forth and back, 'mean of the first 2 s', or "
-        "'none'. The test says how much it was.");
+        "What is subtracted from tangential load or coefficient as the zero of "
+        "the sensor: 'mean of strokes', half the sum of the means over the "
+        "forward and the backward path, 'mean of the first 2 s', or 'none'. "
+        "The test says how much it was.");
       map.declare("Correction/Drift",
                   "none",
                   Anything(),
-                  "'linear': a drift of the sensor that is linear in time is "
-                  "taken off the same, the line that fits rows in motion best. "
-                  "It takes slow changes of friction along; the test says how "
-                  "much it was.");
+                  "'linear': a drift of the sensor that is linear in time, the "
+                  "line that best fits the rows in motion, is subtracted from "
+                  "the same column. Slow changes of friction are removed with "
+                  "it; the test says how much it was.");
     }
 
     void declare_selection(Parameters &map)
@@ -133,12 +133,12 @@ namespace SlipStep
         "Selection/Cut",
         "none",
         Anything(),
-        "How a record becomes several tests: 'at reversals', 'every 5 "
-        "cycles' (from turn to turn, what is before the first turn "
-        "and behind the last full part is left out), 'at holds of 2 "
-        "s' (rests of at least so long; a part begins with one), "
-        "'after holds of 2 s' (it begins with the last row of one), "
-        "'at 10 s, 20 s' (by the clock of the raw file), or 'none'.");
+        "How a record becomes several tests: 'at reversals', 'every 5 cycles' "
+        "(from turn to turn; rows before the first turn and after the last "
+        "full part are left out), 'at holds of 2 s' (rests of at least 2 s; a "
+        "part begins with a rest), 'after holds of 2 s' (a part begins with "
+        "the last row of a rest), 'at 10 s, 20 s' (by the clock of the raw "
+        "file), or 'none'.");
       map.declare(
         "Selection/Parts",
         "all",
@@ -148,14 +148,15 @@ namespace SlipStep
       map.declare("Selection/Row step",
                   "1",
                   Integer(1),
-                  "Take every n-th row. Extremes between them are lost, other "
-                  "than with 'Most rows'.");
+                  "Take every n-th row. Extremes between these rows are lost, "
+                  "unlike with 'Most rows'.");
       map.declare("Selection/Most rows",
                   "0",
                   Integer(0),
-                  "Resample to so many rows, or fewer that tell the same: "
-                  "peaks, reversals and the onset of motion are kept, and the "
-                  "noise of the full record is noted. 0: keep every row.");
+                  "Resample to at most this many rows, or fewer that describe "
+                  "the record equally well: peaks, reversals and the onset of "
+                  "motion are kept, and the noise of the full record is noted. "
+                  "0: keep every row.");
     }
 
     void declare_test(Parameters &map)
@@ -189,13 +190,12 @@ namespace SlipStep
         "",
         dealii::Patterns::Anything(),
         key.text +
-          " 'NAME' or 'NAME in UNIT', as the header has it, or "
-          "'column 3 in UNIT'; a unit in the name, as in Load [N], "
-          "or in the line of units need not be repeated. Or a formula "
-          "with columns in braces, ({F in N} - 20*{p in bar})/{Fz in "
-          "kN}: they count in mm, s, N, MPa, degC, {U as recorded} as "
-          "it stands, and 'in UNIT' behind it is the unit of the "
-          "result." +
+          " 'NAME' or 'NAME in UNIT', as the header has it, or 'column 3 in "
+          "UNIT'; a unit in the name, as in Load [N], or in the line of units "
+          "need not be repeated. Or a formula with columns in braces, ({F in "
+          "N} - 20*{p in bar})/{Fz in kN}: the columns are converted to mm, s, "
+          "N, MPa, degC, {U as recorded} is not, and 'in UNIT' behind the "
+          "formula is the unit of the result." +
           (key.dimension == Dimension::number ?
              "" :
              " Base unit: " + base_unit(key.dimension) + "."));

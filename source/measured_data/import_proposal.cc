@@ -55,8 +55,8 @@ namespace SlipStep
         guess_signs();
         guess("Test/Condition",
               condition(),
-              "tests of the same condition are replicates: say all in which "
-              "they differ",
+              "tests of the same condition are replicates: state everything in "
+              "which tests differ",
               true);
         return proposal;
       }
@@ -206,8 +206,8 @@ namespace SlipStep
           axis = 'x';
         else if (moves ? axis == '\0' : frictions.size() > 1)
           axis_doubt =
-            "; it has a second axis (Displacement y, Tangential load y, "
-            "Friction y): or is that the one that counts?";
+            "; the record has a second axis (Displacement y, Tangential load "
+            "y, Friction y): or is that the axis of sliding?";
         else if (moves && !frictions.empty() && frictions.count(axis) == 0)
           {
             axis_doubt = "; no friction is recorded along the axis that moves";
@@ -290,7 +290,8 @@ namespace SlipStep
                  rival > 0) ||
                 rival >= points)
               return "; " + reference(i) +
-                     " is called like one, too: which counts, or do both?";
+                     " has such a name, too: which of the two counts, or do "
+                     "both?";
         return "";
       }
 
@@ -508,8 +509,8 @@ namespace SlipStep
               reference(i) + " in " + seen.unit,
               "it goes back from " + rounded_text(*std::prev(back), 6) +
                 " to " + rounded_text(*back, 6) +
-                ": a clock that begins anew has to be made to go on, or the "
-                "file to be parted, before",
+                ": if the clock starts anew, first make its times run on, or "
+                "split the file",
               true);
             return;
           }
@@ -519,12 +520,13 @@ namespace SlipStep
         if (day < values.size())
           guess("Columns/Time",
                 reference(day) + " in d",
-                "no column is called like a time" + days_of_spreadsheets,
+                "no column name suggests a time" + days_of_spreadsheets,
                 true);
         else
           guess("Columns/Time",
                 "column 1 in s",
-                "no column of increasing numbers is called like a time",
+                "no column of increasing numbers has a name that suggests a "
+                "time",
                 true);
       }
 
@@ -533,7 +535,7 @@ namespace SlipStep
       void guess_other_load()
       {
         const std::string why =
-          "no column is called like a coefficient or a tangential load";
+          "no column name suggests a coefficient or a tangential load";
         for (ImportGuess &load : proposal.guesses)
           for (const std::string &key :
                {std::string("Normal load"), std::string("Pressure")})
@@ -579,7 +581,7 @@ namespace SlipStep
           guess(
             "Constants/Speed",
             "1 mm/s",
-            "no column is called like a displacement or a speed: which one is "
+            "no column name suggests a displacement or a speed: which one is "
             "it (Columns/Displacement, Columns/Speed), or how fast did it "
             "slide?",
             true);
@@ -591,13 +593,13 @@ namespace SlipStep
             if (taken_as("Tangential load"))
               guess("Constants/Normal load",
                     "5 N assumed",
-                    "no column is called like a normal load; without 'assumed' "
-                    "if it is known",
+                    "no column name suggests a normal load; leave out "
+                    "'assumed' if it is known",
                     true);
             else
               guess("Constants/Pressure",
                     "5 MPa",
-                    "no column is called like a pressure",
+                    "no column name suggests a pressure",
                     true);
           }
         const bool has_pressure = taken_as("Pressure");
@@ -607,8 +609,8 @@ namespace SlipStep
                 "1 mm^2 assumed",
                 has_pressure ?
                   "turns the pressure into a normal load" :
-                  "turns the normal load into a pressure; without 'assumed' if "
-                  "it is known",
+                  "turns the normal load into a pressure; leave out 'assumed' "
+                  "if it is known",
                 true);
       }
 
@@ -640,13 +642,13 @@ namespace SlipStep
           guess("Convention/Friction sign",
                 "of the motion",
                 "friction has one sign though the displacement comes back: the "
-                "record has its magnitude");
+                "record holds only its magnitude");
         else if (share < 0.5)
           guess("Convention/Friction sign",
                 "as recorded",
-                words + ": is a zero of the sensor to be taken off "
-                        "(Correction/Zero), or is this displacement a way that "
-                        "only grows?");
+                words + ": is a zero of the sensor to be subtracted "
+                        "(Correction/Zero), or is this displacement an "
+                        "accumulated path, which only grows?");
       }
 
       const SeenColumn *taken_as(const std::string &key) const

@@ -76,7 +76,7 @@ namespace SlipStep
             mark,
             layout.has_doubtful_marks ?
               "all numbers with a " + mark +
-                " have three digits behind it: does it part thousands?" :
+                " have three digits behind it: does it separate thousands?" :
               "as the numbers have it");
     if (layout.thousands_mark != '\0')
       guess("Raw file/Thousands mark",
@@ -106,7 +106,7 @@ namespace SlipStep
     if (layout.units_line > 0 && !layout.has_unclear_header)
       guess("Raw file/Units line",
             std::to_string(layout.units_line),
-            "it has units, mostly");
+            "most of its cells are units");
     if (!layout.comment_marks.empty())
       guess("Raw file/Comment marks",
             boost::algorithm::join(layout.comment_marks, ", "),

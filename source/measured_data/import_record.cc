@@ -394,11 +394,12 @@ namespace SlipStep
         const std::vector<double> pressure = values("Pressure");
         const double              varies   = range_of(pressure);
         const std::string         words =
-          "friction is the tangential load over a normal load of " +
+          "friction is the tangential load divided by a normal load of " +
           rounded_text(load.front(), 4) +
-          " N throughout, but the pressure varies by " +
+          " N throughout, although the pressure varies by " +
           rounded_text(varies, 3) +
-          " MPa: give Constants/Area instead of the load, or a column of it";
+          " MPa: give Constants/Area instead of the load, or a column of the "
+          "load";
         if (varies > much * median(pressure) && !holds(doubts, words))
           doubts.push_back(words);
       }
@@ -431,8 +432,8 @@ namespace SlipStep
             "Correction/Zero of a coefficient: the zero of a load cell is a "
             "force, and the load here varies by " +
             rounded_text(100. * range_of(pressure) / usual, 2) +
-            " %: give the tangential load (Columns/Tangential load), or "
-            "import parts of one load each");
+            " %: give the tangential load (Columns/Tangential load), or import "
+            "parts with one load each");
       }
 
       void correct_sensor(const std::string         &key,
@@ -457,19 +458,20 @@ namespace SlipStep
           const double value = take_off_zero(zero, time, motion, signal);
           if (sign.has_value() &&
               std::abs(sign->forth - sign->back) <= alike * sign->scatter)
-            throw InputError("it takes off nearly all, " +
-                             rounded_text(value, 4) + unit +
-                             ": has the record no sign (Convention/Friction "
-                                  "sign = of the motion)?");
+            throw InputError(
+              "it subtracts nearly the whole friction, " +
+              rounded_text(value, 4) + unit +
+              ": is friction recorded without a sign (Convention/Friction "
+                   "sign = of the motion)?");
           return value;
         });
         if (zero.rfind("mean of the first", 0) == 0 && std::abs(value) > 0. &&
             moves_in_first(zero, time, motion))
           doubts.push_back(
             "Correction/Zero = " + zero +
-            ": the record moves in that time. If it touches the plane then, "
-            "friction is taken off the " +
-            what + " with the zero");
+            ": there is motion in that time. If there is contact then, too, "
+            "friction is subtracted from the " +
+            what + " together with the zero");
         std::string &note = notes["corrected"];
         if (drift != "none")
           note += (note.empty() ? "" : "; ") + what + " less a drift of " +

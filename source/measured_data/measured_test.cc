@@ -189,11 +189,9 @@ namespace SlipStep
         {
           const auto other = table.contradicting_comments().find(key);
           if (other != table.contradicting_comments().end())
-            throw InputError(test.file.string() +
-                             ": its comments say two "
-                             "things of '" +
-                             key + "': '" + note(key) + "' and '" +
-                             other->second + "'");
+            throw InputError(
+              test.file.string() + ": its comments contradict each other on '" +
+              key + "': '" + note(key) + "' and '" + other->second + "'");
         }
       const Quantity order(Dimension::number);
       if (!note("order").empty() && !order.match(note("order")))

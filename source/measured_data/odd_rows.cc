@@ -288,11 +288,10 @@ namespace SlipStep
         const std::vector<double> friction = sizes_of_friction(test);
         const double              usual    = usual_size(friction);
         if (usual > largest_friction)
-          warn(
-            "friction reaches " + rounded_text(usual, 3) +
-              " of the pressure: is it a force, a percentage, or the pressure "
-              "wrong?",
-            0);
+          warn("friction reaches " + rounded_text(usual, 3) +
+                 " of the pressure: is it a force or a percentage, or is the "
+                 "pressure wrong?",
+               0);
         else
           warn_of_strays("friction",
                          friction,
@@ -322,8 +321,8 @@ namespace SlipStep
       {
         if (const double rounding = rounding_of_time(test.time); rounding > 0.)
           warn("time is rounded to " + rounded_text(rounding, 3) +
-                 " s, which makes speeds differ from row to row: fits take "
-                 "its steps to be even; record times with more digits",
+                 " s, which makes speeds differ from row to row: fits assume "
+                 "equal time steps; record times with more digits",
                0);
       }
 
@@ -356,11 +355,11 @@ namespace SlipStep
         if (n > 0)
           warn(
             "time goes on by " + rounded_text(steps[first - 1], 3) +
-              " s within one row while it moves " +
+              " s within one row while the displacement changes by " +
               rounded_text(distance_between(test, first - 1, first), 3) +
-              " mm, which is read as sliding that slowly: if the clock jumped "
-              "or the machine stood still, correct the times or add a row "
-              "where it stopped. Such rows: " +
+              " mm, which is read as slow sliding: if the clock jumped or the "
+              "machine stood still, correct the times or add a row where it "
+              "stopped. Such rows: " +
               std::to_string(n),
             first);
       }
@@ -420,9 +419,10 @@ namespace SlipStep
         if (rows.empty())
           return;
         warn("the pressure is " + rounded_text(test.pressure[rows[0]], 2) +
-               " MPa there, of " + rounded_text(median(test.pressure), 3) +
-               " MPa, and friction like none under load: noise over noise. "
-               "Fits leave such rows out; there are " +
+               " MPa there, compared with a usual " +
+               rounded_text(median(test.pressure), 3) +
+               " MPa, and friction there is unlike friction under load: noise "
+               "over noise. Fits leave such rows out; there are " +
                std::to_string(rows.size()),
              rows[0]);
       }

@@ -554,7 +554,7 @@ namespace SlipStep
       test.warnings.push_back(
         test.file.string() + ": the displacement is rounded to " +
         short_text(largest) +
-        " mm: between its stairs the motion is taken to be even; record "
+        " mm: between these steps the motion is taken to be uniform; record "
         "positions with more digits");
   }
 } // namespace SlipStep

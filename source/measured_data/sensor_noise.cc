@@ -396,8 +396,8 @@ namespace SlipStep
         test.warnings.push_back(
           test.file.string() + ": the " + words + " trembles by " +
           rounded_text(largest, 2) + ' ' + unit +
-          " (standard deviation), which a contact would feel: it is taken for "
-          "noise of the sensor, and off");
+          " (standard deviation), which a contact would respond to: this is "
+          "taken for noise of the sensor and removed");
     };
     std::vector<std::vector<double> *> motion = {&test.displacement};
     if (!test.displacement_y.empty())

@@ -110,7 +110,8 @@ namespace SlipStep
       const double     forth = path_of_steps(steps[0]),
                    back      = path_of_steps(steps[1]);
       if (!goes_both_ways(steps))
-        throw InputError("it takes strokes both ways, and the record moves " +
+        throw InputError("it needs strokes in both directions, but the record "
+                         "moves " +
                          rounded_text(forth, 3) + " mm forth and " +
                          rounded_text(back, 3) + " mm back");
       return 0.5 * (mean_over_path(steps[0], &MovingStep::signal) +
@@ -220,8 +221,8 @@ namespace SlipStep
             }
         }
     if (!(square > 0.))
-      throw InputError("the record does not move, so a drift of the sensor is "
-                       "not to be told from friction");
+      throw InputError("the record has no motion, so a drift of the sensor "
+                       "cannot be told from friction");
     const double slope = product / square;
 
     std::vector<double> known;

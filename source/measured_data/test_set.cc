@@ -85,7 +85,7 @@ namespace SlipStep
                        name_in_messages(one) + ", but its " + quantity +
                        " is " + rounded_text(b, 3) + " " + unit + ", not " +
                        rounded_text(a, 3) + " " + unit +
-                       "; replicates are made alike, within 20 %");
+                       "; replicates agree in it within 20 %");
     }
 
 
@@ -111,15 +111,16 @@ namespace SlipStep
           else if ((*same)->pressure != test.pressure)
             test.warnings.push_back(
               name_in_messages(test) +
-              ": its friction and its motion are to the last digit those of " +
+              ": its friction and its motion are identical to the last digit "
+              "with those of " +
               name_in_messages(**same) +
               ", under another pressure: is it a copy?");
           else
             test.warnings.push_back(
-              name_in_messages(test) + ": its rows are those of " +
+              name_in_messages(test) +
+              ": its rows are identical with those of " +
               name_in_messages(**same) +
-              "; a copy is no second measurement, take it "
-              "out");
+              "; a copy is not a second measurement, so remove it");
         }
     }
 

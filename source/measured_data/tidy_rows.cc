@@ -114,8 +114,8 @@ namespace SlipStep
                                 channel->name,
                                 channel->name + " is not finite" +
                                   (channel->name.rfind("friction", 0) == 0 ?
-                                     " (where it is a force over the normal "
-                                     "load: is that zero there?)" :
+                                     " (if it is a force divided by the normal "
+                                     "load: is that load zero there?)" :
                                      ""));
                 has_gap[i] = has_gap[i] || std::isnan(values[i]);
               }
@@ -134,10 +134,11 @@ namespace SlipStep
             if (std::isnan((test.*(channel->values))[first]))
               origin.reject(first,
                             channel->name,
-                            channel->name + " has no value, and so it is in " +
+                            channel->name +
+                              " has no value; a value is missing in " +
                               std::to_string(n) + " of " +
                               std::to_string(has_gap.size()) +
-                              " rows; a test needs two that are complete");
+                              " rows, and a test needs two complete rows");
         tell_change("rows without a value, left out: " + std::to_string(n),
                     first);
         keep(rows);
@@ -262,8 +263,9 @@ namespace SlipStep
                 is_mostly_constant(test.friction))
               warn("friction drives the motion in " +
                      rounded_text(50. * (1. - work.done / work.possible), 2) +
-                     " % of its work: is the displacement a way that only "
-                     "grows, or has the sensor of the force a zero?",
+                     " % of its work: is the displacement an accumulated path, "
+                     "which only grows, or does the force sensor have a zero "
+                     "offset?",
                    kept[row]);
             return;
           }

@@ -92,7 +92,7 @@ namespace SlipStep
                                            " (neither end)");
       return text.empty() ?
                "" :
-               "Up to their bounds, these tests do not limit: " + text + ".";
+               "Within their bounds, these tests do not limit: " + text + ".";
     }
 
     /// What one standard deviation along a weak direction changes:
@@ -206,8 +206,8 @@ namespace SlipStep
         text += (i > 0 ? ", " : "") + pairs[i].second;
       if (pairs.size() > n_listed)
         text += ", and " + std::to_string(pairs.size() - n_listed) + " more";
-      return "These values belong together, changing one alone spoils the fit "
-             "(correlation): " +
+      return "These values depend on each other, so that changing one alone "
+             "spoils the fit (correlation): " +
              text + ".";
     }
 
@@ -265,8 +265,8 @@ namespace SlipStep
       if (calibration.inflation > 1.)
         text += "; all variances are multiplied by " +
                 short_text(calibration.inflation, 3) +
-                ", because what is left over is larger than the noise or "
-                "hangs together";
+                ", because the remaining differences are larger than the "
+                "noise or correlated";
       return heading("Parameters") +
              html_table(parameter_lines(calibration), "numbers unbroken") +
              note(text + ".");
@@ -313,9 +313,9 @@ namespace SlipStep
           html += "</tr>\n";
         }
       return html + "</tbody></table></div>\n" +
-             note("Near 1 or -1, two parameters make up for each other; 0 also "
-                  "where nothing is known of one. Blue: negative, orange: "
-                  "positive.");
+             note("Near 1 or -1, two parameters compensate each other; 0 also "
+                  "where nothing is known about one of them. Blue: negative, "
+                  "orange: positive.");
     }
 
     /// In how far the result depends on where the search began.
@@ -624,10 +624,10 @@ namespace SlipStep
         table_section(
           "Tests",
           test_lines(calibration, true),
-          "rms: of measured minus fitted friction; start rms: with the "
-          "start values; noise: estimated from the rows unless stated; "
-          "correlated rows: how many in a row are off together; work: "
-          "of friction per area of contact.") +
+          "rms: of measured minus fitted friction; start rms: with the start "
+          "values; noise: estimated from the rows unless stated; correlated "
+          "rows: how many successive rows deviate together; work: of friction "
+          "per area of contact.") +
         starts_section(calibration) + cost_section(calibration) +
         repeat_section("calibrate", parameters));
     return page.warnings;

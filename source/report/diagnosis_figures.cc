@@ -283,7 +283,7 @@ namespace SlipStep
       if (diagnosis.tests.size() > map.tests.size())
         text += " " +
                 std::to_string(diagnosis.tests.size() - map.tests.size()) +
-                " tests are left out: those met best before.";
+                " tests are left out: those with the smallest misfit before.";
       return html + note(text);
     }
 
@@ -301,10 +301,10 @@ namespace SlipStep
         }
       Gallery gallery{
         "The formula of " + effects + " is not quite right",
-        "Measured minus simulated friction with the formula of the effect alone, "
-        "as means of bins with two standard deviations; line: a free factor along "
-        "what the formula is a function of, which stands beside it in the improved "
-        "case. Its shape tells what the formula lacks.",
+        "Measured minus simulated friction with the formula of the effect "
+        "alone, as means of bins with two standard deviations; line: a free "
+        "factor along the variable of the formula, which stands beside the "
+        "formula in the improved case. Its shape shows what the formula lacks.",
         {{"left over by the formula", "#222222", "dot"}}};
       return draw_panels(
         page, "formula", panels, signature_lines(diagnosis, panels), gallery);
@@ -324,9 +324,9 @@ namespace SlipStep
              "test",
              is_after ? "Measured, before and after" : "Measured and simulated",
              caption +
-               "With a law that lacks nothing, nearly all that was measured lies "
-               "within the band of the noise. Steep flanks are cut off where the "
-               "difference is elsewhere.",
+               "With a complete law, nearly all measured points lie within "
+               "the noise band. Steep flanks are cut off where the difference "
+               "lies elsewhere.",
              frames,
              is_after ? "after" : "simulated") +
            heat_map_section(diagnosis);

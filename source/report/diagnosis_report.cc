@@ -76,7 +76,7 @@ namespace SlipStep
           "\n" +
           wrapped_text("the formula of " + one.effect +
                        " lacks a factor (x is " + one.covariate +
-                       "), which gains " + fixed_text(one.gain, 1) + ":") +
+                       "), with a gain of " + fixed_text(one.gain, 1) + ":") +
           wrapped_text(one.formula, 4);
       return text;
     }
@@ -275,7 +275,8 @@ namespace SlipStep
                              "big") +
                    (diagnosis.withdrawn.empty() ?
                       "" :
-                      paragraph("Taken back, since too much remained: " +
+                      paragraph("Withdrawn, since too much remained "
+                                "unexplained: " +
                                 list_text(diagnosis.withdrawn) + "."));
           case Verdict::no_gap:
             return paragraph("Nothing, as far as these tests can tell", "big") +
@@ -317,7 +318,7 @@ namespace SlipStep
                 bars(shrink.left_out_before, shrink.left_out_after);
       html += note(
         "Dashed: " +
-        std::string(shrink.is_noise_overrated() ? "what was taken for noise, " :
+        std::string(shrink.is_noise_overrated() ? "the assumed noise, " :
                                                   "noise alone, ") +
         percent_text(shrink.noise_floor) +
         (is_after ?
@@ -355,7 +356,7 @@ namespace SlipStep
       std::string html =
         heading("The next test") + paragraph(next.words, "big");
       if (!next.programme.empty())
-        html += "<p>As a case has it: <code>" + html_text(next.programme) +
+        html += "<p>As written in a case: <code>" + html_text(next.programme) +
                 "</code></p>\n";
       std::string text;
       if (!next.separates.empty())
@@ -363,11 +364,11 @@ namespace SlipStep
           (next.separates.size() > 1 ? "It separates " : "It would show ") +
           list_text(next.separates);
       if (!text.empty() && next.distance > 0.)
-        text += ": what they predict differs by " +
-                short_text(next.distance, 2) + " standard deviations" +
+        text += ": the predictions differ by " + short_text(next.distance, 2) +
+                " standard deviations" +
                 (next.tells() ? "" :
-                                ", so that it is the best of the usual tests, "
-                                "and tells little");
+                                "; it is the best of the usual tests, but "
+                                "tells little");
       return html + (text.empty() ? "" : paragraph(text + "."));
     }
 
@@ -378,12 +379,12 @@ namespace SlipStep
         return "";
       return heading("A correction, cause unknown") +
              paragraph("A smooth factor on friction that depends on " +
-                       diagnosis.correction->covariate + " takes away " +
+                       diagnosis.correction->covariate + " removes " +
                        fixed_text(100. * diagnosis.correction->share, 0) +
                        " % of the difference beyond the noise. It describes "
-                       "the difference and does not explain it; outside of the "
-                       "range that was tested it keeps the value of the "
-                       "border.") +
+                       "the difference and does not explain it; outside the "
+                       "tested range it keeps the value at the edge of the "
+                       "range.") +
              "<p><code>" + html_text(diagnosis.correction->formula) +
              "</code></p>\n";
     }
@@ -440,7 +441,8 @@ namespace SlipStep
         {"chance of a false alarm accepted", percent_text(diagnosis.level)},
         {"chance of this gap by noise alone", chance(diagnosis.gap.p)},
         {"… as a smooth difference", chance(diagnosis.gap.p_smooth)},
-        {"… as what replicates share", chance(diagnosis.gap.p_replicates)},
+        {"… as a difference that replicates share",
+         chance(diagnosis.gap.p_replicates)},
         {"… as smooth difference and waves at once",
          chance(diagnosis.gap.p_together)},
         {"… as waves along the track", chance(diagnosis.gap.p_track)},
@@ -454,9 +456,9 @@ namespace SlipStep
       std::string html =
         "<div class='honest'>\n" + heading("How far this can be trusted");
       if (diagnosis.n_replicate_pairs == 0)
-        html += paragraph("No two tests share a condition: how large the "
-                          "noise is has been stated, not measured. Repeat a "
-                          "test or two before you believe the verdict.",
+        html += paragraph("No two tests share a condition: the size of the "
+                          "noise is stated, not measured. Repeat a test or "
+                          "two before you believe the verdict.",
                           "problem");
       html +=
         bullets("What would overturn this verdict", diagnosis.would_overturn) +

@@ -103,8 +103,8 @@ namespace SlipStep
         }
       return std::string(
                has_change ?
-                 " Change of pressure or speed: the logarithm of what it is "
-                 "over what it was some slip before." :
+                 " Change of pressure or speed: the logarithm of its value "
+                 "over its value some slip before." :
                  "") +
              (has_unloading ? " Unloading: how far the pressure has fallen "
                               "below the largest so far, as a share." :
@@ -189,10 +189,10 @@ namespace SlipStep
         any_of(diagnosis.element_checks, [&](const ElementCheck &check) {
           return check.difference > diagnosis.shrink.noise_floor;
         });
-      return is_far ? " Here they differ by more than the noise: the block "
-                      "bends, and friction at its foot tilts it, so that its "
-                      "pressure is uneven; the parameters were fitted without "
-                      "that." :
+      return is_far ? " Here block and contact point differ by more than the "
+                      "noise: the block bends, and friction at its foot tilts "
+                      "it, so that its pressure is uneven; the parameters "
+                      "were fitted without this effect." :
                       "";
     }
 
@@ -242,10 +242,10 @@ namespace SlipStep
              places_table(diagnosis.where) +
              note(
                std::string(
-                 "Explains alone: how much of the difference beyond the noise a "
-                 "smooth correction along this quantity would take away; the "
-                 "shares overlap. The range, if there is one, is where it is felt "
-                 "most.") +
+                 "Explains alone: how much of the difference beyond the noise "
+                 "a smooth correction along this quantity would remove; the "
+                 "shares overlap. The range, if there is one, is where the "
+                 "difference shows most.") +
                history_words(diagnosis));
     }
 
@@ -258,12 +258,12 @@ namespace SlipStep
                      (diagnosis.effects.size() > 1 ? "do" : "does") +
                      " not explain") +
              (diagnosis.remains.empty() ?
-                paragraph("More than noise is left, but along no quantity that "
-                          "is known of the tests.") :
+                paragraph("More than noise is left, but it depends on no "
+                          "quantity that is known for the tests.") :
                 places_table(diagnosis.remains) +
-                  note("The same as above for what is left with the effects "
-                       "added: a formula that is not quite right, or something "
-                       "weaker that is missing, too."));
+                  note("As above, for the difference that is left with the "
+                       "effects added: a formula is not quite right, or "
+                       "something weaker is missing as well."));
     }
 
     std::string all_candidates(const Diagnosis &diagnosis)
@@ -282,11 +282,11 @@ namespace SlipStep
       return html + "</tbody></table></div>\n" +
              note(
                "p: chance that noise alone would make any of these effects "
-               "look as needed as this one. Gain: what adding it alone takes "
-               "off the objective (squares of difference over noise); left "
-               "out: the same on conditions that were not fitted; – where it "
-               "was not worth a fit. Smallest detectable: the change of "
-               "friction that would have been seen.");
+               "look as needed as this one. Gain: by how much adding it alone "
+               "lowers the objective (sum of squares of difference over "
+               "noise); left out: the same on conditions that were not "
+               "fitted; – where it was not worth a fit. Smallest detectable: "
+               "the smallest change of friction that would have been seen.");
     }
 
     std::string steps_section(const Diagnosis &diagnosis)
@@ -320,8 +320,9 @@ namespace SlipStep
         bars.back().colour = Colour::after;
       return html + gap_bars(bars, noise, 1.02 * largest) +
              note("Root mean square of measured minus simulated, in % of "
-                  "friction. Grey: what the step took away." +
-                  std::string(is_cut ? " A bar with » goes on." : ""));
+                  "friction. Grey: the part that the step removed." +
+                  std::string(is_cut ? " A bar with » is longer than drawn." :
+                                       ""));
     }
 
     std::string diagnosed_parameters(const Diagnosis &diagnosis)
@@ -355,11 +356,11 @@ namespace SlipStep
       const std::string table = element_table(diagnosis.element_checks);
       return html + table +
              (table.empty() ? "" :
-                              note("Root mean square of the difference to what "
-                                   "was measured, in % of friction; the last "
-                                   "column is the difference of block and "
-                                   "contact point. The search runs on the "
-                                   "contact point; this is the proof on the "
+                              note("Root mean square of the difference from "
+                                   "the measurement, in % of friction; the "
+                                   "last column is the difference of block "
+                                   "and contact point. The search uses the "
+                                   "contact point; this is the check on the "
                                    "block." +
                                    block_words(diagnosis)));
     }

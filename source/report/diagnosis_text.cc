@@ -64,8 +64,8 @@ namespace SlipStep
       const std::string after  = percent_text(shrink.fitted_after);
       std::string       text =
         (shrink.grows() ?
-           "the tests are met better by the weights of the noise, though the "
-           "plain gap grows from " +
+           "the fit weighted by the noise improves, though the plain gap "
+           "grows from " +
              before + " to " + after :
          before == after ? "the gap to the measurements stays " + before :
                            "the gap to the measurements falls from " + before +
@@ -77,7 +77,7 @@ namespace SlipStep
         (shrink.systematic_before > 0. ?
            "; beyond it " + percent_text(shrink.systematic_before) + " → " +
              percent_text(shrink.systematic_after) :
-           ", so that its pattern tells of it, not its size") +
+           ", so that the gap shows by its pattern, not by its size") +
         ")";
       if (shrink.left_out_before > 0.)
         text += std::string(!shrink.grows() &&
@@ -101,7 +101,7 @@ namespace SlipStep
                                percent_text(shrink.fitted_before) +
                                " of friction, ";
       return shrink.noise_floor < shrink.fitted_before ?
-               text + "of which noise alone makes " +
+               text + "of which noise alone accounts for " +
                  percent_text(shrink.noise_floor) :
                text + "no more than noise would (" +
                  percent_text(shrink.noise_floor) + ")" +
@@ -135,9 +135,10 @@ namespace SlipStep
       if (next.tells())
         text += "; " + next.words + " would tell";
       else if (!next.words.empty())
-        text += "; none of the usual tests would tell surely, and " +
-                next.words + " best, by " + short_text(next.distance, 2) +
-                " standard deviations";
+        text += "; none of the usual tests would decide it reliably, and the "
+                "best of them, " +
+                next.words + ", separates the predictions by " +
+                short_text(next.distance, 2) + " standard deviations";
       else
         text += "; none of the usual tests would tell";
       return text;
@@ -175,7 +176,7 @@ namespace SlipStep
                "" :
                "; " + list_text(names) +
                  (names.size() > 1 ? " come" : " comes") +
-                 " nearest, too unsure for a name (p = " +
+                 " nearest, but not surely enough to be named (p = " +
                  short_text(least, 2) + (names.size() > 1 ? " at best)" : ")");
     }
 
@@ -194,12 +195,12 @@ namespace SlipStep
         return std::to_string(n) + (n == 1 ? " effect" : " effects");
       };
       return (n_undecided > 0 ?
-                "; " + effects(n_undecided) + " may be it, and " +
+                "; " + effects(n_undecided) + " may be what is missing, but " +
                   (n_undecided == 1 ? "was" : "were") + " not judged" :
                 "") +
              (n_untried > 0 ?
                 "; " + effects(n_untried) +
-                  (n_untried == 1 ? " was" : " were") + " not looked at" :
+                  (n_untried == 1 ? " was" : " were") + " not examined" :
                 "");
     }
 
@@ -213,8 +214,9 @@ namespace SlipStep
       if (!diagnosis.where.empty())
         text += ", most " + place_words(diagnosis.where[0]);
       if (diagnosis.correction.has_value())
-        text += "; a correction by " + diagnosis.correction->covariate +
-                ", cause unknown, brings it to " +
+        text += "; a correction that depends on " +
+                diagnosis.correction->covariate +
+                ", cause unknown, reduces the difference to " +
                 percent_text(diagnosis.shrink.fitted_after);
       return text + (diagnosis.is_cut_short ? open_words(diagnosis) :
                                               unsure_words(diagnosis));
@@ -255,9 +257,10 @@ namespace SlipStep
                "" :
                "; the formula of " + list_text(effects) +
                  (effects.size() > 1 ? " are" : " is") +
-                 " not quite right: a factor of " +
+                 " not quite right: a factor that depends on " +
                  diagnosis.completed[0].covariate +
-                 " completes it, and its parameters hold with that factor only";
+                 " completes it, and its parameters are valid with that "
+                 "factor only";
     }
 
     /// "; without 't11', which has no replicate, ..."
@@ -275,7 +278,7 @@ namespace SlipStep
                "" :
                "; without " + list_text(tests, "or") + ", which " +
                  (tests.size() > 1 ? "have" : "has") +
-                 " no replicate, the other tests would not ask for " +
+                 " no replicate, the other tests would not require " +
                  list_text(names, "or");
     }
 
@@ -287,11 +290,11 @@ namespace SlipStep
       const Shrink     &shrink = diagnosis.shrink;
       const std::string little =
         diagnosis.shrink.grows() ?
-          "; what whole tests differ by, a gain or a zero, hides it: "
-          "repetitions would make it surer" :
+          "; differences between whole tests, of gain or zero, mask the "
+          "improvement: repetitions would make it more certain" :
         is_worth_little(diagnosis) ?
-          "; hardly any of what is beyond the noise is explained, so that the "
-          "verdict is worth little" :
+          "; hardly any of the difference beyond the noise is explained, so "
+          "that the verdict is worth little" :
           "";
       if (!diagnosis.is_incomplete)
         return little;
@@ -304,7 +307,7 @@ namespace SlipStep
       if (diagnosis.remains.empty())
         return text;
       const Localisation &where = diagnosis.remains[0];
-      text += ": the rest is felt most " + place_words(where);
+      text += ": the rest shows most " + place_words(where);
       if (!where.tests.empty())
         text += " in " + list_text(where.tests);
       return text;
@@ -356,7 +359,7 @@ namespace SlipStep
                 " not behave like the other tests";
       if (!rows.empty())
         text += "; a few numbers of " + list_text(rows) +
-                " that nothing explains count for less: look whether they "
+                " that nothing explains have less weight: check whether they "
                 "are right";
       return text;
     }
@@ -425,14 +428,15 @@ namespace SlipStep
     if (is_doubted)
       text += capitalised(look_alike_words(*diagnosis.look_alike)) +
               (diagnosis.look_alike->kind == LookAlike::Kind::held_parameter ?
-                 " explains these tests as well: let it be fitted "
-                 "(Calibration/Parameters) if it is not known. If not, " :
-                 ", explains these tests as well: take it off if it is one "
-                 "(Correction/Zero of an import). If not, ");
+                 " explains these tests as well: fit this parameter "
+                 "(Calibration/Parameters) if its value is not known. "
+                 "Otherwise, " :
+                 ", explains these tests as well: remove it if it is one "
+                 "(Correction/Zero of an import). If it is not, ");
     // How surely noise is stated is a part of what is believed of it.
     if (is_stated)
       text += (!diagnosis.has_gap && !is_doubted ?
-                 "By what is stated of noise" :
+                 "Judged by the stated noise" :
                  std::string(is_doubted ? "and if" : "If") +
                    " the stated noise is right") +
               " (there are no replicates), ";
@@ -477,7 +481,7 @@ namespace SlipStep
                            "or a parameter that the case holds" :
                            "or a zero of the sensor") +
              (is_stated ? ", if the stated noise is right" : "");
-    return is_stated && !diagnosis.has_gap ? "by what is stated of noise" :
+    return is_stated && !diagnosis.has_gap ? "judged by the stated noise" :
            is_stated                       ? "if the stated noise is right" :
            diagnosis.n_conditions == 1 && diagnosis.has_gap ?
                        "under the one condition tested" :
@@ -614,8 +618,8 @@ namespace SlipStep
   std::string interval_reservation(const Diagnosis &diagnosis)
   {
     return diagnosis.is_incomplete ?
-             "The intervals are those of noise alone: what remains unexplained "
-             "may move the values by more." :
+             "The intervals account for noise alone: the unexplained "
+             "remainder may shift the values by more." :
              "";
   }
 

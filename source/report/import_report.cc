@@ -155,9 +155,9 @@ namespace SlipStep
       }
     page.write("Import of " + proposal.file.filename().string(),
                proposal.is_complete() ?
-                 "Every line of the map was guessed: look whether the pictures "
-                 "are what you measured." :
-                 "The map is incomplete: what is open, only you can say.",
+                 "Every line of the map was guessed: check that the pictures "
+                 "show what you measured." :
+                 "The map is incomplete: only you can fill in the open lines.",
                (problem.empty() ? "" : paragraph(problem, "problem")) +
                  problem_boxes(page.warnings) + gallery_section(gallery) +
                  columns_section(proposal) + guesses_section(proposal, map));

@@ -257,12 +257,13 @@ namespace SlipStep
         figure.script() << "set xzeroaxis lc rgb '#444444' lw 1 dt solid\n";
       std::string caption;
       if (any_of(runs, changes_direction))
-        caption = "Both along the direction of the first slide. ";
+        caption = "Friction and displacement are those along the direction of "
+                  "the first slide. ";
       if (!marked_speeds(figures).empty())
-        caption += "Strokes at the right end: kinetic level after " +
+        caption += "Short lines at the right end: kinetic level after " +
                    reference.name +
-                   ", in the colour of the run at that speed, grey where there "
-                   "is none or several.";
+                   ", in the colour of the run at that speed, grey where no "
+                   "run or several runs have that speed.";
       figures.add(figure, title, caption);
     }
 

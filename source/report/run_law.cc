@@ -202,9 +202,11 @@ namespace SlipStep
                                                          "") +
            "<figure class='stack' data-runs=\"" + names + "\">\n" + svg +
            "<figcaption>Means over the contact. r: load over strength, above 1 "
-           "by overstress; r_s: what it may be at rest; μ: the coefficient." +
-           (constants.empty() ? "" :
-                                " All along: " + html_text(constants) + ".") +
+           "by overstress; r_s: the limit of r at rest; μ: the coefficient of "
+           "friction." +
+           (constants.empty() ?
+              "" :
+              " Constant throughout: " + html_text(constants) + ".") +
            "</figcaption></figure>\n";
   }
 

@@ -143,8 +143,8 @@ namespace SlipStep
       const auto        place = text.find(over);
       if (place == std::string::npos)
         throw InputError("\"" + text +
-                         "\": expected is what over what, e.g. \"peak over "
-                         "rest\"");
+                         "\": expected is one quantity over another, e.g. "
+                         "\"peak over rest\"");
       const std::string y = dealii::Utilities::trim(text.substr(0, place));
       const std::string x =
         dealii::Utilities::trim(text.substr(place + over.size()));
@@ -154,15 +154,16 @@ namespace SlipStep
           throw InputError("\"" + name + "\" is not known; allowed are: " +
                            picture_quantity_names());
       if (y == x)
-        throw InputError("\"" + text + "\": that is a straight line");
+        throw InputError("\"" + text +
+                         "\": a quantity over itself is a straight line");
       for (const PictureQuantity &one : all)
         for (const PictureQuantity &other : all)
           if (one.name == y && other.name == x &&
               one.value.index() == other.value.index())
             return {text, one, other};
       throw InputError("\"" + text +
-                       "\": one is of whole slides, the other of "
-                       "single instants or of speeds");
+                       "\": one quantity belongs to whole slides, the other to "
+                       "single instants or to speeds");
     }
 
     std::vector<RequestedPicture>
@@ -370,10 +371,9 @@ namespace SlipStep
         {
           figures.page.warnings.push_back(
             "no picture '" + requested.text +
-            "': no slide or step has both of them" +
+            "': no slide or step has both quantities" +
             (requested.text.find("stiffness") != std::string::npos ?
-               " (stiffness and critical stiffness are those of slipstep "
-               "point)" :
+               " (only slipstep point gives stiffness and critical stiffness)" :
                ""));
           return;
         }

@@ -44,12 +44,12 @@ namespace SlipStep
       "Report/Pictures",
       "",
       Anything(),
-      "Further pictures of the report, each as what over what and separated by "
-      "commas, e.g. peak over rest, force over time. Known are: " +
+      "Further pictures of the report, each as one quantity over another and "
+      "separated by commas, e.g. peak over rest, force over time. Known are: " +
         picture_quantity_names() +
-        ". A value is of a slide or of an instant, and only the like go "
-        "together; over direction the picture is polar. What spans decades "
-        "has a logarithmic axis.");
+        ". A value belongs to a slide or to an instant, and only values of the "
+        "same kind can be combined; over direction the picture is polar. "
+        "Values that span decades have a logarithmic axis.");
     parameters.declare(
       "Report/Measured",
       "",
@@ -443,7 +443,7 @@ namespace SlipStep
           if (run.summary.status == "failed")
             html += paragraph("Run " + run_name(run) +
                                 " failed: " + run.summary.reason +
-                                ". What follows shows it up to there.",
+                                ". The results below end there.",
                               "problem");
           for (const std::string &warning : run.summary.warnings)
             html +=
@@ -507,7 +507,7 @@ namespace SlipStep
                             stability_lines(runs),
                             "Below the critical stiffness k of the machine a "
                             "small disturbance of steady sliding grows, "
-                            "swinging with the frequency given.");
+                            "oscillating at the frequency given.");
       if (!runs.empty())
         {
           html << heading("Energy") << html_table(energy_lines(runs))

@@ -642,8 +642,8 @@ namespace SlipStep
                   "has slipped " :
       is_moved  ? "The programme has no straight slide; in the end the contact "
                   "has slipped " :
-                  "No drive moves it, only what acts on its faces; in the end "
-                  "the contact has slipped ";
+                  "The programme moves no drive; under the loads on the faces "
+                  "the contact has slipped by ";
     if (slip(least) == slip(most))
       return text + slip(most) + ".";
     return text + slip(least) + " (" + least.label + ") to " + slip(most) +

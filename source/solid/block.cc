@@ -296,7 +296,8 @@ namespace SlipStep
         const ContactTotals totals = contact.totals(communicator);
         if (totals.slip_area > 0.99 * totals.area)
           {
-            newton.failure = "the block would slip faster than waves go";
+            newton.failure = "the block would slip faster than its waves "
+                             "travel";
             return false;
           }
       }

@@ -50,7 +50,7 @@ namespace SlipStep
       throw RunError(
         "At t = " + rounded_text(control.time(), 6) +
         " s the block is worn through: " + rounded_text(worn_depth, 3) +
-        " mm are gone, on average over the load (effect wear)");
+        " mm are worn away, as a load-weighted mean (effect wear)");
 
     check_small_strains();
   }
@@ -119,13 +119,14 @@ namespace SlipStep
         newton.failure.find("'set Solver = automatic'") == std::string::npos)
       {
         const std::string sinks = warning_of_penetration();
-        return "not even the beginning of the loads is in equilibrium: " +
-               (sinks.empty() ? "they lift the block or tip it over" : sinks) +
-               ", or, if they do hold it on the plane, more Block/Newton "
-               "iterations than " +
+        return "no equilibrium is found even at the beginning of the loads: " +
+               (sinks.empty() ? "the loads lift the block or tip it over" :
+                                sinks) +
+               "; if the loads do hold the block on the plane, more "
+               "Block/Newton iterations than " +
                std::to_string(parameters.newton_iterations) +
-               " or, where round-off is in the way, a larger Block/Newton "
-               "tolerance may help" +
+               " or, where round-off prevents convergence, a larger "
+               "Block/Newton tolerance may help" +
                failure + remedy_of_proportional_loads();
       }
     if (drive.is_unknown() && drive.mass() == 0. && !inertia.exists())
@@ -148,9 +149,10 @@ namespace SlipStep
     };
     return parameters.only_friction_holds_loads() && has("subloading") &&
                !has("overstress") && !has("perzyna") ?
-             "; it needs some slip for any load along the plane, which begins "
-             "with the pressure: press it before, or give effect subloading an "
-             "'Elastic range', or effect overstress beside it" :
+             "; with effect subloading any load along the plane needs some "
+             "slip, and this load begins together with the pressure: press "
+             "before it, give effect subloading an 'Elastic range', or add "
+             "effect overstress" :
              "";
   }
 
@@ -175,8 +177,8 @@ namespace SlipStep
     if (inertia.exists() || now.end.velocity.norm() == 0.)
       return "";
     return "; where friction falls with slip or speed a block this soft may "
-           "jump, which a Block/Density lets it do, or viscous friction "
-           "(effect viscous) slow down";
+           "jump: a Block/Density turns the jump into a motion, and viscous "
+           "friction (effect viscous) slows it down";
   }
 
 
@@ -239,12 +241,13 @@ namespace SlipStep
       if (std::abs(strength_error) <= noticed)
         return "";
       return std::string(
-               "the contact points see the map Contact/Strength too ") +
+               "the strength at the contact points (map Contact/Strength) is "
+               "too ") +
              (strength_error > 0. ? "high" : "low") + ", by " +
              short_text(100. * std::abs(strength_error), 2) +
-             " % on average: they are too far apart for it; more "
+             " % on average: the points are too far apart for the map; more "
              "Block/Subdivisions, with borders of cells where the map jumps, "
-             "tell it better";
+             "resolve it better";
     }
 
 
@@ -307,19 +310,19 @@ namespace SlipStep
       return "";
     std::string why = "less pressure or friction leaves a gap open again";
     if (!is_curved && inertia.exists())
-      why = "waves lift a block with density, or friction turns it; slower "
-            "statements or a 'Damping time' calm waves";
+      why = "waves lift a block that has a density, or friction tilts it; "
+            "slower statements or a 'Damping time' reduce the waves";
     else if (!is_curved)
       why = std::string(turns_early(parameters, programme) ?
-                          "a block of so few cells along its length turns "
-                          "early, take more Block/Subdivisions; else " :
+                          "a block of so few cells along its length tilts "
+                          "early: use more Block/Subdivisions; otherwise " :
                           "") +
             (is_flat(parameters) ?
                "" :
-               "friction turns a block that is high for its length, or ") +
-            "what holds and pulls its faces lifts it" +
+               "friction tilts a block that is high for its length, or ") +
+            "the supports and loads of its faces lift it" +
             (contact.friction_law().wear_rate() > 0. ?
-               ", or what bore the load has worn away" :
+               ", or the parts that bore the load have worn away" :
                "");
     return "part of the contact face lifted off the plane: at worst " +
            short_text(100. * opening.share, 3) + " % of it " +
@@ -327,10 +330,10 @@ namespace SlipStep
            "was open, at t = " + short_text(opening.time, 6) + " s (" + why +
            ")" +
            (!is_curved && !inertia.exists() && opening.share > 0.6 ?
-              ": where a block stands on its edge, friction is what turns it, "
-              "not what the contact can bear, and is the lower the farther the "
-              "outermost contact points are from the edge: more "
-              "Block/Subdivisions along the motion raise it" :
+              ": where a block stands on its edge, friction is limited by "
+              "tilting, not by the strength of the contact, and is the lower "
+              "the farther the outermost contact points are from the edge: "
+              "more Block/Subdivisions along the motion raise it" :
               "");
   }
 
@@ -348,8 +351,9 @@ namespace SlipStep
            " across the contact of the rounded face: pressure and what depends "
            "on it may be off by tens of per cent; from " +
            rounded_text(few, 1) +
-           " on it is a picture of it: finer Block/Refinement or "
-           "Block/Subdivisions, or section Block/Adaptivity";
+           " cells on the pressure is fairly well resolved: use finer "
+           "Block/Refinement or Block/Subdivisions, or section "
+           "Block/Adaptivity";
   }
 
 
@@ -392,8 +396,8 @@ namespace SlipStep
       return "";
     return rounded_text(worn_depth, 3) + " mm of the block's " +
            rounded_text(height, 3) +
-           " mm are worn away, on average over the load (effect wear), but it "
-           "deforms as if all of it were there";
+           " mm are worn away, as a load-weighted mean (effect wear), but the "
+           "block deforms as if all of it were still there";
   }
 
 
@@ -482,7 +486,7 @@ namespace SlipStep
            " mm into the plane, whose contact has a Friction/Normal stiffness "
            "of " +
            rounded_text(contact.friction_law().normal_stiffness(), 3) +
-           " MPa/mm only: it may tilt, and friction be another";
+           " MPa/mm only: it may tilt, and its friction may differ";
   }
 
 

@@ -494,21 +494,20 @@ namespace SlipStep
       "0 kg/m^3",
       Quantity(Dimension::density, 0., 1., false, true),
       "Density rho of the block, with its unit. With it the block has inertia "
-      "and carries waves, of speeds sqrt(G/rho) in shear and "
-      "sqrt((lambda + 2 G)/rho) in compression; with 0 it is in equilibrium at "
-      "all times. Time steps resolve what they are short enough for; of "
-      "oscillations far quicker than a step nothing is left after it. 0 to "
-      "1 t/mm^3.");
+      "and carries waves, of speeds sqrt(G/rho) in shear and sqrt((lambda + 2 "
+      "G)/rho) in compression; with 0 it is in equilibrium at all times. "
+      "Oscillations are resolved if the time steps are short enough; of those "
+      "far quicker than a step nothing is left after it. 0 to 1 t/mm^3.");
     parameters.declare(
       damping_key,
       "0",
       Quantity(Dimension::time, 0., 1e30),
-      "Damping of a block with a density: its stress is that of the strain "
-      "eps + t deps/dt with this time t (Kelvin and Voigt). An oscillation of "
-      "frequency f then fades as with a damping ratio of pi f t: some tenths "
-      "of the time in which a wave crosses a cell smooth what a mesh cannot "
-      "resolve. 0 or more, in s unless a unit is given. Only with "
-      "Block/Density.");
+      "Damping of a block with a density: its stress is that of the strain eps "
+      "+ t deps/dt with this time t (Kelvin and Voigt). An oscillation of "
+      "frequency f then fades as with a damping ratio of pi f t: a value of "
+      "some tenths of the time in which a wave crosses a cell smooths out what "
+      "a mesh cannot resolve. 0 or more, in s unless a unit is given. Only "
+      "with Block/Density.");
     for (const std::string &name : face_names(3))
       parameters.declare(
         "Block/Faces/" + name,
@@ -531,9 +530,10 @@ namespace SlipStep
           "programme), 'pressure programme', 'pressure 3 x programme', "
           "'pressure 5 MPa', 'traction 1 0 0 MPa', 'displacement x 0 mm', "
           "'flat' (same normal displacement everywhere). Loads and "
-          "displacements of their own grow evenly over the first statement of "
-          "the programme (of 'follow': over its first interval); with 'at "
-          "once' behind them they act from the first step on.");
+          "displacements that do not follow the programme grow linearly over "
+          "the first statement of the programme (of 'follow': over its first "
+          "interval); with 'at once' behind them they act from the first step "
+          "on.");
     parameters.declare(
       "Block/Solver",
       "automatic",

@@ -152,10 +152,10 @@ namespace SlipStep
            times(n_solver_failures[0]) +
            ", where algebraic multigrid took over for the rest of the "
            "statement" +
-           (n_solver_failures[1] > 0 ?
-              ", and that " + times(n_solver_failures[1]) +
-                ", where a factorisation did" :
-              "") +
-           "; that takes longer, the results are as accurate";
+           (n_solver_failures[1] > 0 ? ", and algebraic multigrid failed " +
+                                         times(n_solver_failures[1]) +
+                                         ", where a factorisation took over" :
+                                       "") +
+           "; this takes longer, but the results are as accurate";
   }
 } // namespace SlipStep

@@ -169,7 +169,7 @@ namespace SlipStep
                             pressure);
     return "the contact gives way faster than the machine's spring of " +
            short_text(machine.stiffness(), 6) +
-           " MPa/mm slackens, and would jump; a Loading/Machine mass makes a "
-           "motion of that";
+           " MPa/mm slackens, and would jump; a Loading/Machine mass turns the "
+           "jump into a motion";
   }
 } // namespace SlipStep

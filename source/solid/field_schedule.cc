@@ -71,9 +71,9 @@ namespace SlipStep
       "(never), 'end', 'statements' (at the end of every statement of the "
       "programme), or 'every <length>' of the path of the drive, 'every "
       "<time>', 'every <number> steps', e.g. 'every 1 mm', 'every 0.1 s', "
-      "'every 50 steps'. Steps are not shortened for that: what is due is "
-      "written at the end of the step that gets there. The last step is "
-      "written in any case but 'none'.");
+      "'every 50 steps'. Steps are not shortened for this: fields that fall "
+      "due are written at the end of the step that gets there. The last step "
+      "is always written, except with 'none'.");
   }
 
 

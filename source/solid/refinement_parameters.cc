@@ -67,21 +67,21 @@ namespace SlipStep
       section + "/Goal",
       "energy",
       Selection("energy|contact"),
-      "What the mesh is to be good for, and of what the tolerance is the error: "
-      "'energy' is the stress in the whole block, in the energy norm; 'contact' "
-      "is the traction on the contact face, in the L2 norm, so that a cell "
-      "counts the less the farther it is from the plane: for pressures at edges "
-      "and corners of the face, also in 3-D.");
+      "Quantity for which the mesh is refined and to whose error the tolerance "
+      "applies: 'energy' is the stress in the whole block, in the energy norm; "
+      "'contact' is the traction on the contact face, in the L2 norm, so that "
+      "a cell counts the less the farther it is from the plane: for pressures "
+      "at edges and corners of the face, also in 3-D.");
     parameters.declare(
       section + "/Tolerance",
       "0.01",
       Quantity(Dimension::number, 1e-6, 1.),
       "Error at which the mesh is fine enough, as estimated from jumps of "
       "stress, from the misfit of tractions and from the border between stick "
-      "and slip, in the norm of the goal and relative to it. A "
-      "cell is refined if its part of the error is more than if all had the "
-      "same. Where limits leave more error than that, it is warned of. Between "
-      "1e-6 and 1, no unit.");
+      "and slip, in the norm of the goal and relative to it. A cell is refined "
+      "if its part of the error is larger than if all cells had the same part "
+      "of it. A warning says where limits leave a larger error than the "
+      "tolerance. Between 1e-6 and 1, no unit.");
     parameters.declare(
       section + "/Merging share",
       "0.5",
@@ -92,14 +92,14 @@ namespace SlipStep
     parameters.declare(section + "/Steps between checks",
                        "1",
                        Integer(1, 1000000),
-                       "The mesh is looked at after every so many steps. 1 or "
-                       "more.");
+                       "Number of steps after which the mesh is checked again. "
+                       "1 or more.");
     parameters.declare(
       section + "/Most repeats",
       "3",
       Integer(0, 100),
-      "A step that asks for a finer mesh is repeated on it, at most so many "
-      "times; the mesh follows after the step if this is 0.");
+      "How often, at most, a step that needs a finer mesh is repeated on it; "
+      "with 0 the mesh changes only after the step.");
     parameters.declare(section + "/Most cells",
                        "1000000",
                        Quantity(Dimension::number, 1., 1e15),

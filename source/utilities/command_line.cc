@@ -251,9 +251,9 @@ namespace SlipStep
          "what is hidden: none, one, two, joint, other_formula, third_formula, "
          "outside, ablated, narrow")
         ("seed", po::value<std::string>()->value_name("N"),
-         "of the random numbers, 1 unless given")
+         "seed of the random numbers, 1 unless given")
         ("effect", po::value<std::string>()->value_name("NAME[,NAME]"),
-         "hide this instead of drawing")
+         "hide these effects instead of drawing them at random")
         ("tests", po::value<std::string>()->value_name("N"),
          "number of tests, 20 unless given")
         ("no-replicates", "every test under a condition of its own")
@@ -261,13 +261,14 @@ namespace SlipStep
          "normal, heavy_tails, two_drifts, correlated_rows, drift_in_seconds, "
          "rounded_motion, noisy_sensors, hum")
         ("noise-factor", po::value<std::string>()->value_name("F"),
-         "so many times the usual noise")
+         "noise as a multiple of the usual one")
         ("amplitude", po::value<std::string>()->value_name("A"),
          "change of friction by what is hidden, 0.02 for 2 %, more than 0 (of "
          "compliance, a spring of 0.4/A MPa/mm); drawn unless given")
         ("edition", po::value<std::string>()->value_name("N"),
-         "draw also from effects that came with later editions, and from 2 on "
-         "other tests; 1 unless given, so that a seed hides the same for ever")
+         "draw also from effects that were added in editions up to this one; "
+         "from 2 on the tests differ, too; 1 unless given, so that a seed "
+         "always hides the same")
         ("list", "list the effects that can be hidden")
         ("open", po::value<std::string>()->value_name("FILE"),
          "print a sealed answer")

@@ -271,8 +271,8 @@ namespace SlipStep
       fail(here[other].data(),
            "the header is repeated with '" + std::string(here[other]) +
              "' in place of '" + first[other] +
-             "': the rows below it are of other columns or units. Let them be "
-             "a file of their own");
+             "': the rows below it are of other columns or units. Put them "
+             "into a file of their own");
   }
 
 
@@ -448,7 +448,7 @@ namespace SlipStep
           take_out_marks(cell, mark, plain) &&
           (read_number(plain, value) || read_number_with_comma(plain, value)))
         return std::string("; if '") + mark +
-               "' parts thousands, a map of slipstep import says so: Raw "
+               "' separates thousands, a map of slipstep import says so: Raw "
                "file/Thousands mark";
     if (format.decimal_mark == '\0' && read_number_with_comma(cell, value))
       return "; if it has a decimal comma, a map of slipstep import says so: "

@@ -148,7 +148,7 @@ namespace SlipStep
           why += "; decimals begin with a point";
         else if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN &&
                  variables == std::vector<std::string>{"x"})
-          why += "; what it knows is x, pi and functions";
+          why += "; it knows only x, pi and functions";
         throw InputError(why);
       }
   }

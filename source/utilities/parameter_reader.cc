@@ -45,7 +45,7 @@ namespace SlipStep
           swept.values.find(", ") != std::string::npos)
         throw InputError(
           swept.values_origin + ": Sweep/Values = " + excerpt(swept.values) +
-          ": " + hint + " (commas separate; write a blank behind them)");
+          ": " + hint + " (commas separate values; write a blank after each)");
       const auto values =
         dealii::Utilities::split_string_list(swept.values, separator);
       if (values.empty())
@@ -417,8 +417,8 @@ namespace SlipStep
               throw InputError(
                 place(state.file, own->second) + ": " + swept.path +
                 " is swept by an included file (" + swept.origin +
-                "), so that this value would not act; sweep it here, or end "
-                "that sweep with an empty subsection Variants");
+                "), so that this value would have no effect; sweep it here, or "
+                "end that sweep with an empty subsection Variants");
       }
 
       // The first key changes last.
@@ -432,8 +432,9 @@ namespace SlipStep
             ": Sweep needs both \"set Key = ...\" and \"set Values = ...\"");
         if (sweep.keys.begin()->first != 1)
           throw InputError(sweep.keys.begin()->second.key_origin +
-                           ": Sweep has a further key, but no Key; it takes "
-                           "the place of the whole sweep of an included file");
+                           ": Sweep has a further key, but no Key; this "
+                           "section replaces the whole sweep of an included "
+                           "file");
         for (const auto &[number, swept] : sweep.keys)
           {
             const std::string n =

@@ -17,8 +17,8 @@ namespace SlipStep
     const char *const home = std::getenv("HOME");
     if (name.size() > 1 && name[1] != '/')
       throw InputError(excerpt(name) +
-                       ": of home folders only one's own is known, as ~/; "
-                       "write the whole path, or ./" +
+                       ": only your own home folder is known, as ~/; write the "
+                       "whole path, or ./" +
                        excerpt(name));
     if (home == nullptr || *home == '\0')
       throw InputError(excerpt(name) +

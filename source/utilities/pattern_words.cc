@@ -194,7 +194,7 @@ namespace SlipStep
         text.find_first_not_of("0123456789.,+- \t") != std::string::npos;
       if (hint.empty() || !(has_unit || text.find(", ") != std::string::npos))
         return "";
-      return hint + " (commas separate; write a blank behind them)";
+      return hint + " (commas separate values; write a blank after each)";
     }
   } // namespace
 
@@ -238,7 +238,7 @@ namespace SlipStep
                  (list->get_separator() == "," &&
                       (element.find(';') != std::string::npos ||
                        element.find(" x ") != std::string::npos) ?
-                    " (commas separate)" :
+                    " (commas separate values)" :
                     "");
 
     const std::string allowed = "allowed is " + allowed_in_words(pattern);

@@ -282,7 +282,8 @@ TEST(OutputFolder, OfAnotherCaseIsTold)
   const auto other = process.run({"point", "b/case.prm", "--quiet"});
   EXPECT_EQ(other.exit_code, 0);
   EXPECT_NE(other.err.find("holds results of "), std::string::npos);
-  EXPECT_NE(other.err.find("a/case.prm, which those of this case replace"),
+  EXPECT_NE(other.err.find(
+              "a/case.prm, which the results of this case replace"),
             std::string::npos)
     << other.err;
   // Moved away, it cannot be meant.

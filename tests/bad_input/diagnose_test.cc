@@ -270,7 +270,7 @@ TEST_F(Diagnose, OneTestOnly)
   const auto result = diagnose({"Calibration/Tests=measured/test_04.csv"});
   const auto json   = verdict_of(result);
   expect_no_name(json);
-  EXPECT_EQ(headline(json).find("By what is stated of noise"), 0u)
+  EXPECT_EQ(headline(json).find("Judged by the stated noise"), 0u)
     << headline(json);
   EXPECT_EQ(json["data"]["replicate_pairs"], 0);
   EXPECT_TRUE(
@@ -293,7 +293,7 @@ TEST_F(Diagnose, NothingIsLeftOutOfOneCondition)
   expect_no_name(json);
   EXPECT_EQ(json["data"]["replicate_pairs"], 1);
   EXPECT_TRUE(contains(json["verdict"]["would_overturn"].dump(),
-                       "All tests are of one condition"));
+                       "All tests have one and the same condition"));
   // A model fitted to no test at all predicts nothing.
   EXPECT_FALSE(contains(result.out, "conditions left out of the fit"));
 }
@@ -305,7 +305,7 @@ TEST_F(Diagnose, WithoutReplicates)
   plant({"--tests", "10", "--no-replicates"});
   const auto json = verdict_of(diagnose());
   expect_no_name(json);
-  EXPECT_EQ(headline(json).find("By what is stated of noise"), 0u)
+  EXPECT_EQ(headline(json).find("Judged by the stated noise"), 0u)
     << headline(json);
   for (const auto &component : json["noise"])
     EXPECT_EQ(component["source"], "stated");

@@ -48,8 +48,9 @@ TEST(MeasuredTests, WrongFilesAreRefused)
                       {"a.csv:3:5: ", "pressure is -1 MPa"});
   expect_refused_test(header + row + "1,1,1,-0.1\n",
                       {"a.csv:3:7: ", "sign", "slipstep import"});
-  expect_refused_test("# condition: dry\n# condition: wet\n" + header + row,
-                      {"a.csv", "two things of 'condition'", "dry", "wet"});
+  expect_refused_test(
+    "# condition: dry\n# condition: wet\n" + header + row,
+    {"a.csv", "contradict each other on 'condition'", "dry", "wet"});
   expect_refused_test("# order: third\n" + header + row,
                       {"a.csv: order: third", "number"});
   expect_refused_test(header, {"a.csv", "two rows"});
@@ -196,7 +197,7 @@ TEST(MeasuredTests, RecordsWithoutAMapGetOne)
                  {"words.txt", "no table of numbers"});
   expect_refusal(process.run({"import", "no.txt"}), {"no.txt"});
   expect_refusal(process.run({"import", "raw.csv", "words.txt"}),
-                 {"raw.csv", "is no map"});
+                 {"raw.csv", "is not a map"});
   expect_refusal(process.run({"import", "."}), {"this is a folder"});
 }
 
@@ -229,7 +230,7 @@ TEST(MeasuredTests, WildcardsConvertManyFiles)
   expect_refusal(process.run({"import", "map.prm"}),
                  {"map.prm:8", "{4}", "known: {1}"});
   expect_refusal(process.run({"import", "map.prm", "map.prm"}),
-                 {"map.prm", "no name of this pattern"});
+                 {"map.prm", "does not match this pattern"});
 }
 
 
@@ -252,6 +253,6 @@ TEST(MeasuredTests, AreasOfTestsAndBlockAreCompared)
   const std::string alike = with_size("10 mm, 5 mm, 2 mm");
   EXPECT_EQ(alike.find("mm^2"), std::string::npos) << alike;
   const std::string warning = with_size("20 mm, 5 mm, 2 mm");
-  EXPECT_NE(warning.find("over 50 mm^2"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("divided by 50 mm^2"), std::string::npos) << warning;
   EXPECT_NE(warning.find("face of 100 mm^2"), std::string::npos) << warning;
 }

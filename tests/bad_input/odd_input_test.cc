@@ -116,7 +116,7 @@ TEST(OddInput, AJumpIsNotBlamedOnTheSteps)
   EXPECT_TRUE(contains(result.err, "s the contact jumps by")) << result.err;
   EXPECT_FALSE(contains(result.err, "may help")) << result.err;
   EXPECT_TRUE(
-    contains(result.err, "'largest pressure' has no value of a contact point"));
+    contains(result.err, "'largest pressure' has no value on a contact point"));
 }
 
 
@@ -211,7 +211,8 @@ TEST(OddInput, TheHomeFolderIsKnown)
                        "HOME is not set");
   process.write("other.prm", "include ~other/case.prm\n");
   expect_short_refusal(run({"check", "other.prm"}, home),
-                       "other.prm:1: include ~other/case.prm: of home folders");
+                       "other.prm:1: include ~other/case.prm: only your own "
+                       "home folder");
   EXPECT_FALSE(std::filesystem::exists(process.folder() / "~"));
 }
 
@@ -230,7 +231,7 @@ TEST(OddInput, CellsThatAreNoNumbersAreNamed)
                        "test.csv:3:5: pressure is not finite");
   expect_short_refusal(
     check("0,0,5,nan\n1,1,5,nan\n2,2,5,0.1\n"),
-    "test.csv:2:7: friction has no value, and so it is in 2 of 3 "
+    "test.csv:2:7: friction has no value; a value is missing in 2 of 3 "
     "rows");
   // Old Macintoshes.
   process.write("cr.csv",
@@ -341,12 +342,13 @@ TEST(OddInput, AnEffectThatDoesNothingIsTold)
   EXPECT_EQ(errors(length + "set Friction/memory_length/Form = flow\n"), "");
   for (const auto &[effect, is_idle] :
        {std::pair("viscous", true), std::pair("overstress", false)})
-    EXPECT_EQ(bool(contains(errors(
-                              "set Friction/Effects = " + std::string(effect) +
-                              "\nset Friction/Speed of the coefficients = "
-                              "1 mm/min\n"),
-                            "is not used: only overstress and perzyna")),
-              is_idle);
+    EXPECT_EQ(
+      bool(contains(errors("set Friction/Effects = " + std::string(effect) +
+                           "\nset Friction/Speed of the coefficients = "
+                           "1 mm/min\n"),
+                    "is not used: coefficients are divided by the loading "
+                    "ratio")),
+      is_idle);
 }
 
 
@@ -373,7 +375,7 @@ TEST(OddInput, AStrengthOfTheFaceIsToldWherePointsStandForTheBlock)
     const auto result = process.run(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return contains(result.err,
-                    "Contact/Strength acts on the face of a block only");
+                    "Contact/Strength acts only on the face of a block");
   };
   for (const char *command : {"point", "export", "calibrate"})
     {

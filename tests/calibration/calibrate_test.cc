@@ -170,7 +170,8 @@ TEST_F(Planted, AConditionOfTheLawIsABound)
   EXPECT_TRUE(contains(constraint_sentences(found)[0],
                        "Static coefficient and "
                        "Kinetic coefficient stopped"));
-  EXPECT_TRUE(contains(constraint_sentences(found)[0], "want the other side"));
+  EXPECT_TRUE(
+    contains(constraint_sentences(found)[0], "favour the other side"));
   EXPECT_EQ(found.warnings.front(), constraint_sentences(found)[0]);
   EXPECT_TRUE(found.weak.empty());
   for (const FittedParameter &fitted : found.parameters)

@@ -115,9 +115,9 @@ TEST(CalibrationWarnings, AWrongNoiseThatIsStatedIsTold)
                     right = warnings_with("1e-3"),
                     small = warnings_with("1e-4");
   EXPECT_TRUE(contains(large, "the noise that is stated")) << large;
-  EXPECT_TRUE(contains(large, "that is too much")) << large;
+  EXPECT_TRUE(contains(large, "the stated noise is too large")) << large;
   EXPECT_FALSE(contains(right, "the noise that is stated")) << right;
-  EXPECT_TRUE(contains(small, "which is too little")) << small;
+  EXPECT_TRUE(contains(small, "which is too small")) << small;
 }
 
 
@@ -151,7 +151,8 @@ TEST(CalibrationWarnings, FewRowsDoNotOutweighOthers)
         EXPECT_LT(test.axes[0].noise, 2e-3) << n_rows;
       }
   const auto few = noise_of(4);
-  EXPECT_TRUE(contains(few[0].rows.warnings.back(), "too few to see noise in"));
+  EXPECT_TRUE(contains(few[0].rows.warnings.back(),
+                       "it has too few rows to estimate its noise"));
 }
 
 
@@ -251,7 +252,7 @@ TEST(CalibrationWarnings, TestsWithoutAnOrderAreTold)
   EXPECT_FALSE(contains(words({"1", "9", "4"}), "order"));
   EXPECT_TRUE(contains(words({"1", "", "4"}),
                        "1 of the tests do not say in which order they were "
-                       "made ('# order: 7'), and are taken for "
+                       "made ('# order: 7'), and are given "
                        "Friction/run_order/Test = 20"));
   EXPECT_TRUE(contains(words({"0", "10", "4"}),
                        "2 of the tests were made before Friction/run_order/"
@@ -277,7 +278,7 @@ TEST(CalibrationWarnings, TheLeadInIsTooShort)
         result += warning;
     return result;
   };
-  EXPECT_TRUE(contains(words("1 MPa/mm"), "give by 0.5 mm"))
+  EXPECT_TRUE(contains(words("1 MPa/mm"), "deflect by 0.5 mm"))
     << words("1 MPa/mm");
   EXPECT_TRUE(contains(words("1 MPa/mm"), "a.csv"));
   EXPECT_TRUE(contains(words("1 MPa/mm"), "(and so in 1 more)"));
@@ -327,7 +328,7 @@ TEST(CalibrationWarnings, TwoTestsHaveOneName)
     unsigned int n = 0;
     for (const std::string &warning :
          Campaign(one_coefficient(folder)).warnings())
-      n += contains(warning, "b.csv have one name, 'a'");
+      n += contains(warning, "b.csv have the same name, 'a'");
     return n;
   };
   EXPECT_EQ(n_warnings(), 0u);

@@ -100,7 +100,7 @@ TEST(WeakDirections, WhatNoTestCanTellSpoilsNothingElse)
   for (const char *part :
        {"Friction/Static coefficient and Friction/pressure/Reference pressure "
         "cannot both be found",
-        "no other speed, pressure, path, rest or direction would tell"})
+        "no other speed, pressure, path, rest or direction would help"})
     EXPECT_TRUE(contains(words, part)) << words;
   // They do fit as well.
   const double coefficient = found.weak[0].change[1];

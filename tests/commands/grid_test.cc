@@ -393,7 +393,7 @@ TEST_F(Grid, TellsThatParametersAreUnknown)
            process.folder() / "same",
            fs::copy_options::recursive);
   EXPECT_TRUE(contains(compared({"1", "same", "3"}),
-                       "Nothing between the cases that are known"));
+                       "Nothing among the cases whose parameters are known"));
   fs::remove(process.folder() / "1" / "used_parameters.prm");
   EXPECT_TRUE(contains(compared({"1", "3"}), "Unknown: fewer than two"));
 }
@@ -429,7 +429,7 @@ TEST_F(Grid, TakesThePlaceOfEarlierRunsInItsFolder)
   const auto last = compared();
   EXPECT_FALSE(shows(last.out, "2")) << last.out;
   EXPECT_TRUE(shows(last.out, "3") && shows(last.out, "4")) << last.out;
-  EXPECT_TRUE(contains(last.err, "is not of the last sweep"));
+  EXPECT_TRUE(contains(last.err, "does not belong to the last sweep"));
 }
 
 
@@ -451,7 +451,8 @@ TEST_F(Grid, OfVariantsThatAreEqualIsTold)
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments).err;
   };
-  const std::string begin = "--set gives what the 3 variants of the case";
+  const std::string begin =
+    "--set overrides the keys in which the 3 variants of the case differ";
   const std::string speed = "Loading/Speed=2 mm/min";
   EXPECT_FALSE(contains(point({}), begin));
   EXPECT_FALSE(
@@ -459,6 +460,7 @@ TEST_F(Grid, OfVariantsThatAreEqualIsTold)
   EXPECT_TRUE(contains(point({"--set", speed}), "('slow', 'stiff')"));
   const std::string one = point(
     {"--set", speed, "--set", "Friction/Tangential stiffness=400 MPa/mm"});
-  EXPECT_TRUE(contains(one, "it is one run, without a folder of a variant"));
+  EXPECT_TRUE(
+    contains(one, "the case is now one run, without a variant folder"));
   EXPECT_TRUE(contains(one, "here has 3 runs of another sweep"));
 }

@@ -279,7 +279,7 @@ TEST(Candidates, ContactsOfTheModelMayHaveAnInitialState)
              candidate.formulas[0].effect + "+" +
                candidate.formulas[0].parameters.at(0).path;
   };
-  EXPECT_EQ(found(), "no effect of the model has contacts that remember");
+  EXPECT_EQ(found(), "no effect of the model gives the contacts a memory");
   start.set("Friction/ageing/Growth", "0.1", "test");
   EXPECT_EQ(found(), "+Friction/ageing/First age");
   // One per cent more at first than at the slowest.

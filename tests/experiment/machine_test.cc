@@ -493,7 +493,7 @@ TEST(Machine, tells_of_a_swing_that_steps_lose)
   };
   const auto [lost, warning] = stop("5e-4");
   EXPECT_GT(lost, 0.19);
-  EXPECT_TRUE(contains(warning, "swing at t = 5.38596 s, by 9.4"));
+  EXPECT_TRUE(contains(warning, "oscillate at t = 5.38596 s, by 9.4"));
   const auto [followed, none] = stop("5e-5");
   EXPECT_NEAR(followed, 0.0009, 0.002);
   EXPECT_EQ(none, "");

@@ -316,14 +316,16 @@ TEST(Programme, WarningsOfAFollowedTestArePassedOn)
   // The contact would slide all of the way under a part of the pressure.
   const auto late = warnings_of("follow gap.csv");
   ASSERT_EQ(late.size(), 2u);
-  EXPECT_TRUE(contains(late[1], "comes on over 2 mm; 'press' to it before"));
+  EXPECT_TRUE(contains(late[1],
+                       "is only reached after 2 mm of motion; 'press' to this "
+                       "pressure before"));
   // The same across.
   std::ofstream(folder / "across.csv")
     << "time_s,displacement_mm,displacement_y_mm,pressure_MPa,friction,"
        "friction_y\n0,0,0,5,0,0\n1,0,3,5,0,0.1\n2,0,5,5,0,0.1\n";
   const auto across = warnings_of("follow across.csv");
   ASSERT_EQ(across.size(), 1u);
-  EXPECT_TRUE(contains(across[0], "comes on over 3 mm;"));
+  EXPECT_TRUE(contains(across[0], "is only reached after 3 mm of motion;"));
 }
 
 
@@ -357,7 +359,7 @@ TEST(Programme, ARecordThatBeginsInMidSlideIsTold)
        "0,7,5,0.2\n1,8,5,0.21\n2,9,5,0.2\n";
   const auto at_rest = warnings_of("press 5 MPa in 1 s; follow sliding.csv");
   ASSERT_EQ(at_rest.size(), 1u);
-  EXPECT_TRUE(contains(at_rest[0], "begins under a friction of 0.2, as in"));
+  EXPECT_TRUE(contains(at_rest[0], "begins at a friction of 0.2, as in"));
   EXPECT_TRUE(
     warnings_of("press 5 MPa in 1 s; slide 1 mm/s for 1 mm; follow sliding.csv")
       .empty());

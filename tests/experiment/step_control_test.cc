@@ -55,7 +55,7 @@ TEST(StepControl, EndsARunThatWouldHaveNone)
   EXPECT_TRUE(contains(text,
                        "Statement 2 of the programme takes more than 3000 "
                        "time steps (Time stepping/Most steps per "
-                       "statement), tried"));
+                       "statement), rejected ones included"));
   EXPECT_TRUE(contains(text, "stick-slip"));
 }
 

@@ -85,7 +85,7 @@ TEST(ImportDoubts, AConstantLoadUnderAnotherPressureIsTold)
                        write("loads.csv", "t,x,F,p\n" + pressures));
   };
   EXPECT_TRUE(warns(read("0,0,0,1\n1,1,1,2\n2,2,1,3\n"),
-                    "over a normal load of 10 N throughout"));
+                    "divided by a normal load of 10 N throughout"));
   EXPECT_FALSE(warns(read("0,0,0,1\n1,1,1,1.1\n2,2,1,1\n"), "throughout"));
 }
 
@@ -234,7 +234,7 @@ TEST(ImportDoubts, CopiesHaveThePressureOfTheOriginal)
     });
   };
   EXPECT_TRUE(has(second_warning({test(5., 1e-3), test(5., 1e-3)}),
-                  "its rows are those of"));
+                  "its rows are identical with those of"));
   EXPECT_TRUE(has(second_warning({test(5., 1e-3), test(2., 1e-3)}),
                   "under another pressure: is it a copy?"));
   EXPECT_FALSE(has(second_warning({test(5., 0.), test(2., 0.)}), "copy"));

@@ -509,7 +509,7 @@ TEST(Import, ZeroAndDriftOfASensorAreTakenOff)
   expect_refused(with("Drift", "quadratic"), raw, "allowed: none, linear");
   expect_refused(with("Zero", "mean of strokes"),
                  strokes("c.csv", 1., 0., 1),
-                 "strokes both ways");
+                 "strokes in both directions");
 }
 
 
@@ -600,8 +600,9 @@ TEST(Import, UnitsThatNobodyKnowsAreToldToo)
               {"Constants/Area", "1 mm^2"}}),
       write("raw.csv", "t [s],x [mm],F [lbs],F (left)\n0,0,0,0\n1,1,1,1\n"));
   };
-  EXPECT_TRUE(contains(read("F [lbs] in N").notes.at("units"),
-                       "is taken in N, the file says lbs, no unit known here"));
+  EXPECT_TRUE(
+    contains(read("F [lbs] in N").notes.at("units"),
+             "is taken in N, the file says lbs, which is not a known unit"));
   EXPECT_TRUE(read("F (left) in N").notes.count("units") == 0);
 }
 

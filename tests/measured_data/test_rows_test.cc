@@ -516,7 +516,7 @@ TEST(TestRows, PausesWithoutRowsAreTold)
     });
   };
   expect_warning(paused(1000., 0.), "time goes on by 1000 s within one row");
-  expect_warning(paused(10., 0.), "moves 0.01 mm");
+  expect_warning(paused(10., 0.), "changes by 0.01 mm");
   EXPECT_TRUE(paused(10., 1.).warnings.empty());
   EXPECT_TRUE(paused(1000., -0.01).warnings.empty());
 }

@@ -188,7 +188,8 @@ TEST(TestSet, ACopyIsTold)
   EXPECT_TRUE(tests[0].warnings.empty());
   EXPECT_TRUE(tests[1].warnings.empty());
   ASSERT_EQ(tests[2].warnings.size(), 1u);
-  EXPECT_TRUE(contains(tests[2].warnings[0], "c.csv: its rows are those of"));
+  EXPECT_TRUE(contains(tests[2].warnings[0],
+                       "c.csv: its rows are identical with those of"));
 }
 
 

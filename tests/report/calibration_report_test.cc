@@ -57,7 +57,7 @@ TEST(CalibrationReport, ThePageIsCompleteInItself)
   EXPECT_TRUE(contains(page, "slow &lt;a&gt; &amp; &quot;b&quot;"));
   EXPECT_TRUE(contains(page, "2 of 5 searches ended in the best optimum; 1 "));
   EXPECT_TRUE(contains(page, "slipstep calibrate"));
-  EXPECT_FALSE(contains(page, "belong together"));
+  EXPECT_FALSE(contains(page, "depend on each other"));
   // What matters most comes first.
   EXPECT_LT(page.find("do not determine"), page.find("Static friction"));
   // Nothing is fetched from elsewhere.

@@ -69,7 +69,7 @@ TEST(DiagnosisHeadline, ItTellsANoiseThatWasTooLarge)
                        "(noise alone: less than the 2.02 % that were taken for "
                        "it; "))
     << headline(diagnosis);
-  EXPECT_TRUE(contains(page_of(diagnosis), "Dashed: what was taken for noise"));
+  EXPECT_TRUE(contains(page_of(diagnosis), "Dashed: the assumed noise"));
   diagnosis.shrink.fitted_after = 0.019;
   EXPECT_TRUE(contains(headline(diagnosis), "(noise alone: 2.02 %; "));
 }
@@ -103,7 +103,7 @@ TEST(DiagnosisHeadline, APlainGapThatGrowsDoesNotFall)
   const std::string text         = headline(diagnosis);
   EXPECT_TRUE(contains(text, "the plain gap grows from 1.18 % to 1.25 %"))
     << text;
-  EXPECT_TRUE(contains(text, "a gain or a zero, hides it")) << text;
+  EXPECT_TRUE(contains(text, "of gain or zero, mask the improvement")) << text;
   EXPECT_FALSE(contains(text, "falls")) << text;
   EXPECT_TRUE(contains(page_of(diagnosis), "How the plain gap changed"));
 }
@@ -119,7 +119,8 @@ TEST(DiagnosisHeadline, WhatOnlyLooksLikeAnEffectComesFirst)
               "as well: "),
             0u)
     << headline(diagnosis);
-  EXPECT_TRUE(contains(headline(diagnosis), " If not, overstress is missing"))
+  EXPECT_TRUE(
+    contains(headline(diagnosis), " If it is not, overstress is missing"))
     << headline(diagnosis);
   EXPECT_TRUE(contains(page_of(diagnosis), "or a zero of the sensor"));
 }
@@ -132,9 +133,9 @@ TEST(DiagnosisHeadline, AFormulaAndARestAreTold)
   EXPECT_TRUE(
     contains(headline(diagnosis),
              "; the formula of overstress is not quite right: a "
-             "factor of log10 speed completes it, and its "
-             "parameters hold with that factor only; not all of it is "
-             "explained: the rest is felt most under pressures of 12 "
+             "factor that depends on log10 speed completes it, and its "
+             "parameters are valid with that factor only; not all of it is "
+             "explained: the rest shows most under pressures of 12 "
              "… 20 MPa in high pressure."))
     << headline(diagnosis);
   EXPECT_EQ(short_verdict(diagnosis), "named, incomplete");
@@ -173,7 +174,7 @@ TEST(DiagnosisHeadline, WithoutReplicatesItIsToned)
       diagnosis.n_replicate_pairs = 0;
       EXPECT_EQ(headline(diagnosis).find(diagnosis.has_gap ?
                                            "If the stated noise is right" :
-                                           "By what is stated of noise"),
+                                           "Judged by the stated noise"),
                 0u)
         << headline(diagnosis);
       diagnosis.n_replicate_pairs = 1;
@@ -204,8 +205,8 @@ TEST(DiagnosisHeadline, TellsWhatIsTooUnsureForAName)
       diagnosis.candidates[0].name = "viscous";
       diagnosis.candidates[1].name = "overstress";
       EXPECT_TRUE(contains(headline(diagnosis),
-                           "; viscous and overstress come nearest, too unsure "
-                           "for a name (p = 0.033 at best)"))
+                           "; viscous and overstress come nearest, but not "
+                           "surely enough to be named (p = 0.033 at best)"))
         << headline(diagnosis);
       EXPECT_EQ(contains(headline(diagnosis),
                          "no effect of the catalogue explains surely"),
@@ -265,8 +266,8 @@ TEST(DiagnosisHeadline, WhatWasNotLookedAtExplainsPerhaps)
                                 "cannot tell"})
         EXPECT_FALSE(contains(text, words)) << text;
       EXPECT_TRUE(contains(text,
-                           "; 1 effect may be it, and was not judged; 2 "
-                           "effects were not looked at"))
+                           "; 1 effect may be what is missing, but was not "
+                           "judged; 2 effects were not examined"))
         << text;
       EXPECT_TRUE(contains(first_screen_of(diagnosis),
                            "Not decided, since the search was cut short"));
@@ -304,7 +305,7 @@ TEST(DiagnosisHeadline, ItTellsWhatRestsOnOneTest)
   diagnosis.lone_tests = {{"overstress", "t11"}};
   EXPECT_TRUE(contains(headline(diagnosis),
                        "; without 't11', which has no replicate, the other "
-                       "tests would not ask for overstress."));
+                       "tests would not require overstress."));
 }
 
 
@@ -348,7 +349,7 @@ TEST(DiagnosisReport, ItTellsTheBoundsWhereOneIsMet)
 // Intervals do not know what remains.
 TEST(DiagnosisReport, ItTellsThatIntervalsAreThoseOfNoise)
 {
-  const std::string reservation = "The intervals are those of noise alone";
+  const std::string reservation = "The intervals account for noise alone";
   EXPECT_FALSE(contains(page_of(SyntheticDiagnosis::named()), reservation));
   const Diagnosis diagnosis = SyntheticDiagnosis::incomplete();
   EXPECT_TRUE(contains(page_of(diagnosis), reservation));
@@ -364,7 +365,7 @@ TEST(DiagnosisHeadline, WhatIsSmallerThanNoiseIsSaidToBe)
   diagnosis.shrink.systematic_before = 0.;
   diagnosis.shrink.systematic_after  = 0.;
   has_all(headline(diagnosis),
-          {"so that its pattern tells of it, not its size)",
+          {"so that the gap shows by its pattern, not by its size)",
            "; what remains is no larger than noise, but has a pattern"});
   EXPECT_FALSE(contains(headline(SyntheticDiagnosis::incomplete()),
                         "no larger than noise, but has a pattern"));
@@ -393,7 +394,8 @@ TEST(DiagnosisHeadline, WhatHasNoNameHasItsPlace)
   const std::string text      = headline(diagnosis);
   EXPECT_TRUE(contains(text, "no effect of the catalogue explains"));
   EXPECT_TRUE(contains(text, "most at speeds of 0.5 … 1.7 mm/s"));
-  EXPECT_TRUE(contains(text, "cause unknown, brings it to 2.71 %"));
+  EXPECT_TRUE(
+    contains(text, "cause unknown, reduces the difference to 2.71 %"));
   diagnosis.correction.reset();
   diagnosis.where.clear();
   EXPECT_FALSE(contains(headline(diagnosis), "cause unknown"));
@@ -509,7 +511,7 @@ TEST(DiagnosisReport, TheFirstScreenTellsWhatWasWrongMissingAndGained)
 
   const std::string unnamed = first_screen_of(SyntheticDiagnosis::unnamed());
   EXPECT_TRUE(contains(unnamed, "something unknown is missing"));
-  EXPECT_TRUE(contains(unnamed, "too much remained: overstress"));
+  EXPECT_TRUE(contains(unnamed, "too much remained unexplained: overstress"));
 
   const std::string no_gap = first_screen_of(SyntheticDiagnosis::no_gap());
   EXPECT_TRUE(contains(no_gap, "Nothing, as far as these tests can tell"));
@@ -572,7 +574,7 @@ TEST(DiagnosisReport, WhatThereIsNotIsLeftOut)
   EXPECT_TRUE(contains(unnamed, "max(log(v/0.01), 0)"));
   EXPECT_TRUE(contains(unnamed, "no cells stated"));
   const std::string blind = page_of(SyntheticDiagnosis::not_testable());
-  EXPECT_TRUE(contains(blind, "has been stated, not measured"));
+  EXPECT_TRUE(contains(blind, "the size of the noise is stated, not measured"));
   EXPECT_TRUE(contains(blind, "1 test out of line with the others"));
   EXPECT_TRUE(contains(blind, "fast (outlier)"));
 }

@@ -193,8 +193,8 @@ TEST(Report, WhatIsPushedIsNotSlid)
   move_by(0.);
   const std::string at_rest = told_of({run});
   EXPECT_TRUE(contains(at_rest,
-                       "No drive moves it, only what acts on its faces; in the "
-                       "end the contact has slipped 0.004 mm."));
+                       "The programme moves no drive; under the loads on the "
+                       "faces the contact has slipped by 0.004 mm."));
   const auto shows = [](const std::string &picture) {
     return content(test_folder() / "report.html")
              .find("aria-label=\"" + picture + "\"") != std::string::npos;

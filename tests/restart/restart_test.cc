@@ -519,7 +519,7 @@ TEST(Calibrate, KeepsTheValuesThatAreFound)
   run.wait();
   EXPECT_EQ(run.outcome(), -SIGINT);
   const std::string words = run.out() + run.err();
-  EXPECT_TRUE(contains(words, "from the curvature at the optimum alone"));
+  EXPECT_TRUE(contains(words, "the curvature at the optimum alone is used"));
   EXPECT_TRUE(
     fs::exists(process.folder() / "output/case/calibrate/fitted.prm"));
 }

@@ -338,7 +338,7 @@ TEST(StrengthMap, IsWarnedOfWhereContactPointsMissIt)
   EXPECT_NEAR(coarse.history.back().friction, 0.1, 1e-6);
   ASSERT_FALSE(coarse.summary.warnings.empty());
   EXPECT_NE(coarse.summary.warnings[0].find(
-              "see the map Contact/Strength too high, by 5.3 % on average"),
+              "(map Contact/Strength) is too high, by 5.3 % on average"),
             std::string::npos)
     << coarse.summary.warnings[0];
   const auto fine = result("20, 1");
