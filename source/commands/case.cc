@@ -349,7 +349,7 @@ namespace SlipStep
   {
     constexpr double largest_difference = 0.01;
     // Of the default block nobody thinks.
-    if (!parameters.is_set("Block/Size"))
+    if (tests.empty() || !parameters.is_set("Block/Size"))
       return {};
     const BlockParameters block(parameters, parse_programme(parameters));
     if (block.dimension != 3)

@@ -250,25 +250,6 @@ namespace SlipStep
 
 
 
-    // Without what noise adds between two turns.
-    double path_of_strokes(const std::vector<double> &position)
-    {
-      if (position.empty())
-        return 0.;
-      std::vector<std::size_t> rows =
-        turning_rows(position,
-                     std::max(4. * noise_level(position),
-                              0.005 * range_of(position)));
-      rows.insert(rows.begin(), 0);
-      rows.push_back(position.size() - 1);
-      double path = 0.;
-      for (std::size_t i = 1; i < rows.size(); ++i)
-        path += std::abs(position[rows[i]] - position[rows[i - 1]]);
-      return path;
-    }
-
-
-
     struct OddRows
     {
       const MeasuredTest                                                &test;
@@ -302,9 +283,8 @@ namespace SlipStep
           warn("the pressure is " + rounded_text(pressure, 3) +
                  " MPa: is its unit right, and that of the area?",
                0);
-        const double speed = std::hypot(path_of_strokes(test.displacement),
-                                        path_of_strokes(test.displacement_y)) /
-                             (test.time.back() - test.time.front());
+        const double speed =
+          path_of(test) / (test.time.back() - test.time.front());
         if (speed > fastest || (speed > 0. && speed < slowest))
           warn("it moves at " + rounded_text(speed, 3) +
                  " mm/s: are the units of displacement and time right?",

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace SlipStep
 {
@@ -350,5 +351,38 @@ namespace SlipStep
     return test.friction_y.empty() ?
              along_x :
              std::max(along_x, noise_of_friction(test.friction_y, test));
+  }
+
+
+
+  double jitter_of(const MeasuredTest &test)
+  {
+    return 0.005 *
+           std::max(range_of(test.displacement), range_of(test.displacement_y));
+  }
+
+
+
+  double path_of(const MeasuredTest &test)
+  {
+    const std::vector<double> &x = test.displacement, &y = test.displacement_y;
+    const double               band = jitter_of(test);
+    std::set<std::size_t>      fixed;
+    for (const auto *displacement : {&x, &y})
+      for (const std::size_t row : turning_rows(*displacement, band))
+        fixed.insert(row);
+    fixed.insert(x.size() - 1);
+
+    double      path = 0.;
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < x.size(); ++i)
+      {
+        const double distance = distance_between(test, last, i);
+        if (distance <= 2. * band && fixed.count(i) == 0)
+          continue;
+        path += distance;
+        last = i;
+      }
+    return path;
   }
 } // namespace SlipStep

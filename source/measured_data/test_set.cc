@@ -7,22 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 namespace SlipStep
 {
   namespace
   {
     constexpr double largest_ratio = 1.2;
-
-    // Below which displacements do not tell motion from jitter [mm].
-    double jitter_of(const MeasuredTest &test)
-    {
-      return 0.005 * std::max(range_of(test.displacement),
-                              range_of(test.displacement_y));
-    }
-
-
 
     // From first to last motion [s].
     double duration_of_motion(const MeasuredTest &test)
@@ -44,32 +34,6 @@ namespace SlipStep
     }
 
 
-
-    // Along rows that are farther apart than jitter; turns and ends count in
-    // full.
-    double path_of(const MeasuredTest &test)
-    {
-      const std::vector<double> &x = test.displacement,
-                                &y = test.displacement_y;
-      const double          band   = jitter_of(test);
-      std::set<std::size_t> fixed;
-      for (const auto *displacement : {&x, &y})
-        for (const std::size_t row : turning_rows(*displacement, band))
-          fixed.insert(row);
-      fixed.insert(x.size() - 1);
-
-      double      path = 0.;
-      std::size_t last = 0;
-      for (std::size_t i = 1; i < x.size(); ++i)
-        {
-          const double distance = distance_between(test, last, i);
-          if (distance <= 2. * band && fixed.count(i) == 0)
-            continue;
-          path += distance;
-          last = i;
-        }
-      return path;
-    }
 
     void compare(const MeasuredTest &one,
                  const MeasuredTest &other,

@@ -21,6 +21,13 @@ namespace SlipStep
   std::vector<std::size_t> turning_rows(const std::vector<double> &displacement,
                                         const double               band);
 
+  /// Below which displacements do not tell motion from jitter [mm].
+  double jitter_of(const MeasuredTest &test);
+
+  /// The path of a test [mm], along rows that are farther apart than jitter;
+  /// turns and ends count in full.
+  double path_of(const MeasuredTest &test);
+
   /// Standard deviation of the noise in a series: robust, from its second
   /// differences, and not less than that of rounding to the recorded digits.
   double noise_level(const std::vector<double> &values);
