@@ -27,11 +27,11 @@ namespace SlipStep
   {
     template <typename RateOf>
     inline Rate
-    sum_of_rates(const std::vector<std::unique_ptr<Effect>> &effects,
-                 const RateOf                               &rate_of)
+    sum_of_rates(const std::vector<const CoefficientEffect *> &effects,
+                 const RateOf                                 &rate_of)
     {
       Rate sum;
-      for (const auto &effect : effects)
+      for (const CoefficientEffect *effect : effects)
         {
           const Rate rate = rate_of(*effect);
           sum.value += rate.value;
@@ -79,7 +79,7 @@ namespace SlipStep
 
   Rate FrictionLaw::coefficient_rate_per_slip(const double coefficient) const
   {
-    return sum_of_rates(active, [coefficient](const Effect &effect) {
+    return sum_of_rates(coefficient_effects, [=](const auto &effect) {
       return effect.coefficient_rate_per_slip(coefficient);
     });
   }
@@ -88,7 +88,7 @@ namespace SlipStep
 
   Rate FrictionLaw::coefficient_rate_per_time(const double coefficient) const
   {
-    return sum_of_rates(active, [coefficient](const Effect &effect) {
+    return sum_of_rates(coefficient_effects, [=](const auto &effect) {
       return effect.coefficient_rate_per_time(coefficient);
     });
   }
@@ -100,8 +100,13 @@ namespace SlipStep
   void FrictionLaw::evolve_coefficient(LocalSystem &local) const
   {
     const double start = local.start.coefficient;
-    double       lower = 0., upper = 1e3;
-    double       mu = local.coefficient;
+    if (coefficient_effects.empty())
+      {
+        local.coefficient = start;
+        return;
+      }
+    double lower = 0., upper = 1e3;
+    double mu = local.coefficient;
     for (unsigned int iteration = 0; iteration < 2000; ++iteration)
       {
         const Rate   slip = coefficient_rate_per_slip(mu);
@@ -246,8 +251,13 @@ namespace SlipStep
 
   void FrictionLaw::evaluate(const double traction, LocalSystem &local) const
   {
+    const double slip = (local.reach - traction) / alpha_t;
+    const double expected =
+      local.coefficient + local.d_coefficient * (slip - local.slip);
+    if (expected > 0.)
+      local.coefficient = expected;
     local.traction = traction;
-    local.slip     = (local.reach - traction) / alpha_t;
+    local.slip     = slip;
     evolve_coefficient(local);
     if (has_core())
       return evaluate_with_core(local);

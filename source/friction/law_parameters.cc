@@ -173,6 +173,9 @@ namespace SlipStep
           if (created->remembers_rate())
             rate_memory = created;
           if (const auto *effect =
+                dynamic_cast<const CoefficientEffect *>(created))
+            coefficient_effects.push_back(effect);
+          if (const auto *effect =
                 dynamic_cast<const StrengthEffect *>(created))
             {
               strength_effects.push_back(effect);

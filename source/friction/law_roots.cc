@@ -3,14 +3,20 @@
 
 #include <slipstep/utilities/roots.h>
 
-#include <boost/math/tools/roots.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <limits>
 
 namespace SlipStep
 {
+  namespace
+  {
+    // Of a traction, what a smaller correction may not change.
+    constexpr double round_off = 2. * std::numeric_limits<double>::epsilon();
+  } // namespace
+
+
+
   // @sect3{Which root}
   //
   // A flow rule that remembers a rate drives none below the ratio of that rate.
@@ -54,16 +60,36 @@ namespace SlipStep
       }
     if (depends_on_rate && !slid)
       return leave_sticking(local);
-    // The ratio changes little from step to step; a new contact is on its way
-    // to full slip.
-    double expected = std::max(local.start.loading_ratio, local.start_ratio);
-    if (expected < 1e-3)
-      expected = 1.;
-    solve(0.,
-          local.reach,
-          std::min(expected * local.strength + (local.reach - local.trial_norm),
-                   (1. - 1e-3) * local.reach),
-          local);
+    evaluate(std::min(expected_traction(local), (1. - 1e-3) * local.reach),
+             local);
+    solve(0., local.reach, local);
+  }
+
+
+
+  // After stick(). What drives slip beyond r_s changes little from step to
+  // step; r_s and the strength go on as they begin. A new contact is on its way
+  // to full slip.
+  double FrictionLaw::expected_traction(const LocalSystem &local) const
+  {
+    const ContactState &start = local.start;
+    if (has_core() || std::max(start.loading_ratio, local.start_ratio) < 1e-3)
+      {
+        const double ratio = std::max(start.loading_ratio, local.start_ratio);
+        return (ratio < 1e-3 ? 1. : ratio) * local.strength +
+               (local.reach - local.trial_norm);
+      }
+    const double driving =
+      std::max(start.loading_ratio - start.normal_ratio, 0.);
+    const double slip =
+      std::max(local.reach - (local.start_ratio + driving) * local.strength,
+               0.) /
+      alpha_t;
+    const double ratio =
+      normal_ratio->normal_ratio_after_slip(local.start_ratio, slip).value +
+      driving;
+    const double change = depends_on_rate ? 0. : local.d_strength.d_slip * slip;
+    return ratio * std::max(local.strength + change, local.strength / 2.);
   }
 
 
@@ -94,10 +120,7 @@ namespace SlipStep
     evaluate(local.reach - alpha_t * slip, local);
     if (local.flow.value > 0.)
       return follow_branch(local);
-    // The first step of Newton's method is known already.
-    const double upper = local.traction;
-    const double next  = upper + alpha_t * local.flow.value / local.d_residual;
-    solve(0., upper, next > 0. && next < upper ? next : upper, local);
+    solve(0., local.traction, local);
     return true;
   }
 
@@ -113,10 +136,11 @@ namespace SlipStep
         const double lower = local.reach - alpha_t * slip;
         evaluate(lower, local);
         if (local.flow.value >= 0.)
-          return solve(lower, upper, lower, local);
+          return solve(lower, upper, local);
         upper = lower;
       }
-    solve(0., upper, upper / 2., local);
+    evaluate(upper / 2., local);
+    solve(0., upper, local);
   }
 
 
@@ -132,14 +156,13 @@ namespace SlipStep
         if (!(local.d_residual > 0.) || alpha_t * slip <= 1e-15 * lower)
           return false;
         const double change = local.flow.value / local.d_residual;
-        if (change <= 1e-13 * slip || alpha_t * change <= 1e-16 * lower)
+        if (change <= 1e-13 * slip || alpha_t * change <= round_off * lower)
           return true;
         evaluate(local.reach - alpha_t * std::max(slip - change, slip / 8.),
                  local);
         if (local.flow.value <= 0.)
           {
-            const double upper = local.traction;
-            solve(lower, upper, upper, local);
+            solve(lower, local.traction, local);
             return true;
           }
       }
@@ -151,69 +174,104 @@ namespace SlipStep
   // The slip in the stage is sought by way of the traction that it leaves,
   // |f_t| = |f_trial| - alpha_t * slip: of the two this one keeps its digits
   // when a step is far longer than the elastic slip. The residual is positive
-  // at the lower bound and negative at the upper one.
+  // at the lower bound and negative at the upper one; the local system is the
+  // one of a traction between them.
   void FrictionLaw::solve(const double lower,
                           const double upper,
-                          const double guess,
                           LocalSystem &local) const
   {
+    constexpr double tolerance = 1e-6;
+
     const auto residual = [&](const double traction) {
       evaluate(traction, local);
       return local.flow.value;
     };
-    const unsigned int most_iterations = 50;
-    constexpr double   tolerance       = 1e-6;
-    const auto newton = [&](const double from, const int digits, auto &n) {
-      return boost::math::tools::newton_raphson_iterate(
-        [&](const double traction) {
-          const double value = residual(traction);
-          return std::make_tuple(value, -local.d_residual / alpha_t);
-        },
-        from,
-        lower,
-        upper,
-        digits,
-        n);
-    };
-    try
+    if (approach_root(lower, upper, local))
       {
-        // Digits of the last correction: the next would be its square, unless
-        // there is little slip.
-        boost::uintmax_t iterations = most_iterations;
-        double           traction   = newton(guess, 22, iterations);
-        double           value      = residual(traction);
-        double           correction = alpha_t * value / local.d_residual;
-        if (std::abs(correction) > 1e-11 * (local.reach - traction) &&
-            iterations < most_iterations)
+        const double traction = local.traction, value = local.flow.value;
+        const bool   is_close =
+          local.d_residual > 0. &&
+          std::abs(alpha_t * value / local.d_residual) <= tolerance * traction;
+        if (is_close && std::abs(value) <= tolerance)
+          return;
+        // A strength that rises steeply from rest makes the correction small
+        // far from any root, too.
+        if (is_close &&
+            value *
+                residual((1. + std::copysign(tolerance, value)) * traction) <
+              0.)
           {
-            iterations = most_iterations;
-            traction   = newton(traction, 35, iterations);
-            value      = residual(traction);
-            correction = alpha_t * value / local.d_residual;
-          }
-        if (iterations < most_iterations)
-          {
-            const bool is_close = local.d_residual > 0. &&
-                                  std::abs(correction) <= tolerance * traction;
-            if (is_close && std::abs(value) <= tolerance)
-              return;
-            // A strength that rises steeply from rest makes the correction
-            // small far from any root, too.
-            if (is_close &&
-                value * residual((1. + std::copysign(tolerance, value)) *
-                                 traction) <
-                  0.)
-              {
-                evaluate(traction, local);
-                return;
-              }
+            evaluate(traction, local);
+            return;
           }
       }
-    catch (const boost::math::evaluation_error &)
-      {}
-
     if (!(residual(lower) > 0.) || !(residual(upper) < 0.))
       return;
     evaluate(root_between(residual, lower, upper), local);
+  }
+
+
+
+  // Newton's method with the derivatives of the last two points instead of one:
+  // the traction as a cubic function of the residual. Returns whether the
+  // corrections have become as small as they can.
+  bool FrictionLaw::approach_root(double       lower,
+                                  double       upper,
+                                  LocalSystem &local) const
+  {
+    // A traction, its residual, and the derivative of the former with respect
+    // to the latter.
+    struct Point
+    {
+      double traction, value, slope;
+    };
+    Point  before            = {};
+    double correction_before = std::numeric_limits<double>::infinity();
+    for (unsigned int iteration = 0; iteration < 50; ++iteration)
+      {
+        const Point now = {local.traction,
+                           local.flow.value,
+                           -alpha_t / local.d_residual};
+        if (!std::isfinite(now.value))
+          return false;
+        const double correction = std::abs(now.value * now.slope);
+        // Of slip and traction the smaller one has these digits, if round-off
+        // leaves it as many.
+        const double smaller =
+          std::min(local.reach - now.traction, now.traction);
+        if (correction <= std::max(1e-12 * smaller, round_off * now.traction) ||
+            (correction <= 3e-11 * now.traction &&
+             correction > 0.5 * correction_before))
+          return true;
+
+        (now.value > 0. ? lower : upper) = now.traction;
+        const auto is_inside             = [&](const double traction) {
+          return traction > lower && traction < upper;
+        };
+        double next = now.traction - now.value * now.slope;
+        if (iteration > 0 && std::max(now.slope, before.slope) < 0.)
+          {
+            const double height = now.value - before.value;
+            const double w = now.value / height, v = 1. - w;
+            const double cubic =
+              now.traction +
+              w * (w * ((1. + 2. * v) * (before.traction - now.traction) +
+                        height * v * before.slope) -
+                   height * v * v * now.slope);
+            if (w > -0.5 && w < 1. && is_inside(cubic))
+              next = cubic;
+          }
+        // Beyond the upper bound there is far less slip, or none.
+        if (!is_inside(next))
+          next = now.value > 0. && next >= upper ?
+                   upper - (upper - lower) / 16. :
+                   (lower + upper) / 2.;
+        if (!is_inside(next))
+          return true;
+        before            = now;
+        correction_before = correction;
+        evaluate(next, local);
+      }
+    return false;
   }
 } // namespace SlipStep

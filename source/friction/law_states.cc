@@ -100,12 +100,15 @@ namespace SlipStep
     std::vector<std::string> result;
     for (std::size_t i = 0; i < active.size(); ++i)
       {
-        const auto *effect =
+        const auto *evolution =
+          dynamic_cast<const CoefficientEffect *>(active[i].get());
+        const auto *strength =
           dynamic_cast<const StrengthEffect *>(active[i].get());
-        if (active[i]->coefficient_rate_per_slip(steady.coefficient).value <
-              0. ||
-            (effect != nullptr &&
-             (weakens(*effect, 1e-12) || weakens(*effect, 1e12))))
+        if ((evolution != nullptr &&
+             evolution->coefficient_rate_per_slip(steady.coefficient).value <
+               0.) ||
+            (strength != nullptr &&
+             (weakens(*strength, 1e-12) || weakens(*strength, 1e12))))
           result.push_back(names[i]);
       }
     return result;

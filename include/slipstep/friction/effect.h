@@ -136,7 +136,8 @@ namespace SlipStep
 
   /// An effect of the friction law: a set of hooks, each neutral by default.
   ///
-  /// One that changes the yield level is a StrengthEffect.
+  /// One that lets the coefficient evolve is a CoefficientEffect, one that
+  /// changes the yield level a StrengthEffect.
   ///
   /// An effect lives in one file of friction/effects, which implements the
   /// hooks that it needs, tells all that is known of it (EffectInfo), and ends
@@ -155,18 +156,6 @@ namespace SlipStep
     const std::vector<ContactMemory> &memories() const
     {
       return memories_written;
-    }
-
-    /// Evolution of mu with slip, d mu / d lambda [1/mm].
-    virtual Rate coefficient_rate_per_slip(const double /*coefficient*/) const
-    {
-      return {};
-    }
-
-    /// Evolution of mu with time, d mu / dt [1/s].
-    virtual Rate coefficient_rate_per_time(const double /*coefficient*/) const
-    {
-      return {};
     }
 
     /// Exclusive slot `anisotropy`: the symmetric map from the tractions of an
@@ -267,6 +256,25 @@ namespace SlipStep
 
   private:
     const std::vector<ContactMemory> memories_written;
+  };
+
+  /// An effect that lets the coefficient evolve.
+  class CoefficientEffect : public Effect
+  {
+  public:
+    using Effect::Effect;
+
+    /// Evolution of mu with slip, d mu / d lambda [1/mm].
+    virtual Rate coefficient_rate_per_slip(const double /*coefficient*/) const
+    {
+      return {};
+    }
+
+    /// Evolution of mu with time, d mu / dt [1/s].
+    virtual Rate coefficient_rate_per_time(const double /*coefficient*/) const
+    {
+      return {};
+    }
   };
 
   /// An effect that changes the yield level.

@@ -252,13 +252,13 @@ namespace SlipStep
     void            evaluate_flow(LocalSystem &local) const;
     bool            must_slip(const LocalSystem &local) const;
     void            find_slip(LocalSystem &local) const;
+    double          expected_traction(const LocalSystem &local) const;
     bool            slide_on(LocalSystem &local) const;
     bool            follow_branch(LocalSystem &local) const;
     void            leave_sticking(LocalSystem &local) const;
-    void            solve(const double lower,
-                          const double upper,
-                          const double guess,
-                          LocalSystem &local) const;
+    void
+    solve(const double lower, const double upper, LocalSystem &local) const;
+    bool approach_root(double lower, double upper, LocalSystem &local) const;
     ContactResponse linearise(const LocalSystem &local) const;
 
     // With an elastic core.
@@ -334,9 +334,10 @@ namespace SlipStep
 
     std::array<double, 2> range_of_coefficient;
 
-    std::vector<std::string>             names;
-    std::vector<std::unique_ptr<Effect>> active; ///< in the order of names
-    std::vector<const StrengthEffect *>  strength_effects; ///< of those
+    std::vector<std::string>               names;
+    std::vector<std::unique_ptr<Effect>>   active; ///< in the order of names
+    std::vector<const CoefficientEffect *> coefficient_effects; ///< of those
+    std::vector<const StrengthEffect *>    strength_effects;    ///< of those
 
     /// Owners of the exclusive slots; the neutral effect where there is none.
     const Effect *normal_ratio = &neutral;

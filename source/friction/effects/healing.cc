@@ -11,7 +11,7 @@ namespace SlipStep
     /// The coefficient recovers towards the static one with time. At rest the
     /// closed form is \f$\mu(t) = \mu_s + \frac1b \ln\left[1 - \left(1 -
     /// e^{-b(\mu_s-\mu_0)}\right) e^{-b\xi t}\right]\f$.
-    class Healing : public Effect
+    class Healing : public CoefficientEffect
     {
     public:
       static EffectInfo info()

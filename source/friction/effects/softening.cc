@@ -12,7 +12,7 @@ namespace SlipStep
     /// sliding alone the closed form is \f$\mu(s) = \mu_k - \frac1a \ln\left[1
     /// - \left(1 - e^{-a(\mu_0-\mu_k)}\right) e^{-a\kappa s}\right]\f$: the
     /// length of the transition is 1/(kappa a).
-    class Softening : public Effect
+    class Softening : public CoefficientEffect
     {
     public:
       static EffectInfo info()
