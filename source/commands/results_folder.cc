@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <system_error>
 #include <thread>
 
@@ -104,6 +105,12 @@ namespace SlipStep
                              "surface.csv",
                              "refinement.json"})
       fs::remove(folder / name, error);
+    // Fields of times that the new run may not have.
+    const std::regex numbered(
+      R"((fields|contact|surface)_[0-9]+(\.[0-9]+)?\.(vtu|pvtu|csv))");
+    for (const auto &entry : fs::directory_iterator(folder, error))
+      if (std::regex_match(entry.path().filename().string(), numbered))
+        fs::remove(entry.path(), error);
     CheckpointStore(folder).remove();
   }
 

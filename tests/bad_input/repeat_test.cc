@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -143,6 +144,44 @@ TEST(Repeat, SettingsAreAmongTheUsedParameters)
                "--output",
                "second"});
   expect_same_table(process, "first/fast", "second");
+}
+
+
+
+// The fields of the run before would be taken for those of this one.
+TEST(Repeat, AShorterRunLeavesNoFieldsOfTheOneBefore)
+{
+  const SlipstepProcess process;
+  process.write("case.prm", text);
+  const auto run = [&](const std::string &fields) {
+    const auto result = process.run({"run",
+                                     "case.prm",
+                                     "--quiet",
+                                     "--variant",
+                                     "fast",
+                                     "--output",
+                                     "results",
+                                     "--set",
+                                     "Output/Fields = " + fields});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  };
+  const auto has = [&](const std::string &name) {
+    return std::filesystem::exists(process.folder() / "results/fast" / name);
+  };
+  run("statements");
+  for (const std::string file :
+       {"fields_0002.pvtu", "contact_0002.pvtu", "surface_0002.csv"})
+    EXPECT_TRUE(has(file)) << file;
+  process.write("results/fast/fields_of_mine.csv", "mine");
+  run("end");
+  EXPECT_TRUE(has("fields_0000.pvtu"));
+  for (const std::string file : {"fields_0001.pvtu",
+                                 "fields_0002.pvtu",
+                                 "fields_0002.0.vtu",
+                                 "contact_0002.pvtu",
+                                 "surface_0002.csv"})
+    EXPECT_FALSE(has(file)) << file;
+  EXPECT_TRUE(has("fields_of_mine.csv"));
 }
 
 
