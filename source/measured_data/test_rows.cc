@@ -6,6 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numeric>
 #include <set>
 
 namespace SlipStep
@@ -258,38 +262,68 @@ namespace SlipStep
 
 
 
+  namespace
+  {
+    // The values that a series takes, and whether it stays at each of them or
+    // turns back there instead of only passing by.
+    std::map<double, bool> levels_of(const std::vector<double> &values)
+    {
+      std::vector<std::size_t> order(values.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(),
+                order.end(),
+                [&](const std::size_t a, const std::size_t b) {
+                  return values[a] < values[b];
+                });
+      const double size      = values.empty() ?
+                                 0. :
+                                 std::max(std::abs(values[order.front()]),
+                                     std::abs(values[order.back()]));
+      const auto   are_equal = [&](const double a, const double b) {
+        return std::abs(b - a) <= 1e-9 * size;
+      };
+      std::map<double, bool> result;
+      for (const std::size_t i : order)
+        {
+          if (result.empty() || !are_equal(result.rbegin()->first, values[i]))
+            result[values[i]] = false;
+          if (i > 0 && i + 1 < values.size() &&
+              (are_equal(values[i], values[i - 1]) ||
+               (values[i] - values[i - 1]) * (values[i + 1] - values[i]) < 0.))
+            result.rbegin()->second = true;
+        }
+      return result;
+    }
+  } // namespace
+
+
+
   double coarse_step(const std::vector<double> &values)
   {
     constexpr double      digits = 0.01, least_repeats = 3.;
     constexpr std::size_t least_levels = 4;
 
-    std::vector<double> levels = values;
-    std::sort(levels.begin(), levels.end());
-    const double size = levels.empty() ? 0. :
-                                         std::max(std::abs(levels.front()),
-                                                  std::abs(levels.back()));
-    levels.erase(std::unique(levels.begin(),
-                             levels.end(),
-                             [&](const double a, const double b) {
-                               return b - a <= 1e-9 * size;
-                             }),
-                 levels.end());
+    const std::map<double, bool> levels = levels_of(values);
     if (levels.size() < least_levels ||
         least_repeats * levels.size() > values.size())
       return 0.;
     double step = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < levels.size(); ++i)
-      step = std::min(step, levels[i] - levels[i - 1]);
-    // Scatter visits neighbouring steps; a few constants are no scatter.
-    std::size_t n_next = 0;
-    for (std::size_t i = 1; i < levels.size(); ++i)
+    for (auto i = levels.begin(), next = std::next(i); next != levels.end();
+         i = next++)
+      step = std::min(step, next->first - i->first);
+    // Scatter visits neighbouring steps and stays there; a few constants are no
+    // scatter, nor are the rows of a ramp between them.
+    std::size_t n_next = 0, n_visited = 0;
+    for (auto i = levels.begin(), next = std::next(i); next != levels.end();
+         i = next++)
       {
-        const double n_steps = (levels[i] - levels[i - 1]) / step;
+        const double n_steps = (next->first - i->first) / step;
         if (std::abs(n_steps - std::round(n_steps)) > digits * n_steps)
           return 0.;
         n_next += n_steps < 1.5;
+        n_visited += n_steps < 1.5 && i->second && next->second;
       }
-    return 2 * n_next >= levels.size() - 1 ? step : 0.;
+    return 2 * n_next >= levels.size() - 1 && n_visited > 0 ? step : 0.;
   }
 
 

@@ -188,6 +188,34 @@ TEST(TestRows, FrictionThatDrivesHalfTheTimeIsTold)
 
 
 
+// The rows of an elastic ramp are whole steps apart, too.
+TEST(TestRows, AStepIsThatOfRoundingAndNotOfARamp)
+{
+  std::vector<double> cycles, stairs;
+  double              friction = 0., motion = 0.25;
+  for (int row = 0; row < 80; ++row)
+    {
+      cycles.push_back(friction);
+      if (row % 20 == 19)
+        motion = -motion;
+      friction = std::clamp(friction + motion, -1., 1.);
+      stairs.push_back(0.1 * std::round(0.02 * row / 0.1));
+    }
+  EXPECT_EQ(coarse_step(cycles), 0.);
+  EXPECT_NEAR(coarse_step(stairs), 0.1, 1e-12);
+
+  std::mt19937                     random(4);
+  std::normal_distribution<double> noise(0., 0.04);
+  for (double &value : cycles)
+    value = 0.1 * std::round((value + noise(random)) / 0.1);
+  EXPECT_NEAR(coarse_step(cycles), 0.1, 1e-12);
+  for (double &value : cycles)
+    value += noise(random);
+  EXPECT_EQ(coarse_step(cycles), 0.);
+}
+
+
+
 TEST(TestRows, NoiseIsMeasuredUnderASignal)
 {
   std::mt19937                     random(2);

@@ -33,7 +33,8 @@ namespace SlipStep
   double noise_level(const std::vector<double> &values);
 
   /// The step to which a series was rounded, in its unit, if it takes few
-  /// values, most of them one step apart and all of them whole steps; else, and
+  /// values, most of them one step apart and all of them whole steps, and stays
+  /// at neighbouring ones, as a ramp does not that is passed once; else, and
   /// of fewer than four values, 0.
   double coarse_step(const std::vector<double> &values);
 
