@@ -113,7 +113,7 @@ namespace SlipStep
                    const std::vector<ReportedRun> &runs)
     {
       std::vector<ReportedRun> result;
-      for (const StudySequence &sequence : study.sequences())
+      for (const StudySequence &sequence : study.sequences)
         if (sequence.kind != StudySequence::Kind::time_step)
           for (const StudyRun &run : sequence.runs)
             std::copy_if(runs.begin(),

@@ -122,20 +122,18 @@ namespace SlipStep
         Tensor<2, 2> matrix = share * compliance * elastic;
         matrix[0][0] += 1.;
         matrix[1][1] += 1.;
-        trial               = invert(matrix) * load;
+        trial_by_load       = invert(matrix);
+        trial               = trial_by_load * load;
         response            = stage.update(invert(elastic) * (trial - old));
         const double square = trial.norm_square();
         return square > 0. ? response.traction * trial / square - share : 0.;
       }
 
-      // Its derivative, after excess() of the same share.
-      double slope(const double share) const
+      // Its derivative, after excess().
+      double slope() const
       {
-        Tensor<2, 2> matrix = share * compliance * elastic;
-        matrix[0][0] += 1.;
-        matrix[1][1] += 1.;
         const Tensor<1, 2> d_trial =
-          -compliance * (invert(matrix) * (elastic * trial));
+          -compliance * (trial_by_load * (elastic * trial));
         const Tensor<1, 2> d_traction =
           response.d_slip * (invert(elastic) * d_trial);
         const double square = trial.norm_square();
@@ -157,7 +155,7 @@ namespace SlipStep
             if (std::abs(value) <= 2e-15 * share)
               return true;
             (value > 0. ? lower : upper) = share;
-            const double next            = share - value / slope(share);
+            const double next            = share - value / slope();
             if (std::abs(next - share) <= 1e-15 * share)
               return true;
             share = next;
@@ -196,6 +194,7 @@ namespace SlipStep
       const Tensor<1, 2>  unslipped; ///< trial if the traction stayed
       const Tensor<1, 2>  load;
 
+      Tensor<2, 2>    trial_by_load;
       Tensor<1, 2>    trial;
       ContactResponse response;
     };
@@ -304,6 +303,23 @@ namespace SlipStep
               TwoStages::carried(start.velocity, first.velocity),
               TwoStages::carried(start.load, first.load)};
     }
+
+    // Where friction rises with speed, a contact that lets go is as fast as
+    // that allows, and short steps follow it.
+    bool is_jump(const Machine     &machine,
+                 const FrictionLaw &law,
+                 const MachineStep &step,
+                 const double       shortest_step)
+    {
+      constexpr double sudden = 1e3;
+
+      const double slip = (step.slider.slip - step.start.slip).norm();
+      return !machine.is_rigid() && machine.mass() == 0. &&
+             step.motion.norm() > 0. && slip > sudden * step.motion.norm() &&
+             (!law.is_rate_dependent() ||
+              slip > fastest_slip * step.time_step ||
+              step.time_step <= shortest_step);
+    }
   } // namespace
 
 
@@ -334,7 +350,7 @@ namespace SlipStep
     result.work =
       ((1. - gamma) * result.first.load + gamma * result.slider.load) *
       load_point_increment;
-    result.jumps = jumps(law, result, shortest_step);
+    result.jumps = is_jump(*this, law, result, shortest_step);
     if (!result.jumps)
       return result;
     // What the first of two stages jumps, the second would go on with.
@@ -345,23 +361,6 @@ namespace SlipStep
                           result.slider);
     result.work    = result.slider.load * load_point_increment;
     return result;
-  }
-
-
-
-  // Where friction rises with speed, a contact that lets go is as fast as that
-  // allows, and short steps follow it.
-  bool Machine::jumps(const FrictionLaw &law,
-                      const MachineStep &step,
-                      const double       shortest_step) const
-  {
-    constexpr double sudden = 1e3;
-
-    const double slip = (step.slider.slip - step.start.slip).norm();
-    return !is_rigid() && areal_mass == 0. && step.motion.norm() > 0. &&
-           slip > sudden * step.motion.norm() &&
-           (!law.is_rate_dependent() || slip > fastest_slip * step.time_step ||
-            step.time_step <= shortest_step);
   }
 
 

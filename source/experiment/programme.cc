@@ -45,11 +45,6 @@ namespace SlipStep
 
     const std::vector<std::string> keywords = {"in", "for", "at"};
 
-    bool is_keyword(const std::string &word)
-    {
-      return holds(keywords, lower_case(word));
-    }
-
 
 
     /// A piece of the text of a programme and where it begins.
@@ -291,7 +286,7 @@ namespace SlipStep
         Piece       start   = statement.verb;
         std::string keyword = "";
         for (std::size_t i = 1; i <= all.size(); ++i)
-          if (i == all.size() || is_keyword(all[i].text))
+          if (i == all.size() || holds(keywords, lower_case(all[i].text)))
             {
               const auto end = i == all.size() ? piece.end() : all[i].column;
               statement.parts[keyword] = trim(

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/programme.h>
-#include <slipstep/experiment/sliding_path.h>
 
 #include <deal.II/base/exceptions.h>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/experiment/quantities.h>
 
-#include <slipstep/experiment/sliding_path.h>
 #include <slipstep/utilities/lists.h>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include <slipstep/experiment/quantities.h>
 
-#include <slipstep/experiment/sliding_path.h>
+#include <slipstep/experiment/programme.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/nearest_name.h>

@@ -57,14 +57,7 @@ namespace SlipStep
                      const std::string &key,
                      const std::string &value)
     {
-      try
-        {
-          parameters.check(key, value, "");
-        }
-      catch (const InputError &error)
-        {
-          parameters.reject(study_key, error.what());
-        }
+      parameters.attempt(study_key, [&] { parameters.check(key, value, ""); });
     }
 
     /// A mesh that the run refines until its estimated error is small enough.
@@ -318,16 +311,16 @@ namespace SlipStep
     for (const StudySequence &meshes :
          {uniform_meshes(parameters), adaptive_meshes(parameters)})
       if (!meshes.runs.empty())
-        sequence_list.push_back(meshes);
+        sequences.push_back(meshes);
     const std::string steps_key = section + "Time steps";
     if (!parameters.text(steps_key).empty())
-      sequence_list.push_back(read_time_steps(parameters, steps_key));
-    if (sequence_list.empty())
+      sequences.push_back(read_time_steps(parameters, steps_key));
+    if (sequences.empty())
       parameters.reject(section + "Uniform meshes",
                         "there is nothing to study: no meshes and no time "
                         "steps");
-    mesh_reference_run = mesh_reference_of(parameters, sequence_list);
-    time_reference_run = time_reference_of(parameters, sequence_list);
+    mesh_reference = mesh_reference_of(parameters, sequences);
+    time_reference = time_reference_of(parameters, sequences);
   }
 
 
@@ -341,11 +334,11 @@ namespace SlipStep
           }))
         result.push_back(run);
     };
-    for (const StudySequence &sequence : sequence_list)
+    for (const StudySequence &sequence : sequences)
       for (const StudyRun &run : sequence.runs)
         add(run);
-    add(mesh_reference_run);
-    add(time_reference_run);
+    add(mesh_reference);
+    add(time_reference);
     return result;
   }
 

@@ -160,7 +160,18 @@ namespace SlipStep
     if (!is_writer)
       return;
     history.push_back(row);
-    write(row);
+    writer.write(row);
+    const double      moved = 1e3 * row.displacement; // [µm]
+    const std::string where =
+      std::abs(row.displacement) > 0. && std::abs(row.displacement) < 0.01 ?
+        short_text(moved, 3) + " µm" :
+        short_text(std::round(moved) / 1e3, 3) + " mm";
+    const double share_done = work.share_done(row.time);
+    progress.update(share_done,
+                    "step " + std::to_string(history.size()) + ", " + where +
+                      (note.empty() ? "" : ", ") + note,
+                    work.time_left(row.time, progress.time_spent()));
+
     const std::string pace = has_equal_steps || has_told_pace ?
                                "" :
                                pace_in_words(history, programme.end_time());
@@ -205,23 +216,6 @@ namespace SlipStep
     // At once: a kill leaves all of it or nothing.
     std::cerr << "warning: " + text + '\n' << std::flush;
     warnings.push_back(text);
-  }
-
-
-
-  void RunRecorder::write(const HistoryRow &row)
-  {
-    writer.write(row);
-    const double      moved = 1e3 * row.displacement; // [µm]
-    const std::string where =
-      std::abs(row.displacement) > 0. && std::abs(row.displacement) < 0.01 ?
-        short_text(moved, 3) + " µm" :
-        short_text(std::round(moved) / 1e3, 3) + " mm";
-    const double share_done = work.share_done(row.time);
-    progress.update(share_done,
-                    "step " + std::to_string(history.size()) + ", " + where +
-                      (note.empty() ? "" : ", ") + note,
-                    work.time_left(row.time, progress.time_spent()));
   }
 
 

@@ -63,15 +63,8 @@ namespace SlipStep
   {
     Assert(speed > 0. && pressure > 0.,
            dealii::ExcMessage("Nothing slides here."));
-    find_steady_state();
-  }
-
-
-
-  // Implicit steps may be as long as one likes: the last are longer than
-  // anything that the law remembers.
-  void SteadySliding::find_steady_state()
-  {
+    // Implicit steps may be as long as one likes: the last are longer than
+    // anything that the law remembers.
     const double first_slip =
       pressure * law.static_coefficient() / law.tangential_stiffness();
     std::array<double, n_states> before = components(steady);

@@ -215,7 +215,7 @@ namespace SlipStep
     for (const std::string &quantity : quantities)
       {
         const std::size_t first = curves.size();
-        for (const StudySequence &sequence : study.sequences())
+        for (const StudySequence &sequence : study.sequences)
           curves.push_back(collect(sequence, quantity, summaries));
         const auto curve_of = [&](const StudySequence::Kind kind) {
           for (std::size_t i = first; i < curves.size(); ++i)
@@ -228,7 +228,7 @@ namespace SlipStep
         StudyCurve *steps    = curve_of(StudySequence::Kind::time_step);
 
         NamedReference  mesh;
-        const StudyRun &finer_mesh = study.mesh_reference();
+        const StudyRun &finer_mesh = study.mesh_reference;
         if (finer_mesh.label.empty())
           {
             if (uniform != nullptr)
@@ -253,7 +253,7 @@ namespace SlipStep
         if (adaptive != nullptr)
           compare(mesh, *adaptive);
 
-        const StudyRun &finer_step = study.time_reference();
+        const StudyRun &finer_step = study.time_reference;
         if (steps != nullptr)
           compare(finer_step.label.empty() ?
                     extrapolate(*steps) :

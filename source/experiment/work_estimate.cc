@@ -7,8 +7,6 @@
 namespace SlipStep
 {
   WorkEstimate::WorkEstimate(const Programme &programme)
-    : work_before(0.)
-    , total_work(0.)
   {
     unsigned int last  = 0;
     const auto  &all   = programme.segments();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/measured_data/friction_axes.h>
 #include <slipstep/measured_data/test_rows.h>
+#include <slipstep/utilities/lists.h>
 
 #include <algorithm>
 #include <cmath>
@@ -121,12 +122,7 @@ namespace SlipStep
       const auto size = [&](const std::size_t i) {
         return x[i] * x[i] / xx + y[i] * y[i] / yy;
       };
-      std::sort(rows.begin(),
-                rows.end(),
-                [&](const std::size_t a, const std::size_t b) {
-                  return std::make_pair(size(a), a) <
-                         std::make_pair(size(b), b);
-                });
+      stable_sort(rows, [&](auto a, auto b) { return size(a) < size(b); });
       rows.resize(rows.size() - std::lround(share_left_out * rows.size()));
       Covariance result;
       for (const std::size_t i : rows)

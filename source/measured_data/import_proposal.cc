@@ -87,8 +87,7 @@ namespace SlipStep
               split_name(proposal.layout.names[i], column.name, column.unit);
             if (!table.units()[i].empty())
               column.unit = table.units()[i];
-            const auto &numbers = proposal.layout.numbers;
-            column.has_numbers  = holds(numbers, i);
+            column.has_numbers = holds(proposal.layout.numbers, i);
             if (column.has_numbers)
               positions["column " + std::to_string(i + 1)] = i;
             proposal.columns.push_back(column);
@@ -664,14 +663,11 @@ namespace SlipStep
       {
         for (const std::string key : {"Normal load", "Pressure"})
           if (const SeenColumn *seen = taken_as(key); seen != nullptr)
-            {
-              return "dry, " +
-                     rounded_text(std::abs(median(finite[seen->number - 1])),
-                                  2) +
-                     (seen->unit.empty() || !is_plain(seen->unit) ?
-                        "" :
-                        " " + seen->unit);
-            }
+            return "dry, " +
+                   rounded_text(std::abs(median(finite[seen->number - 1])), 2) +
+                   (seen->unit.empty() || !is_plain(seen->unit) ?
+                      "" :
+                      " " + seen->unit);
         return "dry";
       }
 

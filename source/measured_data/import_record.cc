@@ -227,24 +227,18 @@ namespace SlipStep
           throw InputError(table.name() + ": it has " +
                            counted(time.size(), "row") +
                            ", and a test needs two");
+        const std::string rows = std::to_string(selected.size()) + " of " +
+                                 std::to_string(time.size()) + " rows";
         if (selected.size() < 2)
-          throw InputError(table.name() + ": " +
-                           std::to_string(selected.size()) + " of " +
-                           std::to_string(time.size()) +
-                           " rows are between Selection/Begin and End");
+          throw InputError(table.name() + ": " + rows +
+                           " are between Selection/Begin and End");
         if (selected.size() < time.size())
-          notes["selection"] = std::to_string(selected.size()) + " of " +
-                               std::to_string(time.size()) +
-                               " rows, by their times";
+          notes["selection"] = rows + ", by their times";
       }
 
       std::vector<double> values(const std::string &key) const
       {
-        const std::vector<double> all = columns.values(key);
-        std::vector<double>       result(selected.size());
-        for (std::size_t i = 0; i < selected.size(); ++i)
-          result[i] = all[selected[i]];
-        return result;
+        return chosen(columns.values(key), selected);
       }
 
       std::vector<double> displacement(const std::vector<double> &time)
@@ -567,9 +561,7 @@ namespace SlipStep
               (is_numbered("Name") ? "" : words);
             test.condition = text("Condition");
             for (const std::string key : {"Source", "Licence", "Remark"})
-              test.notes[key == "Source"  ? "source" :
-                         key == "Licence" ? "licence" :
-                                            "remark"] = text(key);
+              test.notes[lower_case(key)] = text(key);
             start_from_zero(test);
             thin_out(test);
             tests.push_back(test);

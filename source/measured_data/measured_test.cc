@@ -89,30 +89,30 @@ namespace SlipStep
         : table(table)
       {}
 
-      /// @return whether there is such a column
-      bool find(const Channel &channel, Source &source)
+      std::optional<Source> find(const Channel &channel)
       {
         nearly.clear();
-        bool is_found = false;
+        std::optional<Source> source;
         for (std::size_t i = 0; i < table.header().size(); ++i)
           {
             UnitConversion conversion;
             if (!matches(i, channel, conversion))
               continue;
-            if (is_found)
+            if (source.has_value())
               table.reject_header(i,
                                   "column '" + channel.column() +
                                     "' is given twice");
-            is_found = true;
-            source   = {i, conversion};
+            source = Source{i, conversion};
           }
-        if (!is_found && !nearly.empty() && !channel.is_required)
-          ignored.push_back(nearly.front().second + "; the column is not read");
-        else if (!is_found && !nearly.empty())
+        if (source.has_value())
+          return source;
+        if (!nearly.empty() && channel.is_required)
           table.reject_header(nearly.front().first, nearly.front().second);
-        if (!is_found && channel.is_required)
+        if (!nearly.empty())
+          ignored.push_back(nearly.front().second + "; the column is not read");
+        if (channel.is_required)
           reject_missing(channel);
-        return is_found;
+        return {};
       }
 
     private:
@@ -230,14 +230,11 @@ namespace SlipStep
     std::map<std::string, Source>      sources;
     std::map<std::string, std::size_t> positions;
     for (const Channel &channel : channels())
-      {
-        Source source;
-        if (header.find(channel, source))
-          {
-            sources[channel.name]       = source;
-            positions[channel.column()] = source.position;
-          }
-      }
+      if (const auto source = header.find(channel))
+        {
+          sources[channel.name]       = *source;
+          positions[channel.column()] = source->position;
+        }
     table.read(positions);
 
     MeasuredTest test;

@@ -252,8 +252,8 @@ namespace SlipStep
 
     struct OddRows
     {
-      const MeasuredTest                                                &test;
-      const std::function<void(const std::string &, const std::size_t)> &warn;
+      const MeasuredTest &test;
+      const TellRow      &warn;
 
       // What no laboratory measures is a unit, a scale or an offset that went
       // wrong. A few rows do not count: loads that open have any friction.
@@ -355,10 +355,7 @@ namespace SlipStep
         const std::vector<double> &x = test.displacement;
         // An axis along which nothing moves has noise only.
         const double least =
-          good_part * std::max(range_of(x),
-                               test.displacement_y.empty() ?
-                                 0. :
-                                 range_of(test.displacement_y));
+          good_part * std::max(range_of(x), range_of(test.displacement_y));
         std::size_t n     = 0;
         std::size_t first = 0;
         for (std::size_t i = beside + 1; i + beside < x.size(); ++i)
@@ -499,9 +496,7 @@ namespace SlipStep
 
 
 
-  void warn_of_odd_rows(
-    const MeasuredTest                                                &test,
-    const std::function<void(const std::string &, const std::size_t)> &warn)
+  void warn_of_odd_rows(const MeasuredTest &test, const TellRow &warn)
   {
     const OddRows rows{test, warn};
     rows.warn_of_scales();

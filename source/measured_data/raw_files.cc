@@ -99,15 +99,9 @@ namespace SlipStep
         if (fs::exists(file, error))
           files.push_back(file);
         else if (has_wildcards(name))
-          try
-            {
-              for (const RawFile &found : files_of_pattern(file))
-                files.push_back(found.file);
-            }
-          catch (const InputError &why)
-            {
-              parameters.reject(key, why.what());
-            }
+          for (const RawFile &found :
+               parameters.attempt(key, [&] { return files_of_pattern(file); }))
+            files.push_back(found.file);
         else
           parameters.reject(key, "there is no " + excerpt(file.string(), 300));
       }

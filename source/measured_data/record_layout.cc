@@ -11,6 +11,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 namespace SlipStep
 {
@@ -30,13 +31,10 @@ namespace SlipStep
       if (text.find('\0') != std::string::npos)
         throw InputError(file.string() +
                          ": this is no text; export the record as one");
+      std::istringstream       in(text);
       std::vector<std::string> lines;
-      for (std::size_t begin = 0; begin < text.size();)
-        {
-          const std::size_t end = std::min(text.find('\n', begin), text.size());
-          lines.push_back(text.substr(begin, end - begin));
-          begin = end + 1;
-        }
+      for (std::string line; std::getline(in, line);)
+        lines.push_back(line);
       return lines;
     }
 
@@ -122,11 +120,16 @@ namespace SlipStep
       return count_if(cells, [](const auto &cell) { return !cell.empty(); });
     }
 
-    bool is_row_of(const Cells &cells, std::size_t &n_numbers)
+    std::size_t n_numbers_in(const Cells &cells)
     {
-      n_numbers =
-        count_if(cells, [](const auto &c) { return marks_of(c).is_number; });
-      return n_numbers >= 2 && 3 * n_numbers >= n_filled_in(cells);
+      return count_if(cells,
+                      [](const auto &c) { return marks_of(c).is_number; });
+    }
+
+    bool is_row(const Cells &cells)
+    {
+      const std::size_t n = n_numbers_in(cells);
+      return n >= 2 && 3 * n >= n_filled_in(cells);
     }
 
     /// Rows of one number of cells.
@@ -138,8 +141,7 @@ namespace SlipStep
       void add(const std::size_t line, const Cells &cells)
       {
         rows.push_back(line);
-        n_numbers +=
-          count_if(cells, [](const auto &c) { return marks_of(c).is_number; });
+        n_numbers += n_numbers_in(cells);
         n_filled += n_filled_in(cells);
         std::size_t last = cells.size();
         while (last > 0 && cells[last - 1].empty())
@@ -166,8 +168,7 @@ namespace SlipStep
     // some end before: no row is longer than without it.
     void leave_out_comment(Cells &cells, std::size_t &n_most)
     {
-      if (lower_case(std::string(cells.back())) == "comment" &&
-          cells.size() > 2)
+      if (lower_case(cells.back()) == "comment" && cells.size() > 2)
         n_most = cells.size() - 1;
       cells.resize(std::min(cells.size(), n_most));
     }
@@ -179,12 +180,10 @@ namespace SlipStep
       std::size_t                      n_most = std::string::npos;
       for (std::size_t i = 0; i < lines.size(); ++i)
         {
-          auto        cells     = cells_of(lines[i], delimiter);
-          std::size_t n_numbers = 0;
+          auto cells = cells_of(lines[i], delimiter);
           leave_out_comment(cells, n_most);
-          if (lines[i][0] == '#' || !is_row_of(cells, n_numbers))
-            continue;
-          found[cells.size()].add(i, cells);
+          if (lines[i][0] != '#' && is_row(cells))
+            found[cells.size()].add(i, cells);
         }
       TableFound table;
       for (const auto &[n_cells, all] : found)
@@ -241,9 +240,7 @@ namespace SlipStep
 
     bool has_names(const Cells &cells)
     {
-      return n_filled_in(cells) >= 2 && none_of(cells, [](const auto &cell) {
-               return marks_of(cell).is_number;
-             });
+      return n_filled_in(cells) >= 2 && n_numbers_in(cells) == 0;
     }
 
     // Names may be behind a hash.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <slipstep/measured_data/bends.h>
+#include <slipstep/measured_data/resample.h>
 #include <slipstep/measured_data/sensor_noise.h>
 #include <slipstep/measured_data/test_rows.h>
 #include <slipstep/utilities/text.h>
@@ -93,8 +93,11 @@ namespace SlipStep
         , values(*signal.values)
         , deviation(signal.deviation)
         , knots(knots)
+        , heights(fit_lines(time, values, knots))
       {
-        fit();
+        for (std::size_t k = 0; k + 1 < knots.size(); ++k)
+          lines.push_back(line_through(k));
+        level();
       }
 
       // When a level line meets its neighbour at a knot, and by how many
@@ -128,15 +131,6 @@ namespace SlipStep
       }
 
     private:
-      void fit()
-      {
-        heights = fit_lines(time, values, knots);
-        lines.clear();
-        for (std::size_t k = 0; k + 1 < knots.size(); ++k)
-          lines.push_back(line_through(k));
-        level();
-      }
-
       // By so many rows noise hides where a line goes over into the next one.
       std::size_t hidden_rows(const std::size_t knot) const
       {

@@ -209,8 +209,7 @@ namespace SlipStep
       if (number[test.condition]++ == 0 && !test.condition.empty())
         conditions.push_back(test.condition);
 
-    std::string text =
-      std::to_string(tests.size()) + (tests.size() == 1 ? " test" : " tests");
+    std::string text      = counted(tests.size(), "test");
     const char *separator = ": condition ";
     for (std::size_t i = 0; i < conditions.size(); ++i)
       {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <slipstep/solid/block.h>
 
-#include <slipstep/experiment/sliding_path.h>
 #include <slipstep/solid/supports.h>
 #include <slipstep/utilities/exceptions.h>
 #include <slipstep/utilities/text.h>

@@ -4,7 +4,7 @@
 
 #include "block_test_tools.h"
 
-#include <slipstep/experiment/sliding_path.h>
+#include <slipstep/experiment/programme.h>
 #include <slipstep/solid/field_schedule.h>
 #include <slipstep/utilities/exceptions.h>
 

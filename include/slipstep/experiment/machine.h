@@ -151,11 +151,6 @@ namespace SlipStep
     }
 
   private:
-    /// Whether a step is a jump, see step().
-    bool jumps(const FrictionLaw &law,
-               const MachineStep &step,
-               const double       shortest_step) const;
-
     /// Make a stage in which the load point moves.
     /// @param[out] slider at its end
     ContactResponse move(const ContactStage         &stage,

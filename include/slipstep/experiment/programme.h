@@ -130,6 +130,33 @@ namespace SlipStep
     bool                      is_speed_left_open = false;
   };
 
+  /// Path of the drive: the distance it has moved since the beginning of the
+  /// programme, whatever the direction.
+  class SlidingPath
+  {
+  public:
+    explicit SlidingPath(const Programme &programme);
+
+    /// At a time of the programme [mm].
+    double at(const double time) const;
+
+    /// At the end of each segment [mm].
+    const std::vector<double> &after_segments() const
+    {
+      return path_after;
+    }
+
+    /// At the end [mm].
+    double whole() const
+    {
+      return path_after.empty() ? 0. : path_after.back();
+    }
+
+  private:
+    std::vector<Segment> segments;
+    std::vector<double>  path_after;
+  };
+
   /// The text of a programme whose file names are relative to @p from, as it
   /// has to be where they are relative to @p to.
   std::string relocated_programme(const std::string           &text,

@@ -37,37 +37,21 @@ namespace SlipStep
   };
 
   /// `slipstep refine`: which runs section "Refinement study" asks for.
-  class RefinementStudy
+  struct RefinementStudy
   {
-  public:
     static void declare_parameters(Parameters &parameters);
 
     /// @throws InputError if there is nothing to study, or no reference
     explicit RefinementStudy(const Parameters &parameters);
 
-    const std::vector<StudySequence> &sequences() const
-    {
-      return sequence_list;
-    }
-
-    /// The finer run that meshes are compared with, or none (label "").
-    const StudyRun &mesh_reference() const
-    {
-      return mesh_reference_run;
-    }
-
-    /// The same for time steps.
-    const StudyRun &time_reference() const
-    {
-      return time_reference_run;
-    }
-
     /// All runs, references included, each once.
     std::vector<StudyRun> runs() const;
 
-  private:
-    std::vector<StudySequence> sequence_list;
-    StudyRun                   mesh_reference_run, time_reference_run;
+    std::vector<StudySequence> sequences;
+
+    /// The finer runs that meshes and time steps are compared with, or none
+    /// (label "").
+    StudyRun mesh_reference, time_reference;
   };
 
 

@@ -73,8 +73,6 @@ namespace SlipStep
     std::string note;
 
   private:
-    void write(const HistoryRow &row);
-
     const RunOptions  options;
     const Programme   programme;
     const bool        is_writer;

@@ -81,8 +81,6 @@ namespace SlipStep
     bool grows_at_once() const;
 
   private:
-    void find_steady_state();
-
     /// Of what is remembered at the end of a step, by what was remembered at
     /// its beginning and, last, by the slip increment.
     dealii::FullMatrix<double> derivatives(const double time_step) const;

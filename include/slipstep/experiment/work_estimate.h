@@ -77,9 +77,9 @@ namespace SlipStep
 
     std::vector<Statement> statements;
     std::vector<Kind>      kinds;
-    std::size_t            present    = 0;
-    double                 first_step = 0.;
-    double                 work_before, total_work;
+    std::size_t            present     = 0;
+    double                 first_step  = 0.;
+    double                 work_before = 0., total_work = 0.;
 
     std::size_t  timed = 0; ///< statement to which the watch belongs
     double       began = 0.;

@@ -38,12 +38,12 @@ namespace SlipStep
   std::optional<RepeatedValue>
   repeated_value(const std::vector<double> &values);
 
+  /// Told what is odd, and the first row of it.
+  using TellRow = std::function<void(const std::string &, const std::size_t)>;
+
   /// Tell of what no laboratory measures: scales, stray rows, jumps of position
   /// and clock, sensors at their limit or dead.
-  /// @param warn told what, and the first row of it
-  void warn_of_odd_rows(
-    const MeasuredTest                                                &test,
-    const std::function<void(const std::string &, const std::size_t)> &warn);
+  void warn_of_odd_rows(const MeasuredTest &test, const TellRow &warn);
 } // namespace SlipStep
 
 #endif
