@@ -150,8 +150,7 @@ namespace SlipStep
     bool is_asked_for(const std::string &name, const Parameters &parameters)
     {
       std::vector<std::string> others = parameters.list("Friction/Effects");
-      others.erase(std::remove(others.begin(), others.end(), name),
-                   others.end());
+      boost::range::remove_erase(others, name);
       if (others.empty())
         return false;
       Parameters without = parameters;

@@ -6,7 +6,6 @@
 #include <slipstep/experiment/stability.h>
 #include <slipstep/measured_data/test_set.h>
 #include <slipstep/commands/case.h>
-#include <slipstep/utilities/text.h>
 
 #include <iostream>
 #include <set>

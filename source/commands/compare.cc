@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
-#include <optional>
 #include <set>
 
 namespace SlipStep
@@ -45,17 +44,6 @@ namespace SlipStep
 
 
 
-    // A run that has lost its history.
-    void tell_if_lost(const fs::path &folder)
-    {
-      if (fs::exists(folder / "summary.json") &&
-          !fs::exists(folder / "history.csv"))
-        print_warnings(
-          {folder.string() + " has no history.csv, and is left out"});
-    }
-
-
-
     // Those of the last sweep in its order, if the folder tells; else all, in
     // the order of their names. Others are of an earlier sweep.
     std::vector<fs::path> folders_of_runs(const fs::path &folder)
@@ -73,9 +61,12 @@ namespace SlipStep
         }
       for (const auto &entry : fs::directory_iterator(folder))
         {
-          tell_if_lost(entry.path());
-          if (is_run(entry.path()) && !holds(folders, entry.path()))
-            others.push_back(entry.path());
+          const fs::path &run = entry.path();
+          if (!is_run(run) && fs::exists(run / "summary.json"))
+            print_warnings(
+              {run.string() + " has no history.csv, and is left out"});
+          else if (is_run(run) && !holds(folders, run))
+            others.push_back(run);
         }
       std::sort(others.begin(), others.end());
       if (!is_sweep)
@@ -150,18 +141,6 @@ namespace SlipStep
 
 
 
-    std::vector<ReportedRun>
-    runs_that_tell(const std::vector<ReportedRun> &runs)
-    {
-      std::vector<ReportedRun> result;
-      for (const ReportedRun &run : runs)
-        if (fs::exists(used_parameters(run)))
-          result.push_back(run);
-      return result;
-    }
-
-
-
     std::vector<std::string>
     unknown_parameters(const std::vector<ReportedRun> &runs)
     {
@@ -201,20 +180,16 @@ namespace SlipStep
     // Files of one name may hold different tests, and copies the same.
     bool is_same_motion(const Parameters &one, const Parameters &other)
     {
-      const auto motion_of = [](const Parameters &parameters) {
-        std::optional<std::uint32_t> motion;
-        try
-          {
-            motion = CaseIdentity(parameters).programme;
-          }
-        catch (const InputError &)
-          {} // the file is gone
-        return motion;
-      };
       if (programme_from_here(one) == programme_from_here(other))
         return true;
-      const auto motion = motion_of(one);
-      return motion.has_value() && motion == motion_of(other);
+      try
+        {
+          return CaseIdentity(one).programme == CaseIdentity(other).programme;
+        }
+      catch (const InputError &)
+        {
+          return false; // a file is gone
+        }
     }
 
 
@@ -279,7 +254,10 @@ namespace SlipStep
     {
       const std::string title =
         problem_boxes(unknown) + heading("What differs");
-      const std::vector<ReportedRun> told = runs_that_tell(runs);
+      std::vector<ReportedRun> told = runs;
+      remove_erase_if(told, [](const ReportedRun &run) {
+        return !fs::exists(used_parameters(run));
+      });
       if (!unknown.empty() && told.size() < 2)
         return title + paragraph("Unknown: fewer than two of these runs tell "
                                  "their parameters.");

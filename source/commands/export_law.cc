@@ -5,8 +5,8 @@
 #include <slipstep/commands/results_folder.h>
 #include <slipstep/friction/law.h>
 #include <slipstep/friction/state_numbers.h>
+#include <slipstep/report/run_report.h>
 #include <slipstep/utilities/exceptions.h>
-#include <slipstep/utilities/lists.h>
 #include <slipstep/utilities/write_file.h>
 
 #include <slipstep_fric_source.h>
@@ -23,28 +23,6 @@ namespace SlipStep
 {
   namespace
   {
-    /// The case, of which one law is asked for: members of a sweep that differ
-    /// in something else have the same.
-    Parameters case_with_one_law(const Case                  &the_case,
-                                 const std::filesystem::path &file)
-    {
-      const bool is_same_law =
-        all_of(the_case.variants, [](const Variant &variant) {
-          return none_of(variant.overrides,
-                         [](const Variant::Override &setting) {
-                           return boost::algorithm::starts_with(setting.path,
-                                                                "Friction/");
-                         });
-        });
-      if (!is_same_law)
-        throw InputError(file.string() +
-                         ": its variants have different laws; choose one with "
-                         "--variant");
-      return the_case.complete.front();
-    }
-
-
-
     /// Section Friction of a case, without the effects that are off.
     std::string law_text(const Parameters &parameters, const FrictionLaw &law)
     {
@@ -107,12 +85,17 @@ namespace SlipStep
 
   int export_law(const CommandLine &line)
   {
-    const Case        the_case   = read_case(line.files.front(), line);
-    const Parameters  parameters = case_with_one_law(the_case, line.files[0]);
-    const FrictionLaw law(parameters);
-    const bool        is_abaqus        = line.format == "abaqus";
-    const std::string name             = is_abaqus ? "slipstep" : "law";
-    const std::filesystem::path folder = chosen_output(the_case, line);
+    const Case the_case = read_case(line.files.front(), line);
+    // Members of a sweep that differ in something else have the same law.
+    if (!has_one_law(the_case.parameters))
+      throw InputError(line.files.front().string() +
+                       ": its variants have different laws; choose one with "
+                       "--variant");
+    const Parameters           &parameters = the_case.complete.front();
+    const FrictionLaw           law(parameters);
+    const bool                  is_abaqus = line.format == "abaqus";
+    const std::string           name      = is_abaqus ? "slipstep" : "law";
+    const std::filesystem::path folder    = chosen_output(the_case, line);
     // The case's own is told from other files by the mark.
     std::unique_ptr<ResultsFolder> results;
     if (line.output.empty())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <slipstep/commands/case.h>
 #include <slipstep/commands/commands.h>
-#include <slipstep/commands/outcome.h>
 #include <slipstep/commands/results_folder.h>
 
 #include <slipstep/measured_data/import_proposal.h>
@@ -40,21 +40,16 @@ namespace SlipStep
       Parameters as_written;
       declare_import_parameters(as_written);
       as_written.read(file);
-      const auto with_settings = [&](Parameters map) {
-        for (const auto &setting : line.settings)
-          map.set(setting.first, setting.second, "--set");
-        return map;
-      };
-
       std::vector<Variant> variants = as_written.variants();
       if (!line.variant.empty())
         variants = {find_variant(variants, line.variant, file)};
       std::vector<Job> jobs;
       for (const Variant &variant : variants)
-        jobs.push_back(
-          {with_settings(as_written.with_variant(variant)), variant.folder});
+        jobs.push_back({as_written.with_variant(variant), variant.folder});
       if (jobs.empty())
-        jobs.push_back({with_settings(as_written), ""});
+        jobs.push_back({as_written, ""});
+      for (Job &job : jobs)
+        apply_settings(line, job.map);
       return jobs;
     }
 
@@ -87,6 +82,11 @@ namespace SlipStep
                              " does not match this pattern");
           return {file};
         }
+      const std::string hint =
+        line.files.size() > 1 ? "; this name is looked for in the folder that "
+                                "is named behind the map" :
+                                "; name the folder of the raw files behind the "
+                                "map";
       if (has_wildcards(name))
         try
           {
@@ -95,21 +95,11 @@ namespace SlipStep
         catch (const InputError &error)
           {
             throw InputError(job.map.origin("Raw file/Name") + ": " +
-                             error.what() +
-                             (line.files.size() > 1 ?
-                                "; this name is looked for in the folder that "
-                                "is named behind the map" :
-                                "; name the folder of the raw files behind the "
-                                "map"));
+                             error.what() + hint);
           }
       if (!fs::is_regular_file(pattern))
         throw InputError(job.map.origin("Raw file/Name") +
-                         ": there is no file " + pattern.string() +
-                         (line.files.size() > 1 ?
-                            "; this name is looked for in the folder that is "
-                            "named behind the map" :
-                            "; name the folder of the raw files behind the "
-                            "map"));
+                         ": there is no file " + pattern.string() + hint);
       return {{pattern, {}}};
     }
 

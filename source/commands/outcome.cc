@@ -71,9 +71,6 @@ namespace SlipStep
 
 
 
-  // Bring the outcomes of all ranks together. If a rank failed alone, the
-  // others wait for it somewhere in the middle of the run: after a while it
-  // takes them down, with its message printed before.
   Outcome agreed(Outcome outcome)
   {
     if (!dealii::Utilities::MPI::job_supports_mpi())

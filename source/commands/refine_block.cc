@@ -6,7 +6,6 @@
 #include <slipstep/report/run_figures.h>
 #include <slipstep/report/run_report.h>
 #include <slipstep/commands/results_folder.h>
-#include <slipstep/experiment/run_options.h>
 #include <slipstep/experiment/run_recorder.h>
 #include <slipstep/report/study_report.h>
 #include <slipstep/commands/sweep.h>
@@ -116,12 +115,9 @@ namespace SlipStep
       for (const StudySequence &sequence : study.sequences)
         if (sequence.kind != StudySequence::Kind::time_step)
           for (const StudyRun &run : sequence.runs)
-            std::copy_if(runs.begin(),
-                         runs.end(),
-                         std::back_inserter(result),
-                         [&](const ReportedRun &reported) {
-                           return reported.label == run.label;
-                         });
+            for (const ReportedRun &reported : runs)
+              if (reported.label == run.label)
+                result.push_back(reported);
       return result;
     }
 

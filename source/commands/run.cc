@@ -104,20 +104,7 @@ namespace SlipStep
         if (!line.is_child)
           check_output(the_case, line);
         if (is_first_rank && !line.is_child)
-          {
-            print_warnings(warnings_of_equal_variants(the_case));
-            print_warning_of_other_runs();
-            print_warnings(warnings_of_programmes(the_case));
-          }
-        if (is_first_rank && !line.is_child && line.command == "run")
-          print_warnings(warnings_of_followed_areas(the_case));
-        if (is_first_rank && !line.is_child && line.command == "point")
-          {
-            print_warnings_of_point(the_case);
-            print_warnings(warnings_of_face(the_case));
-          }
-        if (is_first_rank && !line.is_child && the_case.is_sweep())
-          print_warning_of_twins(the_case, line.command);
+          tell_warnings();
         earlier.assign(the_case.complete.size(), EarlierRun::none);
         if (line.resume)
           look_for_earlier_runs();
@@ -137,6 +124,22 @@ namespace SlipStep
       }
 
     private:
+      void tell_warnings() const
+      {
+        print_warnings(warnings_of_equal_variants(the_case));
+        print_warning_of_other_runs();
+        print_warnings(warnings_of_programmes(the_case));
+        if (line.command == "run")
+          print_warnings(warnings_of_followed_areas(the_case));
+        else
+          {
+            print_warnings_of_point(the_case);
+            print_warnings(warnings_of_face(the_case));
+          }
+        if (the_case.is_sweep())
+          print_warning_of_twins(the_case, line.command);
+      }
+
       void print_warning_of_other_runs() const
       {
         std::vector<std::string> members;
@@ -387,9 +390,6 @@ namespace SlipStep
       // With --resume: what there is of every run.
       std::vector<EarlierRun> earlier;
     };
-
-
-
   } // namespace
 
 

@@ -194,15 +194,8 @@ namespace SlipStep
               descriptors.push_back({pipe->descriptor, POLLIN, 0});
         if (poll(descriptors.data(), descriptors.size(), 200) <= 0)
           return;
-        for (const pollfd &polled : descriptors)
-          if (polled.revents != 0)
-            for (Child &child : children)
-              if (child.out.descriptor == polled.fd ||
-                  child.err.descriptor == polled.fd)
-                {
-                  pass_on(child);
-                  break;
-                }
+        for (Child &child : children)
+          pass_on(child);
       }
 
       void pass_on(Child &child)
@@ -396,16 +389,13 @@ namespace SlipStep
     // The children inherit it: the cores are shared out among them.
     for (const char *variable : {"DEAL_II_NUM_THREADS", "OMP_NUM_THREADS"})
       setenv(variable, "1", 1);
-    std::vector<int> exit_codes;
-    {
-      Crew crew(jobs,
-                label,
-                quiet,
-                n_parallel > 0 ?
-                  n_parallel :
-                  std::max(1u, std::thread::hardware_concurrency()));
-      exit_codes = crew.run();
-    }
+    std::vector<int> exit_codes =
+      Crew(jobs,
+           label,
+           quiet,
+           n_parallel > 0 ? n_parallel :
+                            std::max(1u, std::thread::hardware_concurrency()))
+        .run();
     // The shell is to see the signal, not an exit code.
     if (is_resumable && SignalGuard::caught() != 0)
       {

@@ -322,11 +322,9 @@ namespace SlipStep
     std::string verdict(const std::vector<StartComparison> &starts)
     {
       const std::size_t n_same =
-        count_if(starts,
-                 [](const StartComparison &start) { return start.is_same; });
+        count_if(starts, std::mem_fn(&StartComparison::is_same));
       const std::size_t n_equal =
-        count_if(starts,
-                 [](const StartComparison &start) { return start.is_equal; });
+        count_if(starts, std::mem_fn(&StartComparison::is_equal));
       std::string text = std::to_string(n_same) + " of " +
                          std::to_string(starts.size()) +
                          " searches ended in the best optimum";
@@ -629,7 +627,7 @@ namespace SlipStep
           "rows: how many successive rows deviate together; work: of friction "
           "per area of contact.") +
         starts_section(calibration) + cost_section(calibration) +
-        repeat_section("calibrate", parameters));
+        heading("Repeat it") + case_call("calibrate", parameters));
     return page.warnings;
   }
 } // namespace SlipStep

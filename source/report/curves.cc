@@ -32,7 +32,6 @@ namespace SlipStep
     {
       if (points.size() <= 4 * n_columns)
         return points;
-      Rows       kept;
       const bool is_backward = points.back()[0] < points.front()[0];
       const auto column_of   = [&](const std::vector<double> &point) {
         const double share = (point[0] - x.lower) / x.width();
@@ -40,29 +39,10 @@ namespace SlipStep
           std::clamp(is_backward ? 1. - share : share, 0., 1.) *
           (n_columns - 1));
       };
-      for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end)
-        {
-          // Noise of the displacement shall not open a column again.
-          const std::size_t column = column_of(points[begin]);
-          while (end < points.size() && column_of(points[end]) <= column)
-            ++end;
-          const auto range =
-            std::minmax_element(points.begin() + begin,
-                                points.begin() + end,
-                                [](const auto &a, const auto &b) {
-                                  return a[1] < b[1];
-                                });
-          std::array<std::size_t, 4> chosen = {
-            {begin,
-             static_cast<std::size_t>(range.first - points.begin()),
-             static_cast<std::size_t>(range.second - points.begin()),
-             end - 1}};
-          std::sort(chosen.begin(), chosen.end());
-          for (std::size_t i = 0; i < chosen.size(); ++i)
-            if (i == 0 || chosen[i] != chosen[i - 1])
-              kept.push_back(points[chosen[i]]);
-        }
-      return kept;
+      // Noise of the displacement shall not open a column again.
+      return extremes_of_columns(points, [&](const auto &a, const auto &b) {
+        return column_of(b) <= column_of(a);
+      });
     }
 
 

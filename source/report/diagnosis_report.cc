@@ -394,9 +394,15 @@ namespace SlipStep
       if (diagnosis.noise.empty())
         return "";
       TableLines lines = {table_head("noise | value (95 % interval) | from")};
-      for (const NoiseComponent &component : diagnosis.noise)
-        lines.push_back(
-          {component.name, noise_text(component), component.source});
+      for (const NoiseComponent &noise : diagnosis.noise)
+        lines.push_back({noise.name,
+                         short_text(noise.value, 2) +
+                           (noise.upper > noise.lower ?
+                              " (" + short_text(noise.lower, 2) + " … " +
+                                short_text(noise.upper, 2) + ")" :
+                              "") +
+                           (noise.unit.empty() ? "" : " " + noise.unit),
+                         noise.source});
       return html_table(lines, "places");
     }
 
@@ -507,7 +513,7 @@ namespace SlipStep
                  card("What was missing", what_was_missing(diagnosis)) +
                  shrink_card(diagnosis) + "</div>\n" +
                  problem_boxes(page.warnings) + sections.str()) +
-                 repeat_section("diagnose", parameters));
+                 heading("Repeat it") + case_call("diagnose", parameters));
     return page.warnings;
   }
 } // namespace SlipStep

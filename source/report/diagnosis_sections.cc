@@ -60,55 +60,22 @@ namespace SlipStep
              "</tr>\n";
     }
 
-    void add_lines(TableLines                            &lines,
-                   const std::vector<DiagnosedParameter> &parameters)
-    {
-      for (const DiagnosedParameter &parameter : parameters)
-        lines.push_back({label_text(parameter),
-                         parameter.unit.empty() ? "–" : parameter.unit,
-                         std::isfinite(parameter.before) ?
-                           value_text(parameter, parameter.before) :
-                         parameter.effect.empty() ? "–" :
-                                                    "new",
-                         value_text(parameter, parameter.value) +
-                           (parameter.is_at_bound ?
-                              " (bound: " + bounds_text(parameter) + ")" :
-                              ""),
-                         interval_text(parameter)});
-    }
-
-    /// The numbers of all blocks that were simulated.
-    std::string element_table(const std::vector<ElementCheck> &checks)
-    {
-      TableLines lines = {table_head(
-        "test | block before | block after | point before | point after | "
-        "block − point, after")};
-      for (const ElementCheck &check : checks)
-        if (!check.displacement.empty())
-          lines.push_back(element_line(check));
-      return lines.size() > 1 ? html_table(lines) : "";
-    }
-
-
-
     // What covariates of the history mean, for those that are told.
     std::string history_words(const Diagnosis &diagnosis)
     {
-      bool has_change = false, has_unloading = false;
-      for (const Localisation &where : diagnosis.where)
-        {
-          has_change = has_change || where.covariate == "change of speed" ||
-                       where.covariate == "change of pressure";
-          has_unloading = has_unloading || where.covariate == "unloading";
-        }
+      const auto has = [&](const std::string &covariate) {
+        return any_of(diagnosis.where, [&](const Localisation &where) {
+          return where.covariate == covariate;
+        });
+      };
       return std::string(
-               has_change ?
+               has("change of speed") || has("change of pressure") ?
                  " Change of pressure or speed: the logarithm of its value "
                  "over its value some slip before." :
                  "") +
-             (has_unloading ? " Unloading: how far the pressure has fallen "
-                              "below the largest so far, as a share." :
-                              "");
+             (has("unloading") ? " Unloading: how far the pressure has fallen "
+                                 "below the largest so far, as a share." :
+                                 "");
     }
 
 
@@ -329,7 +296,18 @@ namespace SlipStep
     {
       TableLines lines = {table_head("parameter | unit | before | after | " +
                                      interval_name(diagnosis.confidence))};
-      add_lines(lines, diagnosis.parameters);
+      for (const DiagnosedParameter &parameter : diagnosis.parameters)
+        lines.push_back({label_text(parameter),
+                         parameter.unit.empty() ? "–" : parameter.unit,
+                         std::isfinite(parameter.before) ?
+                           value_text(parameter, parameter.before) :
+                         parameter.effect.empty() ? "–" :
+                                                    "new",
+                         value_text(parameter, parameter.value) +
+                           (parameter.is_at_bound ?
+                              " (bound: " + bounds_text(parameter) + ")" :
+                              ""),
+                         interval_text(parameter)});
       if (!has_after(diagnosis))
         lines[0][3] = "fitted";
       return table_section(
@@ -348,21 +326,28 @@ namespace SlipStep
     {
       if (diagnosis.element_checks.empty())
         return "";
-      std::string html = heading("The block with finite elements");
+      std::string html  = heading("The block with finite elements");
+      TableLines  lines = {table_head(
+        "test | block before | block after | point before | point after | "
+         "block − point, after")};
       for (const ElementCheck &check : diagnosis.element_checks)
-        if (!check.remark.empty())
-          html += paragraph(check.test + ": " + check.remark);
+        {
+          if (!check.remark.empty())
+            html += paragraph(check.test + ": " + check.remark);
+          if (!check.displacement.empty())
+            lines.push_back(element_line(check));
+        }
       html += draw_element_checks(page, diagnosis.element_checks);
-      const std::string table = element_table(diagnosis.element_checks);
-      return html + table +
-             (table.empty() ? "" :
-                              note("Root mean square of the difference from "
-                                   "the measurement, in % of friction; the "
-                                   "last column is the difference of block "
-                                   "and contact point. The search uses the "
-                                   "contact point; this is the check on the "
-                                   "block." +
-                                   block_words(diagnosis)));
+      return html + (lines.size() < 2 ?
+                       "" :
+                       html_table(lines) +
+                         note("Root mean square of the difference from "
+                              "the measurement, in % of friction; the "
+                              "last column is the difference of block "
+                              "and contact point. The search uses the "
+                              "contact point; this is the check on the "
+                              "block." +
+                              block_words(diagnosis)));
     }
   } // namespace
 

@@ -646,17 +646,6 @@ namespace SlipStep
 
 
 
-  std::string noise_text(const NoiseComponent &component)
-  {
-    std::string text = short_text(component.value, 2);
-    if (component.upper > component.lower)
-      text += " (" + short_text(component.lower, 2) + " … " +
-              short_text(component.upper, 2) + ")";
-    return text + (component.unit.empty() ? "" : " " + component.unit);
-  }
-
-
-
   std::vector<DiagnosedParameter> named_parameters(const Diagnosis &diagnosis)
   {
     std::vector<DiagnosedParameter> result;

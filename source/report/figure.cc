@@ -206,31 +206,6 @@ namespace SlipStep
       return std::isfinite(share) ? std::lround(share * (n_cells - 1)) : 0;
     }
 
-    /// First, last, lowest and highest of the points that follow one another
-    /// in a column of pixels: of noise its band, of events their height.
-    Rows extremes_of_columns(const Rows &points, const Range &x)
-    {
-      const auto column_of = [&x](const std::vector<double> &point) {
-        return cell_of(point[0], x, picture_width);
-      };
-      const auto is_below = [](const auto &a, const auto &b) {
-        return a[1] < b[1];
-      };
-      Rows kept;
-      for (auto begin = points.begin(), end = begin; begin != points.end();
-           begin = end)
-        {
-          const std::size_t column = column_of(*begin);
-          end = std::find_if(begin, points.end(), [&](const auto &point) {
-            return column_of(point) != column;
-          });
-          const auto [least, most] = std::minmax_element(begin, end, is_below);
-          for (const auto &chosen : std::set{begin, least, most, end - 1})
-            kept.push_back(*chosen);
-        }
-      return kept;
-    }
-
     /// Leaves out lines that lie on lines before them, as those of many cycles
     /// do, with a gap in their place.
     Rows drawn_once(const Rows &points, const Range &x, const Range &y)
@@ -279,6 +254,27 @@ namespace SlipStep
 
 
 
+  Rows extremes_of_columns(const Rows &points, const InColumn &is_in_column)
+  {
+    const auto is_below = [](const auto &a, const auto &b) {
+      return a[1] < b[1];
+    };
+    Rows kept;
+    for (auto begin = points.begin(), end = begin; begin != points.end();
+         begin = end)
+      {
+        end = std::find_if(begin, points.end(), [&](const auto &point) {
+          return !is_in_column(*begin, point);
+        });
+        const auto [least, most] = std::minmax_element(begin, end, is_below);
+        for (const auto &chosen : std::set{begin, least, most, end - 1})
+          kept.push_back(*chosen);
+      }
+    return kept;
+  }
+
+
+
   Rows thinned(const Rows &points)
   {
     Range x, y;
@@ -303,7 +299,10 @@ namespace SlipStep
         last = i;
       }
     if (kept.size() > most_points)
-      kept = extremes_of_columns(kept, x);
+      kept = extremes_of_columns(kept, [&x](const auto &a, const auto &b) {
+        return cell_of(a[0], x, picture_width) ==
+               cell_of(b[0], x, picture_width);
+      });
     return kept.size() > most_points ? drawn_once(kept, x, y) : kept;
   }
 

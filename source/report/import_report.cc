@@ -8,8 +8,6 @@ namespace SlipStep
 {
   namespace
   {
-
-
     void draw_curve(Page                           &page,
                     const std::string              &name,
                     const std::vector<std::string> &labels, // x and y

@@ -69,17 +69,6 @@ namespace SlipStep
 
 
 
-  std::string Page::draw(Figure            &figure,
-                         const std::string &title,
-                         const std::string &caption,
-                         const bool         is_map,
-                         const std::string &legend)
-  {
-    return figure_element(title, svg_of(figure), caption, is_map, legend);
-  }
-
-
-
   void Page::write(const std::string &title,
                    const std::string &headline,
                    const std::string &content) const
@@ -181,14 +170,6 @@ namespace SlipStep
       text +=
         " --sweep \"" + path + "=" + boost::algorithm::join(values, "|") + "\"";
     return "<pre>" + html_text(text) + "\n</pre>\n";
-  }
-
-
-
-  std::string repeat_section(const std::string &command,
-                             const Parameters  &parameters)
-  {
-    return heading("Repeat it") + case_call(command, parameters);
   }
 
 

@@ -570,7 +570,7 @@ namespace SlipStep
                        const std::string &caption,
                        const bool         is_map)
   {
-    shown += page.draw(figure, title, caption, is_map);
+    shown += figure_element(title, page.svg_of(figure), caption, is_map);
   }
 
 

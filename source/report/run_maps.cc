@@ -25,10 +25,6 @@ namespace SlipStep
 
 
 
-    using Variants = std::vector<Variant>;
-
-
-
     /// The runs of a sweep of two keys.
     struct Grid
     {
@@ -47,8 +43,8 @@ namespace SlipStep
 
     /// What a variant changes, without what all of them change to the same: a
     /// member of a sweep may be swept further.
-    std::vector<Variant::Override> own_changes(const Variant  &variant,
-                                               const Variants &all)
+    std::vector<Variant::Override> own_changes(const Variant &variant,
+                                               const std::vector<Variant> &all)
     {
       std::vector<Variant::Override> own;
       for (const Variant::Override &change : variant.overrides)
@@ -64,7 +60,7 @@ namespace SlipStep
 
 
     /// An empty one if the variants are no grid.
-    Grid grid_of(const Variants &variants)
+    Grid grid_of(const std::vector<Variant> &variants)
     {
       Grid grid;
       for (const Variant &variant : variants)
@@ -369,9 +365,9 @@ namespace SlipStep
     else
       draw_maps(figure.script(), data, face, fields, height);
     figure.script() << "unset multiplot\n";
-    return figures.page.draw(figure,
-                             "Contact face, " + name,
-                             "State at the end of the run.",
-                             !is_line);
+    return figure_element("Contact face, " + name,
+                          figures.page.svg_of(figure),
+                          "State at the end of the run.",
+                          !is_line);
   }
 } // namespace SlipStep

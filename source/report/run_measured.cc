@@ -10,10 +10,10 @@
 #include <slipstep/utilities/exceptions.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <regex>
 #include <tuple>
 
 namespace SlipStep
@@ -95,19 +95,6 @@ namespace SlipStep
 
 
 
-    /// "_along_y"
-    std::string file_name_of(std::string words)
-    {
-      std::replace_if(
-        words.begin(),
-        words.end(),
-        [](const unsigned char c) { return std::isalnum(c) == 0; },
-        '_');
-      return words;
-    }
-
-
-
     /// Along the line on which all of its friction lies, or along x and y.
     void add_along_axes(const MeasuredBeside       &measured,
                         const dealii::Tensor<1, 2> &origin,
@@ -176,13 +163,6 @@ namespace SlipStep
 
 
 
-    double friction_of(const HistoryRow &row, const FrictionAxis &axis)
-    {
-      return axis.of(row.friction, row.friction_y);
-    }
-
-
-
     /// Friction of a run along an axis at a time, NaN outside.
     double friction_at(const RunResults   &run,
                        const FrictionAxis &axis,
@@ -197,12 +177,12 @@ namespace SlipStep
                                           });
       if (after == rows.end() || (after == rows.begin() && after->time > time))
         return std::numeric_limits<double>::quiet_NaN();
-      const double next = friction_of(*after, axis);
+      const double next = axis.of(after->friction, after->friction_y);
       if (after == rows.begin())
         return next;
       const HistoryRow &before = *(after - 1);
       const double share = (time - before.time) / (after->time - before.time);
-      const double last  = friction_of(before, axis);
+      const double last  = axis.of(before.friction, before.friction_y);
       return last + share * (next - last);
     }
 
@@ -304,8 +284,10 @@ namespace SlipStep
       const FrictionAxis axis  = measured.front().axis;
       const std::string  along = words_of(axis, has_others);
       const std::string  over  = is_over_time ? "time" : "displacement";
-      Figure             figure =
-        figures.figure("measured_over_" + over + file_name_of(along),
+      const std::string  name =
+        std::regex_replace(along, std::regex("[^A-Za-z0-9]"), "_");
+      Figure figure =
+        figures.figure("measured_over_" + over + name,
                        "Measured and simulated friction" + along + " over " +
                          over,
                        // The legend is below.
@@ -327,7 +309,7 @@ namespace SlipStep
             points.push_back({is_over_time ?
                                 row.time :
                                 axis.of(row.displacement, row.displacement_y),
-                              friction_of(row, axis)});
+                              axis.of(row.friction, row.friction_y)});
           if (!points.empty())
             plot_run(figure, runs[i], i, {over, "friction"}, points, 1.8);
         }

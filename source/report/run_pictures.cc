@@ -172,18 +172,15 @@ namespace SlipStep
       const std::string             key = "Report/Pictures";
       std::vector<RequestedPicture> pictures;
       for (const std::string &text : parameters.list(key))
-        try
-          {
-            pictures.push_back(read_picture(text));
-            for (std::size_t i = 0; i + 1 < pictures.size(); ++i)
-              if (pictures[i].y.name == pictures.back().y.name &&
-                  pictures[i].x.name == pictures.back().x.name)
-                throw InputError("\"" + text + "\" is there twice");
-          }
-        catch (const InputError &error)
-          {
-            parameters.reject(key, error.what());
-          }
+        parameters.attempt(key, [&]() {
+          const RequestedPicture next = read_picture(text);
+          if (any_of(pictures, [&](const RequestedPicture &other) {
+                return other.y.name == next.y.name &&
+                       other.x.name == next.x.name;
+              }))
+            throw InputError("\"" + text + "\" is there twice");
+          pictures.push_back(next);
+        });
       return pictures;
     }
 

@@ -474,16 +474,6 @@ namespace SlipStep
       return html;
     }
 
-    /// Whether all variants slide under the same law.
-    bool has_one_law(const Parameters &parameters)
-    {
-      for (const Variant &variant : parameters.variants())
-        for (const Variant::Override &change : variant.overrides)
-          if (boost::algorithm::starts_with(change.path, "Friction/"))
-            return false;
-      return true;
-    }
-
     void write_page(const RunFigures  &drawn,
                     const std::string &law,
                     const std::string &study,
@@ -535,6 +525,17 @@ namespace SlipStep
                        html.str());
     }
   } // namespace
+
+
+
+  bool has_one_law(const Parameters &parameters)
+  {
+    for (const Variant &variant : parameters.variants())
+      for (const Variant::Override &change : variant.overrides)
+        if (boost::algorithm::starts_with(change.path, "Friction/"))
+          return false;
+    return true;
+  }
 
 
 

@@ -472,16 +472,11 @@ namespace SlipStep
         parameters.number("Report/Reference quasi-static coefficient"))
   {
     for (const std::string &text : parameters.list("Report/Reference speeds"))
-      try
-        {
-          speeds.push_back(read_speed(text));
-          if (!(speeds.back() > 0.))
-            throw InputError("'" + text + "' is not above zero");
-        }
-      catch (const InputError &error)
-        {
-          parameters.reject("Report/Reference speeds", error.what());
-        }
+      parameters.attempt("Report/Reference speeds", [&]() {
+        speeds.push_back(read_speed(text));
+        if (!(speeds.back() > 0.))
+          throw InputError("'" + text + "' is not above zero");
+      });
 
     const std::string key  = "Report/Reference kinetic coefficient";
     const std::string text = parameters.text(key);

@@ -237,8 +237,8 @@ namespace SlipStep
         "), which is itself uncertain by " +
         short_text(first.relative_uncertainty(), 2) +
         " of it. Runs whose difference is not above that are not shown.";
-      return page.draw(
-        figure, title, caption, false, legend_of(curves, is_time));
+      return figure_element(
+        title, page.svg_of(figure), caption, false, legend_of(curves, is_time));
     }
 
 

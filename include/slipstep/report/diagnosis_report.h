@@ -86,9 +86,6 @@ namespace SlipStep
   /// Test, gap of the block before and after, of the point before and after,
   /// difference of block and point.
   TableLine element_line(const ElementCheck &check);
-
-  /// A component of the noise with its interval, without its name.
-  std::string noise_text(const NoiseComponent &component);
   ///@}
 
   /// The parameters of all effects that are named or stand in for one.

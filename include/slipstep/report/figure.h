@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -163,6 +164,14 @@ namespace SlipStep
                        const double lower,
                        const double upper,
                        const bool   is_logarithmic);
+
+  /// Whether a point is in the same column of pixels as the first one of it.
+  using InColumn = std::function<bool(const std::vector<double> &first,
+                                      const std::vector<double> &point)>;
+
+  /// First, last, lowest and highest of the points that follow one another in
+  /// a column of pixels: of noise its band, of events their height.
+  Rows extremes_of_columns(const Rows &points, const InColumn &is_in_column);
 
   /// Points of a curve that a picture can show one by one.
   constexpr std::size_t most_points = 5000;

@@ -18,13 +18,6 @@ namespace SlipStep
     /// Draw a picture: its SVG, or "" and a warning.
     std::string svg_of(Figure &figure);
 
-    /// The same with heading and caption, see figure_element().
-    std::string draw(Figure            &figure,
-                     const std::string &title,
-                     const std::string &caption,
-                     const bool         is_map = false,
-                     const std::string &legend = "");
-
     /// html_page() into the file.
     /// @throws RunError if the disk refuses
     void write(const std::string &title,
@@ -68,10 +61,6 @@ namespace SlipStep
   std::string case_call(const std::string &command,
                         const Parameters  &parameters,
                         const unsigned int n_ranks = 1);
-
-  /// How to come to the same page again, by a command that reads one case.
-  std::string repeat_section(const std::string &command,
-                             const Parameters  &parameters);
 
   /// What the reader has to know first, each in a box.
   std::string problem_boxes(const std::vector<std::string> &texts);

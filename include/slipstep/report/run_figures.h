@@ -25,7 +25,7 @@ namespace SlipStep
                   const std::string &title,
                   const unsigned int height) const;
 
-    /// Draw one more to be shown, see Page::draw().
+    /// Draw one more to be shown, see figure_element().
     void add(Figure            &figure,
              const std::string &title,
              const std::string &caption,

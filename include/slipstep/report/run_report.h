@@ -25,6 +25,9 @@ namespace SlipStep
   /// @throws InputError for a formula or a speed that cannot be read
   void check_report_parameters(const Parameters &parameters);
 
+  /// Whether all variants slide under the same law.
+  bool has_one_law(const Parameters &parameters);
+
   /// Write report.html (self-contained, pictures inside as SVG made by gnuplot)
   /// and the data and gnuplot scripts behind each picture into
   /// `<folder>/report/`. Without gnuplot the data and scripts are still written
